@@ -3,28 +3,19 @@
 use crate::campaign::{Placed, ShardArgs};
 use crate::failure::Failure;
 use crate::output::{counted, note};
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use tess_core::{Config, Domain, Order, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::generate::{GenLevel, LEVEL_VERSION, Selection, Shard};
 use tess_verify::{Case, Named, factor};
 
-/// An order of triangles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum OrderName {
-    /// That of the specification
-    Specification,
-    /// The same triangles for a vertex cache
-    Cache,
-}
+/// Values by their names on the command line, each with what it means.
+pub(crate) type Choices<T> = &'static [(&'static str, T, &'static str)];
 
-impl From<OrderName> for Order {
-    fn from(name: OrderName) -> Self {
-        match name {
-            OrderName::Specification => Self::Specification,
-            OrderName::Cache => Self::VertexCache,
-        }
-    }
-}
+/// Orders of triangles.
+pub(crate) const ORDERS: Choices<Order> = &[
+    ("specification", Order::Specification, "That of the specification"),
+    ("cache", Order::VertexCache, "The same triangles for a vertex cache"),
+];
 
 /// The arguments that describe one patch.
 #[derive(Clone, Debug, clap::Args)]
@@ -172,6 +163,19 @@ pub(crate) fn note_large_factors(case: &Case) {
             note(&format!("note: {name} is {raw} and counts as {largest}, the largest factor"));
         }
     }
+}
+
+/// A parser of command-line values that takes these names and lists them in help and errors.
+pub(crate) fn choice<T: Copy + Send + Sync>(all: Choices<T>) -> impl TypedValueParser<Value = T> {
+    let names = all.iter().map(|(name, _, help)| PossibleValue::new(name).help(help));
+    let find = |name: String| all.iter().find(|(known, ..)| *known == name);
+    PossibleValuesParser::new(names)
+        .try_map(move |name| find(name).map(|(_, value, _)| *value).ok_or("no such name"))
+}
+
+/// The name of a value among these.
+pub(crate) fn name_in<T: PartialEq>(all: Choices<T>, value: &T) -> &'static str {
+    all.iter().find(|(_, known, _)| known == value).map_or("", |(name, ..)| name)
 }
 
 /// A parser of command-line values that takes the names of `T` and lists them in help and errors.

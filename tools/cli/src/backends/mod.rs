@@ -8,6 +8,7 @@ pub(crate) mod simd;
 #[cfg(test)]
 mod tests;
 
+use crate::args::{Choices, choice};
 use crate::failure::Failure;
 use crate::threads::start_pool;
 use clap::ValueEnum;
@@ -44,33 +45,18 @@ pub(crate) struct BackendOptions {
     /// CPU level of the simd backend: baseline, avx2 or avx512 [default: the best of this machine]
     #[arg(long, value_name = "NAME", value_parser = cpu_level)]
     pub(crate) cpu_level: Option<Level>,
-    /// Width of the indices that simd and gpu write: u16 or u32
-    #[arg(long, value_name = "TYPE", default_value = "u32", value_parser = index_type)]
+    /// Width of the indices that simd and gpu write
+    #[arg(long, value_name = "TYPE", default_value = "u32", value_parser = choice(INDEX_WIDTHS))]
     pub(crate) index_type: IndexWidth,
 }
 
-fn index_type(name: &str) -> Result<IndexWidth, String> {
-    match name {
-        "u16" => Ok(IndexWidth::U16),
-        "u32" => Ok(IndexWidth::U32),
-        _ => Err("an index type is u16 or u32".to_owned()),
-    }
-}
+/// Widths of indices.
+pub(crate) const INDEX_WIDTHS: Choices<IndexWidth> =
+    &[("u16", IndexWidth::U16, "16 bits"), ("u32", IndexWidth::U32, "32 bits")];
 
 fn cpu_level(name: &str) -> Result<Level, String> {
     let known = Level::ALL.into_iter().find(|level| level.name() == name);
     known.ok_or_else(|| "the levels are baseline, avx2 and avx512".to_owned())
-}
-
-impl BackendName {
-    /// The name on a command line.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Core => "core",
-            Self::Simd => "simd",
-            Self::Gpu => "gpu",
-        }
-    }
 }
 
 impl BackendArgs {

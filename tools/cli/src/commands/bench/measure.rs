@@ -8,7 +8,9 @@
 use super::core::{self, CoreKernel};
 use super::cpu::CpuRunner;
 use super::runner::{Amount, Description, Runner, WorkingSet};
-use super::table::{BenchRow, name_of};
+use super::table::BenchRow;
+use crate::args::name_in;
+use crate::backends::INDEX_WIDTHS;
 use crate::failure::Failure;
 use crate::output::form::name;
 use std::fmt;
@@ -85,7 +87,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<BenchRo
         level: description.level,
         working_set: name(&plan.working_set),
         threads,
-        index_type: name_of(description.index_type),
+        index_type: name_in(INDEX_WIDTHS, &description.index_type),
         patches_per_s,
         triangles_per_s: amount.triangles as f64 / seconds,
         bytes_per_s: amount.bytes as f64 / seconds,

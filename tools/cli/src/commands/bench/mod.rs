@@ -10,13 +10,14 @@ mod runner;
 mod simd;
 mod table;
 
-use crate::args::OrderName;
+use crate::args::{ORDERS, choice};
 use crate::backends::{BackendName, BackendOptions};
 use crate::failure::{Exit, Failure};
 use crate::output::{self, note, print};
 use measure::{Plan, measure};
-use runner::{Runner, RunnerOptions, WorkingSet};
+use runner::{Runner, WorkingSet};
 use table::heading;
+use tess_simd::{Level, Order};
 use tess_verify::generate::Workload;
 
 /// Time the named workloads against filling the same bytes and against the core
@@ -64,8 +65,8 @@ pub(crate) struct Args {
     #[arg(long)]
     no_copies: bool,
     /// Order of the triangles that simd and gpu write
-    #[arg(long, value_name = "NAME", default_value = "specification")]
-    order: OrderName,
+    #[arg(long, value_name = "NAME", default_value = "specification", value_parser = choice(ORDERS))]
+    order: Order,
     /// Print one JSON array of objects
     #[arg(long)]
     json: bool,
@@ -79,7 +80,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         chosen => chosen,
     };
     args.options.fit(&[args.backend])?;
-    let (level, index_type) = (args.options.level()?, args.options.index_type);
+    let level = args.options.level()?;
     if args.no_copies && args.backend != BackendName::Gpu {
         return Err(Failure::bad_input("--no-copies goes with --backend gpu"));
     }
@@ -88,7 +89,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
             "--threads goes with --backend simd; core and gpu run on one thread (--threads 1)",
         ));
     }
-    if args.order == OrderName::Cache && args.backend == BackendName::Core {
+    if args.order == Order::VertexCache && args.backend == BackendName::Core {
         return Err(Failure::bad_input("--order cache goes with --backend simd or gpu"));
     }
     if args.frame.is_some()
@@ -96,16 +97,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     {
         return Err(Failure::bad_input("--frame goes with --backend simd --working-set cache"));
     }
-    let options = RunnerOptions {
-        level,
-        threads: args.threads,
-        frame: args.frame.map(|mebibytes| mebibytes as usize),
-        index_type,
-        order: args.order.into(),
-        #[cfg(feature = "gpu")]
-        no_copies: args.no_copies,
-    };
-    let mut runner = runner(args.backend, options)?;
+    let mut runner = runner(args, level)?;
     if cfg!(debug_assertions) {
         note("this build has debug assertions; figures need --release");
     }
@@ -144,13 +136,14 @@ fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Resul
     Ok(left_out.first().map_or(Exit::Done, |(_, failure)| failure.exit))
 }
 
-/// The runner of a backend. Errors: exit code 3 if the backend is not available.
-fn runner(name: BackendName, options: RunnerOptions) -> Result<Box<dyn Runner>, Failure> {
-    match name {
+/// The runner of the backend, with a CPU level that this machine has. Errors: exit code 3 if the backend is not
+/// available.
+fn runner(args: &Args, level: Level) -> Result<Box<dyn Runner>, Failure> {
+    match args.backend {
         BackendName::Core => Ok(Box::new(core::runner())),
-        BackendName::Simd => simd::runner(options),
+        BackendName::Simd => simd::runner(args, level),
         #[cfg(feature = "gpu")]
-        BackendName::Gpu => Ok(Box::new(gpu::GpuRunner::new(options)?)),
+        BackendName::Gpu => Ok(Box::new(gpu::GpuRunner::new(args)?)),
         #[cfg(not(feature = "gpu"))]
         BackendName::Gpu => Err(crate::backends::not_built_in("gpu")),
     }

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use std::iter::Sum;
 use std::ops::Range;
 use std::time::Duration;
-use tess_simd::{Level, Order};
+use tess_simd::Order;
 use tess_verify::BackendError;
 use tess_verify::generate::{IndexWidth, Totals, Workload};
 
@@ -99,22 +99,4 @@ pub(crate) trait Runner {
 
     /// Fills the bytes that a run of the part writes and says how long it took. Errors: the device failed.
     fn fill(&mut self, part: usize) -> Result<Duration, BackendError>;
-}
-
-/// The options of a runner.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RunnerOptions {
-    /// CPU level of the simd backend, one that this machine has.
-    pub(crate) level: Level,
-    /// Threads, at least 1.
-    pub(crate) threads: u32,
-    /// Width of the indices.
-    pub(crate) index_type: IndexWidth,
-    /// MiB of output of one call of the simd backend; if there is none, what workload and threads say.
-    pub(crate) frame: Option<usize>,
-    /// The order of triangles; backend core has the specification's alone.
-    pub(crate) order: Order,
-    /// Whether the shaders expand each patch on its own.
-    #[cfg(feature = "gpu")]
-    pub(crate) no_copies: bool,
 }

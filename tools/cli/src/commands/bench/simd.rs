@@ -1,7 +1,8 @@
 //! The SIMD backend under the clock: points as binary32 pairs, into the caller's buffers.
 
+use super::Args;
 use super::cpu::{CpuRunner, Kernel};
-use super::runner::{Description, Runner, RunnerOptions};
+use super::runner::{Description, Runner};
 use crate::failure::Failure;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::marker::PhantomData;
@@ -9,43 +10,47 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use tess_core::fixed::types::U16F16;
 use tess_core::{DomainPoint, PatchFactors};
-use tess_simd::{Buffers, IndexFormat, Numbering, OwnedBatch, PatchRange, Tessellator};
+use tess_simd::{
+    Buffers, IndexFormat, Level, Numbering, Order, OwnedBatch, PatchRange, Tessellator,
+};
 use tess_verify::BackendError;
 use tess_verify::generate::{Calls, IndexWidth, Workload};
 
 /// The runner for these options. Errors: the threads cannot be started.
-pub(super) fn runner(options: RunnerOptions) -> Result<Box<dyn Runner>, Failure> {
+pub(super) fn runner(args: &Args, level: Level) -> Result<Box<dyn Runner>, Failure> {
     // The calling thread is one of the pool, so that a run starts without waiting for another.
     let pool = ThreadPoolBuilder::new()
-        .num_threads(options.threads as usize)
+        .num_threads(args.threads as usize)
         .use_current_thread()
         .build()
         .map_err(|error| Failure::unavailable(format!("cannot start threads: {error}")))?;
-    let RunnerOptions { level, threads, index_type, frame, order, .. } = options;
+    let Args { threads, frame, order, .. } = *args;
     let remark = frame.map(|mebibytes| format!(", frames of {mebibytes} MiB"));
     let description = Description {
         backend: "simd",
         level: level.to_string(),
         threads,
-        index_type,
+        index_type: args.options.index_type,
         order,
         remark: remark.unwrap_or_default(),
         sleeps: frame.is_some(),
         is_device: false,
     };
-    Ok(match index_type {
+    let frame = frame.map(|mebibytes| mebibytes as usize);
+    Ok(match args.options.index_type {
         IndexWidth::U16 => {
-            Box::new(CpuRunner::new(SimdKernel::<u16>::new(options, pool), description, frame))
+            Box::new(CpuRunner::new(SimdKernel::<u16>::new(pool, level, order), description, frame))
         }
         IndexWidth::U32 => {
-            Box::new(CpuRunner::new(SimdKernel::<u32>::new(options, pool), description, frame))
+            Box::new(CpuRunner::new(SimdKernel::<u32>::new(pool, level, order), description, frame))
         }
     })
 }
 
 struct SimdKernel<I> {
-    options: RunnerOptions,
     pool: ThreadPool,
+    level: Level,
+    order: Order,
     /// The workload in the backend's layout.
     taken: Option<(Tessellator, OwnedBatch)>,
     /// The same patches where each is a call of its own, otherwise none.
@@ -54,8 +59,8 @@ struct SimdKernel<I> {
 }
 
 impl<I> SimdKernel<I> {
-    const fn new(options: RunnerOptions, pool: ThreadPool) -> Self {
-        Self { options, pool, taken: None, single: Vec::new(), index: PhantomData }
+    const fn new(pool: ThreadPool, level: Level, order: Order) -> Self {
+        Self { pool, level, order, taken: None, single: Vec::new(), index: PhantomData }
     }
 }
 
@@ -75,11 +80,10 @@ impl<I: IndexFormat + Into<u32>> Kernel for SimdKernel<I> {
     }
 
     fn take(&mut self, workload: &Workload) -> Result<(), BackendError> {
-        let RunnerOptions { level, threads, order, .. } = self.options;
-        let tessellator = Tessellator::with_level(workload.config, level)
+        let tessellator = Tessellator::with_level(workload.config, self.level)
             .map_err(|error| BackendError::new(error.to_string()))?
-            .threads(threads as usize)
-            .order(order);
+            .threads(self.pool.current_num_threads())
+            .order(self.order);
         let patches = OwnedBatch::try_from(&workload.patches[..]).map_err(failed)?;
         self.taken = Some((tessellator, patches));
         self.single = match workload.calls {

@@ -2,9 +2,10 @@
 #![expect(clippy::float_arithmetic, reason = "units of measurements")]
 
 use super::runner::Description;
+use crate::args::name_in;
+use crate::backends::INDEX_WIDTHS;
 use crate::output::json;
 use serde::Serialize;
-use tess_verify::generate::IndexWidth;
 
 /// One line of results, with the keys that `--json` prints.
 #[derive(Clone, Debug, Serialize)]
@@ -29,7 +30,7 @@ pub(crate) fn heading(description: &Description) -> String {
     format!(
         "backend {backend} ({level}), threads {threads}, {} indices\n\
          {:<34} {:<6} {:>12} {:>13} {:>8} {:>8} {:>8}\n",
-        name_of(description.index_type),
+        name_in(INDEX_WIDTHS, &description.index_type),
         "workload",
         "set",
         "Mpatches/s",
@@ -38,14 +39,6 @@ pub(crate) fn heading(description: &Description) -> String {
         "of fill",
         "of core"
     )
-}
-
-/// The name of a width of indices.
-pub(super) const fn name_of(index_type: IndexWidth) -> &'static str {
-    match index_type {
-        IndexWidth::U16 => "u16",
-        IndexWidth::U32 => "u32",
-    }
 }
 
 impl BenchRow {

@@ -6,7 +6,7 @@ pub(crate) mod rules;
 mod strength;
 
 #[cfg(feature = "probe")]
-pub(crate) use strength::{ConversionName, DenormalsName};
+pub(crate) use strength::{CONVERSIONS, DENORMALS};
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};

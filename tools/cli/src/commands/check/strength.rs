@@ -1,8 +1,8 @@
 //! The options that say what counts as equal in a device's listings.
 
+use crate::args::{Choices, choice};
 use crate::backends::BackendName;
 use crate::failure::Failure;
-use clap::ValueEnum;
 use tess_verify::Named;
 use tess_verify::check::{Conversion, Denormals, Elements, ListOrder, Strength, Tested};
 use tess_verify::vectors::Kind;
@@ -12,8 +12,8 @@ use tess_verify::vectors::Kind;
 #[command(next_help_heading = "Strength, for the listings of a device")]
 pub(crate) struct StrengthArgs {
     /// Order of points and primitives
-    #[arg(long, value_name = "NAME", default_value = "exact")]
-    order: OrderName,
+    #[arg(long, value_name = "NAME", default_value = "exact", value_parser = choice(LIST_ORDERS))]
+    order: ListOrder,
     /// Compare points and primitives (the default)
     #[arg(long, conflicts_with = "points")]
     primitives: bool,
@@ -21,39 +21,28 @@ pub(crate) struct StrengthArgs {
     #[arg(long)]
     points: bool,
     /// Conversion of factors to fixed point
-    #[arg(long, value_name = "NAME", default_value = "exact")]
-    conversion: ConversionName,
+    #[arg(long, value_name = "NAME", default_value = "exact", value_parser = choice(CONVERSIONS))]
+    conversion: Conversion,
     /// Positive denormal outer factors
-    #[arg(long, value_name = "NAME", default_value = "keep")]
-    denormals: DenormalsName,
+    #[arg(long, value_name = "NAME", default_value = "keep", value_parser = choice(DENORMALS))]
+    denormals: Denormals,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum OrderName {
-    /// The model's, index for index
-    Exact,
-    /// The model's, each vertex by its coordinates
-    Sequence,
-    /// Any, and any leading vertex of a triangle
-    Any,
-}
+const LIST_ORDERS: Choices<ListOrder> = &[
+    ("exact", ListOrder::Exact, "The model's, index for index"),
+    ("sequence", ListOrder::Sequence, "The model's, each vertex by its coordinates"),
+    ("any", ListOrder::Any, "Any, and any leading vertex of a triangle"),
+];
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum ConversionName {
-    /// To the nearest, ties to even
-    Exact,
-    /// Either neighbour where the fraction lies in 0.4 to 0.6
-    #[value(name = "0.6ulp")]
-    Within06Ulp,
-}
+pub(crate) const CONVERSIONS: Choices<Conversion> = &[
+    ("exact", Conversion::Exact, "To the nearest, ties to even"),
+    ("0.6ulp", Conversion::Within06Ulp, "Either neighbour where the fraction lies in 0.4 to 0.6"),
+];
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum DenormalsName {
-    /// Greater than zero
-    Keep,
-    /// Maybe zero, which culls the patch
-    Flush,
-}
+pub(crate) const DENORMALS: Choices<Denormals> = &[
+    ("keep", Denormals::Keep, "Greater than zero"),
+    ("flush", Denormals::Flush, "Maybe zero, which culls the patch"),
+];
 
 impl StrengthArgs {
     /// The side that is tested with a file of this kind and a backend, if one was asked for.
@@ -83,32 +72,10 @@ impl StrengthArgs {
 
     fn strength(&self) -> Strength {
         Strength {
-            order: match self.order {
-                OrderName::Exact => ListOrder::Exact,
-                OrderName::Sequence => ListOrder::Sequence,
-                OrderName::Any => ListOrder::Any,
-            },
+            order: self.order,
             elements: if self.points { Elements::Points } else { Elements::Primitives },
-            conversion: self.conversion.into(),
-            denormals: self.denormals.into(),
-        }
-    }
-}
-
-impl From<ConversionName> for Conversion {
-    fn from(name: ConversionName) -> Self {
-        match name {
-            ConversionName::Exact => Self::Exact,
-            ConversionName::Within06Ulp => Self::Within06Ulp,
-        }
-    }
-}
-
-impl From<DenormalsName> for Denormals {
-    fn from(name: DenormalsName) -> Self {
-        match name {
-            DenormalsName::Keep => Self::Keep,
-            DenormalsName::Flush => Self::Flush,
+            conversion: self.conversion,
+            denormals: self.denormals,
         }
     }
 }

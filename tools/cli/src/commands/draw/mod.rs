@@ -120,7 +120,7 @@ impl Args {
         if self.against == Some(backend) {
             return Err(Failure::bad_input(format!(
                 "--against {} compares a backend with itself: choose another one with --backend",
-                backend.name()
+                form::name(&backend)
             )));
         }
         let chosen = [Some(backend), self.against];

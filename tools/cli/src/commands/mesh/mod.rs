@@ -14,7 +14,7 @@ mod view;
 #[cfg(feature = "fuzzing")]
 pub use input::fuzzing;
 
-use crate::args::name_of;
+use crate::args::{Choices, choice, name_of};
 use crate::failure::{Exit, Failure};
 use crate::output::{OutputArgs, Role, form, note, refuse_shared};
 use crate::threads::start_pool;
@@ -61,8 +61,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME")]
     format: Option<ResultForm>,
     /// Surface of triangles and quads [default: pn]
-    #[arg(long, value_name = "NAME")]
-    surface: Option<SurfaceName>,
+    #[arg(long, value_name = "NAME", value_parser = choice(SURFACES))]
+    surface: Option<Style>,
     #[command(flatten)]
     rule: RuleArgs,
     /// Spacing of the cuts
@@ -90,13 +90,14 @@ pub(crate) struct Args {
 }
 
 /// The surfaces of triangles and quads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum SurfaceName {
-    /// Planes and bilinear quads
-    Flat,
-    /// Point-normal triangles and quads, rounded by their corners' normals
-    Pn,
-}
+const SURFACES: Choices<Style> = &[
+    ("flat", Style::Flat, "Planes and bilinear quads"),
+    (
+        "pn",
+        Style::PointNormal,
+        "Point-normal triangles and quads, rounded by their corners' normals",
+    ),
+];
 
 /// How finely edges are cut.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -168,15 +169,11 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     refuse_shared(&args.roles(&[], part.as_deref()))?;
     start_pool();
     let mut statistics = Statistics::default();
-    let style = args.surface.map(|surface| match surface {
-        SurfaceName::Flat => Style::Flat,
-        SurfaceName::Pn => Style::PointNormal,
-    });
     let (Input { model, up, notes, files }, displacement) =
         statistics.time(MeshStage::Load, || {
             let map = args.displace.as_deref();
             let map = map.map(|path| height::load(path, args.max_pixels)).transpose()?;
-            let input = input::load(args.input.as_deref(), style)?;
+            let input = input::load(args.input.as_deref(), args.surface)?;
             let displacement = map.map(|map| Displacement::new(map, args.height).map_err(too_high));
             Ok::<_, Failure>((input, displacement.transpose()?))
         })?;

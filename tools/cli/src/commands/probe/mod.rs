@@ -3,20 +3,19 @@
 #[cfg(feature = "shaders")]
 mod bench;
 
-use super::check::{ConversionName, DenormalsName, rules};
-use crate::args::{SelectionArgs, name_of};
+use super::check::{CONVERSIONS, DENORMALS, rules};
+use crate::args::{Choices, SelectionArgs, choice, name_of};
 use crate::campaign::report::{First as FirstOf, Part, Report};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs};
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
 use crate::output::form;
 use crate::output::{OutputArgs, Role, json, note, progress, refuse_shared};
-use clap::ValueEnum;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tess_probe::{First, ProbeReport, ProbeRow, Prober, cases, list, probe_known};
-use tess_verify::check::{Known, ListOrder, Strength};
+use tess_verify::check::{Conversion, Denormals, Known, ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::rules::Specification;
 use tess_verify::show::{self, DrawOptions};
@@ -55,14 +54,14 @@ pub(crate) struct Args {
     #[command(flatten)]
     selection: SelectionArgs,
     /// Order of primitives that counts as equal
-    #[arg(long, value_name = "NAME", default_value = "any")]
-    order: ProbeOrder,
+    #[arg(long, value_name = "NAME", default_value = "any", value_parser = choice(LIST_ORDERS))]
+    order: ListOrder,
     /// Conversion of factors that counts as equal
-    #[arg(long, value_name = "NAME", default_value = "exact")]
-    conversion: ConversionName,
+    #[arg(long, value_name = "NAME", default_value = "exact", value_parser = choice(CONVERSIONS))]
+    conversion: Conversion,
     /// What may happen to positive denormal outer factors
-    #[arg(long, value_name = "NAME", default_value = "keep")]
-    denormals: DenormalsName,
+    #[arg(long, value_name = "NAME", default_value = "keep", value_parser = choice(DENORMALS))]
+    denormals: Denormals,
     /// Capture domain points alone, as is done on devices without transform feedback
     #[arg(long)]
     points: bool,
@@ -99,13 +98,10 @@ pub(crate) struct Args {
     output: OutputArgs,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ProbeOrder {
-    /// The model's
-    Sequence,
-    /// Any, and any leading vertex of a triangle
-    Any,
-}
+const LIST_ORDERS: Choices<ListOrder> = &[
+    ("sequence", ListOrder::Sequence, "The model's"),
+    ("any", ListOrder::Any, "Any, and any leading vertex of a triangle"),
+];
 
 /// Runs the command. Errors: no Vulkan, no such device, one that cannot be captured, or one that fails; no case to
 /// ask; an output that cannot be written.
@@ -211,12 +207,9 @@ impl Args {
 
     fn strength(&self) -> Strength {
         Strength {
-            order: match self.order {
-                ProbeOrder::Sequence => ListOrder::Sequence,
-                ProbeOrder::Any => ListOrder::Any,
-            },
-            conversion: self.conversion.into(),
-            denormals: self.denormals.into(),
+            order: self.order,
+            conversion: self.conversion,
+            denormals: self.denormals,
             ..Strength::default()
         }
     }

@@ -3,9 +3,11 @@
 use super::plan::{Variant, name_of, resources};
 use super::structures::Structure;
 use super::translation::Translation;
+use super::{INDEX_TYPES, NUMBERINGS, POINTS};
+use crate::args::{ORDERS, name_in};
 use serde::Serialize;
 use tess_gpu::sizes::ALIGNMENT;
-use tess_gpu::{IndexType, Numbering, Order, PointFormat, Resource, Setup};
+use tess_gpu::{Resource, Setup};
 use tess_verify::Named;
 
 /// The file of the manifest, and what its first entry says.
@@ -140,30 +142,15 @@ impl Manifest {
 
 impl Described {
     fn new(setup: Setup) -> Self {
-        let point = match setup.point_format {
-            PointFormat::Packed => "packed",
-            PointFormat::F32 => "f32",
-        };
-        let index = match setup.index_type {
-            IndexType::U16 => "u16",
-            IndexType::U32 => "u32",
-        };
-        let numbering = match setup.numbering {
-            Numbering::PerBatch => "per-batch",
-            Numbering::PerPatch => "per-patch",
-        };
         Self {
             domain: setup.domain.name(),
             partitioning: setup.config.partitioning.name(),
             output: setup.config.output.name(),
             split: setup.config.split.name(),
-            points: point,
-            index_type: index,
-            numbering,
-            order: match setup.order {
-                Order::Specification => "specification",
-                Order::VertexCache => "cache",
-            },
+            points: name_in(POINTS, &setup.point_format),
+            index_type: name_in(INDEX_TYPES, &setup.index_type),
+            numbering: name_in(NUMBERINGS, &setup.numbering),
+            order: name_in(ORDERS, &setup.order),
             factors_per_patch: setup.factors(),
             indices_per_primitive: setup.indices_per_primitive(),
             bytes_per_index: setup.index_type.bytes(),

@@ -10,17 +10,16 @@ mod structures;
 mod tests;
 mod translation;
 
-use crate::args::{OrderName, name_of};
+use crate::args::{Choices, ORDERS, choice, name_of};
 use crate::failure::{Exit, Failure};
 use crate::output::{NewFolder, json, refuse_stdout};
-use clap::ValueEnum;
 use manifest::Manifest;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::tables;
-use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_gpu::{IndexType, Numbering, Order, PointFormat, Setup};
 #[cfg(feature = "probe")]
 pub(crate) use translation::Checks;
 #[cfg(not(feature = "probe"))]
@@ -59,17 +58,17 @@ pub(crate) struct Args {
     #[arg(value_parser = name_of::<SplitOrder>())]
     split: SplitOrder,
     /// Form of the points, 8 bytes each
-    #[arg(long, value_name = "FORM", default_value = "packed")]
-    points: PointsName,
+    #[arg(long, value_name = "FORM", default_value = "packed", value_parser = choice(POINTS))]
+    points: PointFormat,
     /// Width of the indices
-    #[arg(long, value_name = "TYPE", default_value = "u32")]
-    index_type: IndexName,
+    #[arg(long, value_name = "TYPE", default_value = "u32", value_parser = choice(INDEX_TYPES))]
+    index_type: IndexType,
     /// Which point has index 0
-    #[arg(long, value_name = "NAME", default_value = "per-batch")]
-    numbering: NumberingName,
+    #[arg(long, value_name = "NAME", default_value = "per-batch", value_parser = choice(NUMBERINGS))]
+    numbering: Numbering,
     /// Order of the triangles
-    #[arg(long, value_name = "NAME", default_value = "specification")]
-    order: OrderName,
+    #[arg(long, value_name = "NAME", default_value = "specification", value_parser = choice(ORDERS))]
+    order: Order,
     /// Whether the shaders check every access and every loop
     #[arg(long, value_name = "WHICH", default_value = "full")]
     checks: Checks,
@@ -81,29 +80,18 @@ pub(crate) struct Args {
     folder: PathBuf,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum PointsName {
-    /// 16.16 coordinates and the number of the patch
-    Packed,
-    /// Two binary32 coordinates
-    F32,
-}
+const POINTS: Choices<PointFormat> = &[
+    ("packed", PointFormat::Packed, "16.16 coordinates and the number of the patch"),
+    ("f32", PointFormat::F32, "Two binary32 coordinates"),
+];
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum IndexName {
-    /// 16 bits
-    U16,
-    /// 32 bits
-    U32,
-}
+const INDEX_TYPES: Choices<IndexType> =
+    &[("u16", IndexType::U16, "16 bits"), ("u32", IndexType::U32, "32 bits")];
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum NumberingName {
-    /// The first point of the batch, for one draw of everything
-    PerBatch,
-    /// The first point of each patch
-    PerPatch,
-}
+const NUMBERINGS: Choices<Numbering> = &[
+    ("per-batch", Numbering::PerBatch, "The first point of the batch, for one draw of everything"),
+    ("per-patch", Numbering::PerPatch, "The first point of each patch"),
+];
 
 /// Runs the command.
 ///
@@ -139,19 +127,10 @@ impl Args {
         let config =
             Config { partitioning: self.partitioning, output: self.output, split: self.split };
         Setup {
-            point_format: match self.points {
-                PointsName::Packed => PointFormat::Packed,
-                PointsName::F32 => PointFormat::F32,
-            },
-            numbering: match self.numbering {
-                NumberingName::PerBatch => Numbering::PerBatch,
-                NumberingName::PerPatch => Numbering::PerPatch,
-            },
-            index_type: match self.index_type {
-                IndexName::U16 => IndexType::U16,
-                IndexName::U32 => IndexType::U32,
-            },
-            order: self.order.into(),
+            point_format: self.points,
+            numbering: self.numbering,
+            index_type: self.index_type,
+            order: self.order,
             ..Setup::new(self.domain, config)
         }
     }

@@ -1,6 +1,7 @@
 //! The compute shaders under the clock of their device.
 
-use super::runner::{Amount, Description, Runner, RunnerOptions, WorkingSet, totals};
+use super::Args;
+use super::runner::{Amount, Description, Runner, WorkingSet, totals};
 use crate::backends::gpu::{device_error, setup_of, split_by_patch};
 use crate::failure::Failure;
 use fill::Fill;
@@ -46,7 +47,7 @@ struct Timed {
 }
 
 impl GpuRunner {
-    pub(super) fn new(options: RunnerOptions) -> Result<Self, Failure> {
+    pub(super) fn new(args: &Args) -> Result<Self, Failure> {
         let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))
             .map_err(|error| Failure::unavailable(error.to_string()))?;
         let stopwatch = Stopwatch::new(&gpu).map_err(|error| {
@@ -58,9 +59,9 @@ impl GpuRunner {
             backend: "gpu",
             level: gpu.name(),
             threads: 1,
-            index_type: options.index_type,
-            order: options.order,
-            remark: if options.no_copies { ", no copies".to_owned() } else { String::new() },
+            index_type: args.options.index_type,
+            order: args.order,
+            remark: if args.no_copies { ", no copies".to_owned() } else { String::new() },
             sleeps: false,
             is_device: true,
         };
@@ -70,7 +71,7 @@ impl GpuRunner {
             tessellator,
             fill,
             description,
-            copies: if options.no_copies { Copies::Never } else { Copies::WhereAlike },
+            copies: if args.no_copies { Copies::Never } else { Copies::WhereAlike },
             workload: None,
             batches: Vec::new(),
             last_use: None,
