@@ -1,10 +1,10 @@
 //! The manifest as a C99 header: constants, structures, and the plans as tables.
 
-use super::formula::{Formula, Variable};
+use super::formula::{Formula, Variable, snake};
 use super::manifest::{Host, Kind, Manifest, Stage, TABLES_FILE};
-use super::plan::{Bound, Count, Dispatch, Variant, name_of, resources};
+use super::plan::{Bound, Count, Dispatch, Variant, resources};
 use super::structures::Structure;
-use std::fmt::{Display, Write};
+use std::fmt::{Debug, Display, Write};
 use tess_gpu::Resource;
 
 /// The text in front of the tables, which does not depend on the setup.
@@ -22,12 +22,15 @@ pub(super) fn text(manifest: &Manifest) -> String {
     );
     line("#ifndef TESS_SHADERS_H\n#define TESS_SHADERS_H\n\n#include <stdint.h>\n".into());
     constants(manifest).into_iter().for_each(&mut line);
-    line(enumeration("tess_resource", resource_names().chain(["TESS_RESOURCES".to_owned()])));
-    line(enumeration("tess_host", HOSTS.iter().map(|host| host_name(*host))));
-    line(enumeration("tess_variable", Variable::ALL.iter().map(|v| variable_name(*v))));
+    line(enumeration(
+        "tess_resource",
+        resources().map(resource_name).chain(["TESS_RESOURCES".to_owned()]),
+    ));
+    line(enumeration("tess_host", HOSTS.iter().map(|host| constant("HOST_", host))));
+    line(enumeration("tess_variable", Variable::ALL.iter().map(|of| constant("OF_", of))));
     line(DECLARATIONS.trim_end().to_owned());
     manifest.structures.iter().map(structure).for_each(&mut line);
-    let hosts = manifest.resources.iter().map(|role| host_name(role.host));
+    let hosts = manifest.resources.iter().map(|role| constant("HOST_", role.host));
     line(table("enum tess_host", "tess_hosts", "TESS_RESOURCES", hosts));
     line(table(
         "struct tess_stage",
@@ -95,29 +98,13 @@ fn table(ty: &str, name: &str, size: &str, rows: impl Iterator<Item = String>) -
     format!("\nstatic const {ty} {name}[{size}] = {{\n    {rows}\n}};")
 }
 
-fn resource_names() -> impl Iterator<Item = String> {
-    resources().map(resource_name)
+/// Such as `TESS_HOST_WRITES_JOBS`.
+fn constant(prefix: &str, value: impl Debug) -> String {
+    format!("TESS_{prefix}{}", snake(&format!("{value:?}")).to_uppercase())
 }
 
 fn resource_name(resource: Resource) -> String {
-    format!("TESS_{}", name_of(resource).to_uppercase())
-}
-
-fn variable_name(variable: Variable) -> String {
-    format!("TESS_OF_{}", variable.name().to_uppercase())
-}
-
-fn host_name(host: Host) -> String {
-    let name = match host {
-        Host::WritesJobs => "WRITES_JOBS",
-        Host::WritesFactors => "WRITES_FACTORS",
-        Host::WritesTables => "WRITES_TABLES",
-        Host::Clears => "CLEARS",
-        Host::UsesIndirectly => "USES_INDIRECTLY",
-        Host::Reads => "READS",
-        Host::Keeps => "KEEPS",
-    };
-    format!("TESS_HOST_{name}")
+    constant("", resource)
 }
 
 /// A structure as C declares it. An array to the buffer's end is left to a comment.
@@ -136,17 +123,6 @@ fn structure(structure: &Structure) -> String {
         };
     }
     text + "};"
-}
-
-fn snake(name: &str) -> String {
-    let mut snake = String::new();
-    for letter in name.chars() {
-        if letter.is_uppercase() && !snake.is_empty() {
-            snake.push('_');
-        }
-        snake.extend(letter.to_lowercase());
-    }
-    snake
 }
 
 fn stage(stage: &Stage) -> String {
@@ -170,7 +146,7 @@ fn formula(formula: &Formula) -> String {
     let terms = formula
         .terms
         .iter()
-        .map(|term| format!("{{{}u, {}, {}}}", term.times, variable_name(term.of), term.per));
+        .map(|term| format!("{{{}u, {}, {}}}", term.times, constant("OF_", term.of), term.per));
     let terms = terms.collect::<Vec<_>>().join(", ");
     let terms = if terms.is_empty() { "{0, 0, 1}".to_owned() } else { terms };
     format!("{{{}u, {}, {}, {{{terms}}}}}", formula.constant, formula.multiple, formula.terms.len())

@@ -161,9 +161,9 @@ impl Shaders {
     /// The shaders of a setup.
     ///
     /// # Errors
-    /// Exit code 3 if the plan or a shader has something that the manifest or the language cannot say.
+    /// Exit code 3 if a shader has something that the language cannot say.
     fn new(setup: Setup, translation: Translation) -> Result<Self, Failure> {
-        let plans = plan::variants(setup).map_err(Failure::unavailable)?;
+        let plans = plan::variants(setup);
         let mut files = Vec::new();
         let mut stages = Vec::new();
         for stage in plan::stages(&plans) {

@@ -1,9 +1,10 @@
 //! The dispatches of a batch of one portion and one window, as formulas: everything that `tess_gpu::Plan` says.
 
-use super::formula::{Batch, Bounds, Formula};
+use super::formula::{Formula, Variable};
 use serde::Serialize;
+use std::mem::offset_of;
 use tess_gpu::layout::Job;
-use tess_gpu::sizes::ALIGNMENT;
+use tess_gpu::sizes::{ALIGNMENT, BLOCK, CATALOGUE_PATCHES, SECTION, TILE};
 use tess_gpu::{
     Capacity, IndexType, Limits, Numbering, Plan, Resource, Setup, Span, Stage, Workgroups,
 };
@@ -78,34 +79,14 @@ pub(super) fn stages(variants: &[Variant]) -> impl Iterator<Item = Stage> {
     Stage::ALL.into_iter().filter(runs)
 }
 
-/// All ways in which batches run, by their numbers of patches from 1 on.
-///
-/// # Errors
-/// The plan has a size without a formula; the message says which.
-pub(super) fn variants(setup: Setup) -> Result<Vec<Variant>, String> {
-    let most = last(u32::MAX, |patches| with(setup, [patches, 1, 1, u32::MAX]).portions() == 1);
-    let mut variants = Vec::new();
-    let mut begin = 1;
-    while begin <= most {
-        let own = shape(setup, begin);
-        // Shapes change at most once between two powers of two.
-        let mut end = begin;
-        while end < most && shape(setup, end.saturating_mul(2).min(most)) == own {
-            end = end.saturating_mul(2).min(most);
-        }
-        let end = end + last(most - end, |more| shape(setup, end + more) == own);
-        variants.push(Variant::new(setup, begin, end)?);
-        begin = end + 1;
-    }
-    Ok(variants)
-}
-
-/// The dispatches for this many patches: stages, jobs, and whether the arguments are indirect.
-fn shape(setup: Setup, patches: u32) -> Vec<(Stage, u32, bool)> {
-    let plan = with(setup, [patches, 1, 1, u32::MAX]);
-    plan.dispatches()
-        .map(|d| (d.stage(), d.job(), matches!(d.workgroups(), Workgroups::Indirect(_))))
-        .collect()
+/// All ways in which batches run, by their numbers of patches from 1 on: with a catalogue, or without.
+pub(super) fn variants(setup: Setup) -> Vec<Variant> {
+    let most = with(setup, u32::MAX).portion_patches();
+    let ranges = match with(setup, most).has_catalogue() {
+        true => vec![(1, CATALOGUE_PATCHES - 1), (CATALOGUE_PATCHES, most)],
+        false => vec![(1, most)],
+    };
+    ranges.into_iter().map(|(least, most)| Variant::new(setup, least, most)).collect()
 }
 
 /// The resources of a batch without groups, which is what manifests describe.
@@ -114,121 +95,117 @@ pub(super) fn resources() -> impl Iterator<Item = Resource> {
     Resource::ALL.into_iter().filter(move |resource| !is_of_groups(resource))
 }
 
-/// The plan of a batch in the stages that every batch can have, bound by nothing but the number of
-/// workgroups in a row.
-pub(super) fn with(setup: Setup, [patches, points, primitives, workgroups]: Batch) -> Plan {
-    let limits = Limits { storage_binding: 1 << 35, workgroups };
-    Plan::in_long_stages(setup, patches, Capacity { points, primitives }, limits)
-}
+/// Bytes of one storage binding: in nothing are batches bound but by the number of workgroups in a row.
+const BINDING: u64 = 1 << 35;
 
-/// The largest of `0..=most` that is `good`; all up to it are, and 0 need not be.
-fn last(most: u32, good: impl Fn(u32) -> bool) -> u32 {
-    if good(most) {
-        return most;
-    }
-    let (mut is_good, mut is_bad) = (0, most);
-    while is_bad - is_good > 1 {
-        let middle = is_good + (is_bad - is_good) / 2;
-        if good(middle) { is_good = middle } else { is_bad = middle }
-    }
-    is_good
+/// The plan of a batch with room for one point and one primitive, in the stages that every batch can have.
+fn with(setup: Setup, patches: u32) -> Plan {
+    let limits = Limits { storage_binding: BINDING, workgroups: u32::MAX };
+    Plan::in_long_stages(setup, patches, Capacity { points: 1, primitives: 1 }, limits)
 }
 
 impl Variant {
-    fn new(setup: Setup, min_patches: u32, max_patches: u32) -> Result<Self, String> {
-        let one = |points, primitives| with(setup, [min_patches, points, primitives, u32::MAX]);
-        let numbered = match (setup.index_type, setup.numbering) {
+    fn new(setup: Setup, min_patches: u32, max_patches: u32) -> Self {
+        let max_points = match (setup.index_type, setup.numbering) {
             (IndexType::U16, Numbering::PerBatch) => 1 << 16,
             _ => u32::MAX,
         };
-        let max_points = last(numbered, |points| one(points, 1).point_windows() <= 1);
-        let max_primitives = last(u32::MAX, |count| one(1, count).primitive_windows() <= 1);
-        let bounds =
-            [(min_patches, max_patches), (1, max_points), (1, max_primitives), (1, u32::MAX)];
-        let asked = Asked { setup, bounds };
-        let dispatches = shape(setup, min_patches).len();
-        Ok(Self {
+        // Those of the whole tiles that one binding takes.
+        let bound =
+            BINDING / u64::from(setup.primitive_bytes()) / u64::from(TILE) * u64::from(TILE);
+        let least = Least { setup, plan: with(setup, min_patches) };
+        let buffer = |resource| Buffer { resource, bytes: least.buffer(resource) };
+        Self {
             min_patches,
             max_patches,
             max_points,
-            max_primitives,
-            buffers: resources().map(|r| asked.buffer(r)).collect::<Result<_, _>>()?,
-            jobs: asked.jobs()?,
-            dispatches: (0..dispatches).map(|i| asked.dispatch(i)).collect::<Result<_, _>>()?,
-        })
-    }
-}
-
-/// A plan that is asked for formulas.
-struct Asked {
-    setup: Setup,
-    bounds: Bounds,
-}
-
-impl Asked {
-    fn formula(&self, what: &str, of: impl Fn(&Plan) -> u64) -> Result<Formula, String> {
-        let setup = self.setup;
-        Formula::of(self.bounds, |batch| of(&with(setup, batch))).ok_or_else(|| {
-            let (least, most) = self.bounds[0];
-            format!("{what} of {least} to {most} patches has no formula that a manifest can state")
-        })
-    }
-
-    fn buffer(&self, resource: Resource) -> Result<Buffer, String> {
-        let what = format!("the size of {}", name_of(resource));
-        Ok(Buffer { resource, bytes: self.formula(&what, |plan| plan.buffer_size(resource))? })
-    }
-
-    fn jobs(&self) -> Result<Vec<Vec<Formula>>, String> {
-        let stride = usize::try_from(ALIGNMENT).unwrap_or_default();
-        let plan = with(self.setup, self.bounds.map(|(least, _)| least));
-        let jobs = plan.jobs().len() / stride;
-        let word = |job: usize, word: usize| {
-            let at = stride * job + 4 * word;
-            self.formula(&format!("word {word} of job {job}"), |plan| {
-                let jobs = plan.jobs();
-                jobs.get(at..at + 4)
-                    .and_then(|bytes| bytes.try_into().ok())
-                    .map_or(u64::MAX, |bytes| u64::from(u32::from_le_bytes(bytes)))
-            })
-        };
-        (0..jobs).map(|job| (0..size_of::<Job>() / 4).map(|w| word(job, w)).collect()).collect()
-    }
-
-    fn dispatch(&self, number: usize) -> Result<Dispatch, String> {
-        let asked = |plan: &Plan| plan.dispatches().nth(number);
-        let plan = with(self.setup, self.bounds.map(|(least, _)| least));
-        let Some(first) = asked(&plan) else { return Err(format!("no dispatch {number}")) };
-        let stage = first.stage();
-        let bound = |(binding, (resource, _)): (usize, (Resource, Span))| {
-            let what = format!("binding {binding} of {}", stage.entry_point());
-            let span = |plan: &Plan| asked(plan).and_then(|d| d.bindings().nth(binding));
-            Ok(Bound {
-                resource,
-                offset: self.formula(&what, |p| span(p).map_or(u64::MAX, |(_, s)| s.offset))?,
-                bytes: self.formula(&what, |p| span(p).map_or(u64::MAX, |(_, s)| s.size))?,
-            })
-        };
-        let bindings = first.bindings().enumerate().map(bound).collect::<Result<_, String>>()?;
-        Ok(Dispatch { stage, job: first.job(), bindings, workgroups: self.count(number, &first)? })
-    }
-
-    fn count(&self, number: usize, first: &tess_gpu::Dispatch) -> Result<Count, String> {
-        let what = format!("the workgroups of {}", first.stage().entry_point());
-        let asked = |plan: &Plan| plan.dispatches().nth(number).map(|d| d.workgroups());
-        if let Workgroups::Indirect(_) = first.workgroups() {
-            let at = |plan: &Plan| match asked(plan) {
-                Some(Workgroups::Indirect(at)) => at,
-                _ => u64::MAX,
-            };
-            return Ok(Count::IndirectAt(self.formula(&what, at)?));
+            max_primitives: u32::try_from(bound).unwrap_or(u32::MAX),
+            buffers: resources().map(buffer).collect(),
+            jobs: least.jobs(),
+            dispatches: least.plan.dispatches().map(|one| least.dispatch(&one)).collect(),
         }
-        let in_a_row = |plan: &Plan| match asked(plan) {
-            Some(Workgroups::Direct([x, 1, 1])) => u64::from(x),
-            _ => u64::MAX,
+    }
+}
+
+/// The smallest batch of a variant. What does not depend on the batch is as in its plan; a test compares the
+/// formulas with the plans of others.
+struct Least {
+    setup: Setup,
+    plan: Plan,
+}
+
+/// `times` the patches, rounded up to whole blocks; `times` is of a block.
+fn blocks(times: impl Into<u64>) -> Formula {
+    Formula::term(times, Variable::Patches, BLOCK)
+}
+
+impl Least {
+    fn buffer(&self, resource: Resource) -> Formula {
+        let factors = u64::from(self.setup.factors());
+        let each = |bytes: u64, of| Formula::term(bytes, of, 1);
+        let tiles = |of| Formula::term(4u64, of, TILE);
+        match resource {
+            Resource::Factors => each(4 * factors, Variable::Patches),
+            Resource::Topologies => blocks(8 * BLOCK),
+            Resource::Contexts => blocks(8 * factors * u64::from(BLOCK)),
+            Resource::Offsets => {
+                blocks(8 * (BLOCK + 2)).and(Formula::term(8u64, Variable::Patches, SECTION))
+            }
+            Resource::Tiles => tiles(Variable::Points).and(tiles(Variable::Primitives)).and(16),
+            Resource::Points => each(8, Variable::Points),
+            Resource::Indices => {
+                let bytes = self.setup.primitive_bytes().into();
+                Formula { multiple: 8, ..each(bytes, Variable::Primitives) }
+            }
+            _ => self.plan.buffer_size(resource).into(),
+        }
+    }
+
+    /// The words of each job.
+    fn jobs(&self) -> Vec<Vec<Formula>> {
+        let one = |of| Formula::term(1u64, of, 1);
+        let words = [
+            (offset_of!(Job, patches), one(Variable::Patches)),
+            (offset_of!(Job, stride), blocks(BLOCK)),
+            (offset_of!(Job, blocks_at), blocks(BLOCK)),
+            (offset_of!(Job, alike_at), blocks(BLOCK + 1)),
+            (offset_of!(Job, sections_at), blocks(BLOCK + 2)),
+            (
+                offset_of!(Job, primitive_tiles_at),
+                Formula::term(1u64, Variable::Points, TILE).and(2),
+            ),
+            (offset_of!(Job, point_capacity), one(Variable::Points)),
+            (offset_of!(Job, primitive_capacity), one(Variable::Primitives)),
+            (offset_of!(Job, max_workgroups), one(Variable::MaxWorkgroups)),
+        ];
+        let bytes = self.plan.jobs();
+        let job = |bytes: &[u8]| {
+            let read = bytes[..size_of::<Job>()].as_chunks().0.iter();
+            let mut job: Vec<Formula> =
+                read.map(|word| u64::from(u32::from_le_bytes(*word)).into()).collect();
+            words.iter().for_each(|(at, formula)| job[at / 4].clone_from(formula));
+            job
         };
-        let mut bounds = self.bounds;
-        bounds[3] = (u32::MAX, u32::MAX);
-        Asked { setup: self.setup, bounds }.formula(&what, in_a_row).map(Count::Direct)
+        bytes.chunks(usize::try_from(ALIGNMENT).unwrap_or_default()).map(job).collect()
+    }
+
+    /// A dispatch. In one portion and one window all but jobs are bound whole.
+    fn dispatch(&self, one: &tess_gpu::Dispatch) -> Dispatch {
+        let bound = |(resource, span): (Resource, Span)| Bound {
+            resource,
+            offset: span.offset.into(),
+            bytes: match resource {
+                Resource::Job => span.size.into(),
+                _ => self.buffer(resource),
+            },
+        };
+        let workgroups = match (one.workgroups(), one.stage()) {
+            (Workgroups::Indirect(at), _) => Count::IndirectAt(at.into()),
+            (_, Stage::Factors) => Count::Direct(blocks(1u64)),
+            (_, Stage::Scan) => Count::Direct(Formula::term(1u64, Variable::Patches, SECTION)),
+            (Workgroups::Direct([x, ..]), _) => Count::Direct(u64::from(x).into()),
+        };
+        let bindings = one.bindings().map(bound).collect();
+        Dispatch { stage: one.stage(), job: one.job(), bindings, workgroups }
     }
 }
