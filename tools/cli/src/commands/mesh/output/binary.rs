@@ -3,14 +3,13 @@
 //! How many vertices and indices there will be is known beforehand. So every thread makes the bytes of a
 //! part of a block, and writes them to their place.
 
-use super::MeshBlock;
-use super::{IndexWidth, Options, Totals};
+use super::{IndexWidth, MeshBlock, Options, Sink, Totals, glb};
 use crate::commands::mesh::input::Up;
 use crate::output::OutputFile;
 use glam::Vec3;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use std::io;
+use std::io::{self, Write};
 use tess_surface::Sample;
 
 /// Position, normal and texture coordinates: eight floats.
@@ -27,62 +26,31 @@ type Bounds = (Vec3, Vec3);
 
 const EMPTY: Bounds = (Vec3::INFINITY, Vec3::NEG_INFINITY);
 
-/// Writes the binary part into a file.
+/// The output while its binary part grows.
 pub(super) struct Binary {
-    pub(super) file: OutputFile,
+    /// The file of the binary part.
+    file: OutputFile,
     /// Where the binary part begins in the file.
     start: u64,
+    /// The file of the JSON and its reference to the binary part, if the two are apart.
+    json: Option<(OutputFile, String)>,
     options: Options,
-    layout: BinaryLayout,
+    totals: Totals,
+    narrow: bool,
+    bounds: Bounds,
     /// Indices written so far.
     indices: u64,
 }
 
-/// The JSON's description of the binary part.
-#[derive(Clone, Copy)]
-pub(super) struct BinaryLayout {
-    totals: Totals,
-    narrow: bool,
-    bounds: Bounds,
-    up: Up,
-}
-
 impl Binary {
-    pub(super) const fn new(file: OutputFile, start: u64, options: &Options) -> Self {
-        let totals = Totals { vertices: 0, indices: 0 };
-        let layout = BinaryLayout { totals, narrow: false, bounds: EMPTY, up: options.up };
-        Self { file, start, options: *options, layout, indices: 0 }
-    }
-
-    /// Takes how much will come.
-    pub(super) fn begin(&mut self, totals: Totals) -> io::Result<()> {
-        let width = self.options.indices;
-        if width == IndexWidth::Bits16 && totals.vertices > MAX_NARROW {
-            return Err(io::Error::other("more than 65535 vertices need --indices 32 (or auto)"));
-        }
-        if totals.vertices >= u64::from(u32::MAX) {
-            return Err(too_large());
-        }
-        self.layout.totals = totals;
-        self.layout.narrow = width != IndexWidth::Bits32 && totals.vertices <= MAX_NARROW;
-        Ok(())
-    }
-
-    pub(super) fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
-        let (low, high) = self.write_vertices(block)?;
-        self.layout.bounds = (self.layout.bounds.0.min(low), self.layout.bounds.1.max(high));
-        let first = u32::try_from(block.first_vertex).map_err(|_| too_large())?;
-        if self.layout.narrow {
-            // The numbers of so few vertices have 16 bits.
-            self.write_indices(block, |index| {
-                let [low, high, ..] = (first + index).to_le_bytes();
-                [low, high]
-            })?;
-        } else {
-            self.write_indices(block, |index| (first + index).to_le_bytes())?;
-        }
-        self.indices += block.indices.len() as u64;
-        Ok(())
+    pub(super) const fn new(
+        file: OutputFile,
+        start: u64,
+        json: Option<(OutputFile, String)>,
+        options: &Options,
+    ) -> Self {
+        let (options, totals) = (*options, Totals { vertices: 0, indices: 0 });
+        Self { file, start, json, options, totals, narrow: false, bounds: EMPTY, indices: 0 }
     }
 
     fn write_vertices(&self, block: &MeshBlock<'_>) -> io::Result<Bounds> {
@@ -106,7 +74,7 @@ impl Binary {
         block: &MeshBlock<'_>,
         bytes_of: impl Fn(u32) -> [u8; N] + Sync,
     ) -> io::Result<()> {
-        let start = self.start + self.layout.vertex_bytes() + self.indices * N as u64;
+        let start = self.start + self.vertex_bytes() + self.indices * N as u64;
         let parts = block.indices.par_chunks(PART / N).enumerate();
         let written = parts.map_init(Vec::new, |bytes, (number, indices)| {
             bytes.resize(indices.len() * N, 0);
@@ -118,33 +86,6 @@ impl Binary {
         written.collect()
     }
 
-    /// Fills up the binary part, a multiple of four bytes.
-    pub(super) fn finish(self) -> io::Result<(OutputFile, BinaryLayout)> {
-        let Self { file, start, layout, .. } = self;
-        let padding = layout.length() - layout.vertex_bytes() - layout.index_bytes();
-        let end = start + layout.length();
-        file.write_at(&[0; 4][..usize::try_from(padding).unwrap_or(0)], end - padding)?;
-        Ok((file, layout))
-    }
-}
-
-fn vertex_bytes(vertex: &Sample) -> [u8; STRIDE] {
-    let [s, t] = vertex.texcoord.to_array();
-    let ([x, y, z], [nx, ny, nz]) = (vertex.position.to_array(), vertex.normal.to_array());
-    // glTF has (0, 0) at the upper left of the image.
-    let floats = [x, y, z, nx, ny, nz, s, 1.0 - t];
-    let mut bytes = [0; STRIDE];
-    for (bytes, float) in bytes.as_chunks_mut().0.iter_mut().zip(floats) {
-        *bytes = float.to_le_bytes();
-    }
-    bytes
-}
-
-fn too_large() -> io::Error {
-    io::Error::other("more than 2^32 - 2 vertices, which glTF cannot number; write OBJ")
-}
-
-impl BinaryLayout {
     const fn vertex_bytes(&self) -> u64 {
         self.totals.vertices * STRIDE as u64
     }
@@ -154,12 +95,12 @@ impl BinaryLayout {
     }
 
     /// Length of the binary part in bytes.
-    pub(super) fn length(&self) -> u64 {
+    fn length(&self) -> u64 {
         (self.vertex_bytes() + self.index_bytes()).next_multiple_of(4)
     }
 
     /// The document; `uri` names the file of the binary part, if it is a separate file.
-    pub(super) fn document(&self, uri: Option<&str>) -> Value {
+    fn document(&self, uri: Option<&str>) -> Value {
         let vertex_bytes = self.vertex_bytes();
         let mut buffer = json!({ "byteLength": self.length() });
         if let Some(uri) = uri {
@@ -167,7 +108,7 @@ impl BinaryLayout {
         }
         // glTF is y up: a quarter turn about x lays z there.
         let half = std::f32::consts::FRAC_1_SQRT_2;
-        let node = match self.up {
+        let node = match self.options.up {
             Up::Y => json!({ "mesh": 0 }),
             Up::Z => json!({ "mesh": 0, "rotation": [-half, 0, 0, half] }),
         };
@@ -202,4 +143,67 @@ impl BinaryLayout {
             "buffers": [buffer],
         })
     }
+}
+
+impl Sink for Binary {
+    fn begin(&mut self, totals: Totals) -> io::Result<()> {
+        let width = self.options.indices;
+        if width == IndexWidth::Bits16 && totals.vertices > MAX_NARROW {
+            return Err(io::Error::other("more than 65535 vertices need --indices 32 (or auto)"));
+        }
+        if totals.vertices >= u64::from(u32::MAX) {
+            return Err(too_large());
+        }
+        self.totals = totals;
+        self.narrow = width != IndexWidth::Bits32 && totals.vertices <= MAX_NARROW;
+        Ok(())
+    }
+
+    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
+        let (low, high) = self.write_vertices(block)?;
+        self.bounds = (self.bounds.0.min(low), self.bounds.1.max(high));
+        let first = u32::try_from(block.first_vertex).map_err(|_| too_large())?;
+        if self.narrow {
+            // The numbers of so few vertices have 16 bits.
+            self.write_indices(block, |index| {
+                let [low, high, ..] = (first + index).to_le_bytes();
+                [low, high]
+            })?;
+        } else {
+            self.write_indices(block, |index| (first + index).to_le_bytes())?;
+        }
+        self.indices += block.indices.len() as u64;
+        Ok(())
+    }
+
+    /// Fills up the binary part, a multiple of four bytes, and writes the JSON.
+    fn finish(mut self: Box<Self>) -> io::Result<()> {
+        let padding = self.length() - self.vertex_bytes() - self.index_bytes();
+        let end = self.start + self.length();
+        let zeros = &[0; 4][..usize::try_from(padding).unwrap_or(0)];
+        self.file.write_at(zeros, end - padding)?;
+        let Some((mut json, uri)) = self.json.take() else {
+            self.file.write_at(&glb::beginning(&self.document(None), self.length())?, 0)?;
+            return self.file.finish();
+        };
+        json.write_all(crate::output::json(&self.document(Some(&uri))).as_bytes())?;
+        self.file.finish()?;
+        json.finish()
+    }
+}
+
+fn vertex_bytes(vertex: &Sample) -> [u8; STRIDE] {
+    let [s, t] = vertex.texcoord.to_array();
+    let ([x, y, z], [nx, ny, nz]) = (vertex.position.to_array(), vertex.normal.to_array());
+    // glTF has (0, 0) at the upper left of the image.
+    let floats = [x, y, z, nx, ny, nz, s, 1.0 - t];
+    let mut bytes = [0; STRIDE];
+    for (bytes, float) in bytes.as_chunks_mut().0.iter_mut().zip(floats) {
+        *bytes = float.to_le_bytes();
+    }
+    bytes
+}
+
+fn too_large() -> io::Error {
+    io::Error::other("more than 2^32 - 2 vertices, which glTF cannot number; write OBJ")
 }

@@ -1,10 +1,10 @@
 //! GLB: JSON and binary part in one file.
 
-use super::MeshBlock;
+use super::Options;
 use super::binary::Binary;
-use super::{Options, Sink, Totals};
 use crate::failure::Failure;
 use crate::output::OutputFile;
+use serde_json::Value;
 use std::io;
 use std::path::Path;
 
@@ -15,17 +15,13 @@ const JSON_ROOM: usize = 2048;
 /// Header, JSON chunk with its header, header of the binary chunk.
 const BEFORE_BINARY: usize = 12 + 8 + JSON_ROOM + 8;
 
-/// The file while it grows.
-pub(super) struct Glb(Binary);
-
-impl Glb {
-    pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
-        Ok(Self(Binary::new(OutputFile::create(path)?, BEFORE_BINARY as u64, options)))
-    }
+/// Begins the file.
+pub(super) fn create(path: &Path, options: &Options) -> Result<Binary, Failure> {
+    Ok(Binary::new(OutputFile::create(path)?, BEFORE_BINARY as u64, None, options))
 }
 
 /// All that stands before the binary part of `length` bytes.
-fn beginning(json: &str, length: u64) -> io::Result<Vec<u8>> {
+pub(super) fn beginning(json: &Value, length: u64) -> io::Result<Vec<u8>> {
     let word = |value: u64| {
         let too_large = || io::Error::other("more than 4 GiB, which GLB cannot hold; write .gltf");
         u32::try_from(value).map(u32::to_le_bytes).map_err(|_| too_large())
@@ -36,7 +32,7 @@ fn beginning(json: &str, length: u64) -> io::Result<Vec<u8>> {
     out.extend(word(BEFORE_BINARY as u64 + length)?);
     out.extend(word(JSON_ROOM as u64)?);
     out.extend(b"JSON");
-    out.extend(json.as_bytes());
+    out.extend(json.to_string().into_bytes());
     if out.len() > BEFORE_BINARY - 8 {
         return Err(io::Error::other("the JSON is larger than the room kept for it"));
     }
@@ -44,21 +40,4 @@ fn beginning(json: &str, length: u64) -> io::Result<Vec<u8>> {
     out.extend(word(length)?);
     out.extend(b"BIN\0");
     Ok(out)
-}
-
-impl Sink for Glb {
-    fn begin(&mut self, totals: Totals) -> io::Result<()> {
-        self.0.begin(totals)
-    }
-
-    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
-        self.0.block(block)
-    }
-
-    fn finish(self: Box<Self>) -> io::Result<()> {
-        let (file, layout) = self.0.finish()?;
-        let document = layout.document(None).to_string();
-        file.write_at(&beginning(&document, layout.length())?, 0)?;
-        file.finish()
-    }
 }

@@ -1,44 +1,32 @@
 //! glTF in two files: the JSON, and the binary part beside it with the extension `.bin`.
 
-use super::MeshBlock;
+use super::Options;
 use super::binary::Binary;
-use super::{Options, Sink, Totals};
 use crate::failure::Failure;
 use crate::output::OutputFile;
 use serde_json::Value;
-use std::io::{self, Write};
 use std::path::Path;
 
-/// Both files while the binary part grows.
-pub(super) struct Gltf {
-    /// The JSON's name of the binary part.
-    uri: String,
-    json: OutputFile,
-    binary: Binary,
-}
-
-impl Gltf {
-    pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
-        let beside = path.with_extension("bin");
-        let uri = encode(&beside);
-        if !OutputFile::would_be_file(path) {
-            return Err(Failure::bad_input(format!(
-                "{} is no file, and glTF is two files; --format glb is one",
-                path.display()
-            )));
-        }
-        if beside.symlink_metadata().is_ok() && !refers_to(path, &uri) {
-            return Err(Failure::bad_input(format!(
-                "{} is there already and {} does not refer to it, so it may be something else; \
-                 remove it, or give another name",
-                beside.display(),
-                path.display()
-            )));
-        }
-        let json = OutputFile::create(path)?;
-        let binary = Binary::new(OutputFile::create(&beside)?, 0, options);
-        Ok(Self { uri, json, binary })
+/// Begins both files.
+pub(super) fn create(path: &Path, options: &Options) -> Result<Binary, Failure> {
+    let beside = path.with_extension("bin");
+    let uri = encode(&beside);
+    if !OutputFile::would_be_file(path) {
+        return Err(Failure::bad_input(format!(
+            "{} is no file, and glTF is two files; --format glb is one",
+            path.display()
+        )));
     }
+    if beside.symlink_metadata().is_ok() && !refers_to(path, &uri) {
+        return Err(Failure::bad_input(format!(
+            "{} is there already and {} does not refer to it, so it may be something else; \
+             remove it, or give another name",
+            beside.display(),
+            path.display()
+        )));
+    }
+    let json = Some((OutputFile::create(path)?, uri));
+    Ok(Binary::new(OutputFile::create(&beside)?, 0, json, options))
 }
 
 /// The reference to a file beside: every byte percent-encoded that has a meaning in a URI (RFC 3986,
@@ -62,22 +50,4 @@ fn refers_to(gltf: &Path, uri: &str) -> bool {
     let document: Value = serde_json::from_slice(&text).unwrap_or_default();
     let buffers = document["buffers"].as_array().cloned().unwrap_or_default();
     buffers.iter().any(|buffer| buffer["uri"].as_str() == Some(uri))
-}
-
-impl Sink for Gltf {
-    fn begin(&mut self, totals: Totals) -> io::Result<()> {
-        self.binary.begin(totals)
-    }
-
-    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
-        self.binary.block(block)
-    }
-
-    fn finish(self: Box<Self>) -> io::Result<()> {
-        let Self { uri, mut json, binary } = *self;
-        let (binary, layout) = binary.finish()?;
-        json.write_all(crate::output::json(&layout.document(Some(&uri))).as_bytes())?;
-        binary.finish()?;
-        json.finish()
-    }
 }

@@ -60,8 +60,8 @@ impl MeshFile {
     pub(crate) fn open(path: &Path, form: ResultForm, options: &Options) -> Result<Self, Failure> {
         let sink: Box<dyn Sink> = match form {
             ResultForm::Obj => Box::new(obj::Obj::create(path)?),
-            ResultForm::Gltf => Box::new(gltf::Gltf::create(path, options)?),
-            ResultForm::Glb => Box::new(glb::Glb::create(path, options)?),
+            ResultForm::Gltf => Box::new(gltf::create(path, options)?),
+            ResultForm::Glb => Box::new(glb::create(path, options)?),
             ResultForm::Png => Box::new(picture::PngPicture::create(path, options)?),
         };
         Ok(Self { path: path.to_owned(), sink })
