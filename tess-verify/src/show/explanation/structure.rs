@@ -2,7 +2,7 @@
 
 use super::point;
 use tess_core::stitch::{Step, StitchKind};
-use tess_core::{Patch, PointOrigin, PrimitiveOrigin, Side};
+use tess_core::{Patch, PrimitiveOrigin, Side};
 
 /// Consecutive points of one line, edge of a ring, or centre.
 #[derive(Clone, Debug)]
@@ -14,7 +14,7 @@ pub(super) struct PointRun {
 }
 
 /// Consecutive primitives of one line, stitch or centre.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Stitch {
     pub(super) place: String,
@@ -30,22 +30,18 @@ pub(super) struct Stitch {
 
 /// The points, run by run.
 pub(super) fn point_runs(patch: &Patch) -> Vec<PointRun> {
-    let origins = (0..patch.counts().points).filter_map(|i| patch.locate_point(i));
-    let run = |(origin, first, count)| {
-        let place = point::place(origin, patch.processed().factors());
-        PointRun { place, first, count }
-    };
-    runs(origins.map(first_of_its_run)).into_iter().map(run).collect()
+    let place = |i| Some(point::place(patch.locate_point(i)?, patch.processed().factors()));
+    let places = (0..patch.counts().points).filter_map(place);
+    runs(places).map(|(place, first, count)| PointRun { place, first, count }).collect()
 }
 
 /// The primitives, run by run.
 pub(super) fn stitches(patch: &Patch) -> Vec<Stitch> {
     let mut rows = Vec::new();
     patch.stitches(|stitch| rows.push(stitch));
-    let origins = (0..patch.counts().primitives).filter_map(|t| patch.locate_primitive(t));
-    let stitch = |(origin, first, count)| {
-        let place = describe(origin);
-        let kind = kind(origin);
+    let places = (0..patch.counts().primitives).filter_map(|t| patch.locate_primitive(t));
+    let stitch = |(place, first, count)| {
+        let kind = patch.locate_primitive(first).and_then(kind);
         match rows.iter().find(|stitch| Some(stitch.kind) == kind) {
             Some(stitch) => Stitch {
                 place,
@@ -55,17 +51,10 @@ pub(super) fn stitches(patch: &Patch) -> Vec<Stitch> {
                 inner_row: (0..stitch.inner_points).map(|k| stitch.inner.index(k)).collect(),
                 steps: letters(patch, stitch),
             },
-            None => Stitch {
-                place,
-                first,
-                count,
-                outer_row: Vec::new(),
-                inner_row: Vec::new(),
-                steps: String::new(),
-            },
+            None => Stitch { place, first, count, ..Stitch::default() },
         }
     };
-    runs(origins.map(first_step)).into_iter().map(stitch).collect()
+    runs(places.map(describe)).map(stitch).collect()
 }
 
 fn letters(patch: &Patch, stitch: &tess_core::Stitch) -> String {
@@ -79,40 +68,16 @@ fn letters(patch: &Patch, stitch: &tess_core::Stitch) -> String {
     letters
 }
 
-/// Equal values that follow each other: the value, the position of the first, how many.
-fn runs<T: PartialEq + Copy>(values: impl Iterator<Item = T>) -> Vec<(T, u32, u32)> {
-    let mut runs: Vec<(T, u32, u32)> = Vec::new();
-    for (position, value) in (0..).zip(values) {
+/// Equal places that follow each other: the place, the number of the first element there, how many.
+fn runs(places: impl Iterator<Item = String>) -> impl Iterator<Item = (String, u32, u32)> {
+    let mut runs: Vec<(String, u32, u32)> = Vec::new();
+    for (position, place) in (0..).zip(places) {
         match runs.last_mut() {
-            Some((last, _, count)) if *last == value => *count += 1,
-            _ => runs.push((value, position, 1)),
+            Some((last, _, count)) if *last == place => *count += 1,
+            _ => runs.push((place, position, 1)),
         }
     }
-    runs
-}
-
-/// The first point of the line, edge or centre that a point lies on.
-const fn first_of_its_run(origin: PointOrigin) -> PointOrigin {
-    match origin {
-        PointOrigin::Corner { corner } => PointOrigin::Corner { corner },
-        PointOrigin::Line { line, .. } => PointOrigin::Line { line, p: 0 },
-        PointOrigin::OuterEdge { edge, .. } => PointOrigin::OuterEdge { edge, p: 0 },
-        PointOrigin::Ring { ring, edge, .. } => PointOrigin::Ring { ring, edge, p: 0 },
-        PointOrigin::Centre { .. } => PointOrigin::Centre { p: 0 },
-    }
-}
-
-/// The first primitive of the line, stitch or centre that a primitive belongs to.
-const fn first_step(origin: PrimitiveOrigin) -> PrimitiveOrigin {
-    use PrimitiveOrigin as Origin;
-    match origin {
-        Origin::Sequence { .. } => Origin::Sequence { step: 0 },
-        Origin::Line { line, .. } => Origin::Line { line, segment: 0 },
-        Origin::Minimum { .. } => Origin::Minimum { step: 0 },
-        Origin::Transition { edge, .. } => Origin::Transition { edge, step: 0 },
-        Origin::Ring { ring, edge, .. } => Origin::Ring { ring, edge, step: 0 },
-        Origin::Centre { .. } => Origin::Centre { step: 0 },
-    }
+    runs.into_iter()
 }
 
 /// The stitch between two rings that a primitive belongs to.
