@@ -5,7 +5,7 @@ use super::read::FoundReport;
 use crate::campaign::report::{KnownCases, Part, Report, State};
 use crate::failure::Failure;
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use tess_verify::cover::Coverage;
 
 /// How many shards of a kind are shown by number.
@@ -211,49 +211,26 @@ impl Campaign {
 
     /// Whether every shard ran once, and some case was compared.
     pub(super) fn is_complete(&self) -> bool {
-        self.strangers.is_empty() && self.faults().next().is_none() && self.cases() > 0
+        self.strangers.is_empty() && self.faults().next().is_none() && self.sum().cases > 0
     }
 
-    pub(super) fn cases(&self) -> u64 {
-        self.sum(|report| report.cases)
-    }
-
-    pub(super) fn mismatches(&self) -> u64 {
-        self.sum(|report| report.mismatches)
-    }
-
-    pub(super) fn milliseconds(&self) -> u64 {
-        self.sum(|report| report.milliseconds)
-    }
-
-    fn sum(&self, number: fn(&Report) -> u64) -> u64 {
-        self.done().map(|one| number(&one.report)).fold(0, u64::saturating_add)
-    }
-
-    /// Mismatches by stage.
-    pub(super) fn stages(&self) -> BTreeMap<&str, u64> {
-        let mut sum: BTreeMap<&str, u64> = BTreeMap::new();
-        for (stage, more) in self.done().flat_map(|one| &one.report.stages) {
-            let stage = sum.entry(stage).or_default();
-            *stage = stage.saturating_add(*more);
-        }
-        sum
-    }
-
-    /// The parts with their sums, in the order in which reports name them.
-    pub(super) fn parts(&self) -> Vec<Part> {
-        let mut places: HashMap<&str, usize> = HashMap::new();
-        let mut parts: Vec<Part> = Vec::new();
-        for part in self.done().flat_map(|one| &one.report.parts) {
-            let place = *places.entry(&part.name).or_insert(parts.len());
-            if place == parts.len() {
-                parts.push(Part { name: part.name.clone(), ..Part::default() });
+    /// The sums of all shards: cases, mismatches, also by stage and by part, and the time.
+    pub(super) fn sum(&self) -> Report {
+        let mut sum = Report::default();
+        for FoundReport { report, .. } in self.done() {
+            for part in &report.parts {
+                sum.add_to_part(&part.name, Part { first: None, ..part.clone() });
             }
-            let sum = &mut parts[place];
-            sum.cases = sum.cases.saturating_add(part.cases);
-            sum.mismatches = sum.mismatches.saturating_add(part.mismatches);
+            sum.add_stages(report.stages.iter().map(|(stage, more)| (stage, *more)));
         }
-        parts
+        let total = |number: fn(&Report) -> u64| {
+            self.done().map(|one| number(&one.report)).fold(0, u64::saturating_add)
+        };
+        // A report may have no parts.
+        sum.cases = total(|report| report.cases);
+        sum.mismatches = total(|report| report.mismatches);
+        sum.milliseconds = total(|report| report.milliseconds);
+        sum
     }
 
     /// How many different baselines there are, and what became of them in all shards; `None` if there was none.

@@ -29,12 +29,12 @@ fn heading(text: &mut String, report: &Report) {
 
 fn table(text: &mut String, campaign: &Campaign) {
     _ = writeln!(text, "{:<44} {:>15} {:>10}", "part", "cases", "mismatches");
-    for part in campaign.parts() {
+    let Report { parts, cases, mismatches, stages, .. } = campaign.sum();
+    for part in parts {
         _ = writeln!(text, "{:<44} {:>15} {:>10}", part.name, part.cases, part.mismatches);
     }
-    let (cases, mismatches) = (campaign.cases(), campaign.mismatches());
     _ = writeln!(text, "{:<44} {cases:>15} {mismatches:>10}", "all");
-    for (stage, mismatches) in campaign.stages() {
+    for (stage, mismatches) in stages {
         _ = writeln!(text, "stage {stage}: {mismatches}");
     }
     if let Some((baselines, known)) = campaign.known() {
@@ -76,7 +76,7 @@ fn faults(text: &mut String, campaign: &Campaign) {
     if campaign.faults().nth(SHOWN).is_some() {
         _ = writeln!(text, "and more shards");
     }
-    if campaign.cases() == 0 {
+    if campaign.sum().cases == 0 {
         _ = writeln!(text, "no case was compared");
     }
     run_again(text, campaign, &again);
@@ -118,8 +118,8 @@ fn more(text: &mut String, all: u64, one: &str) {
 
 fn summary(text: &mut String, campaign: &Campaign) {
     let once = campaign.once().count();
-    let (of, time) = (counted(campaign.of, "shard"), seconds(campaign.milliseconds()));
-    let (cases, mismatches) = (campaign.cases(), campaign.mismatches());
+    let Report { cases, mismatches, milliseconds, .. } = campaign.sum();
+    let (of, time) = (counted(campaign.of, "shard"), seconds(milliseconds));
     _ = writeln!(
         text,
         "{once} of {of} ran once: {cases} cases, {mismatches} mismatches, {time} s of all shards"
@@ -206,7 +206,7 @@ pub(super) fn junit(campaign: &Campaign) -> String {
         case(place.clone(), None, error)
     });
     let tests = tests.into_iter().map(|(_, test)| test).chain(more).chain(strangers).collect();
-    let (name, milliseconds) = (format!("tess {command}"), campaign.milliseconds());
+    let (name, milliseconds) = (format!("tess {command}"), campaign.sum().milliseconds);
     JunitSuite { name, milliseconds, tests }.to_xml()
 }
 
