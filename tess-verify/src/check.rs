@@ -25,7 +25,7 @@ pub(crate) use patches::tessellate;
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, MismatchGroup, Report};
 pub use second::SecondFormulation;
 pub use strength::{Conversion, Denormals, Elements, ListOrder, Strength, flushed, vertices};
-pub use verify::{Subject, SubjectRow, VerifyPlan, verify};
+pub use verify::{Subject, SubjectRow, verify};
 pub use ways::Way;
 
 use crate::backend::{Backend, BackendError};

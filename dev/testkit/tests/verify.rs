@@ -2,34 +2,35 @@
 
 use std::sync::atomic::Ordering;
 use tess_testkit::faults::{Fault, Faulty};
-use tess_verify::check::{Known, Subject, SubjectRow, VerifyPlan, verify};
+use tess_verify::check::{Known, Subject, SubjectRow, verify};
 use tess_verify::generate::Shard;
 use tess_verify::{Backend, CoreBackend};
 
-fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &VerifyPlan) -> Vec<SubjectRow> {
-    verify(workers, plan, &Known::default(), &|_, _, _| {}).expect("the backends run")
+fn run(backends: Vec<Box<dyn Backend>>, subject: Subject, shard: Shard) -> Vec<SubjectRow> {
+    let known = Known::default();
+    verify(&mut [backends], subject, shard, &known, &|_, _| {}).expect("the backends run")
 }
 
-/// The faults that a subject's units must see, and a plan of few of them.
-fn faulty_plan(subject: Subject) -> (Vec<Fault>, VerifyPlan) {
+/// The faults that a subject's units must see, and a shard of few of them.
+fn faults_of(subject: Subject) -> (Vec<Fault>, Shard) {
     let (faults, of) = match subject {
         Subject::Factors => (Fault::OF_FACTORS.to_vec(), 16384),
         Subject::Locations => ([&Fault::OF_CONTEXTS[..], &Fault::OF_LOCATIONS].concat(), 252),
         _ => (Fault::OF_PATCHES.to_vec(), 31),
     };
-    (faults, VerifyPlan { subjects: vec![subject], shard: Shard { part: 1, of } })
+    (faults, Shard { part: 1, of })
 }
 
 #[test]
 fn every_subject_sees_every_fault() {
     let random = Subject::Random { patches: 300, seed: 1 };
     for subject in Subject::ALL.into_iter().chain([random]) {
-        let (faults, plan) = faulty_plan(subject);
+        let (faults, shard) = faults_of(subject);
         for fault in faults {
             let faulty = Faulty::new(CoreBackend, fault, 0);
             let committed = faulty.committed();
-            let result =
-                verify(&mut [vec![Box::new(faulty)]], &plan, &Known::default(), &|_, _, _| {});
+            let mut workers: [Vec<Box<dyn Backend>>; 1] = [vec![Box::new(faulty)]];
+            let result = verify(&mut workers, subject, shard, &Known::default(), &|_, _| {});
             assert!(committed.load(Ordering::Relaxed), "{fault:?} was committed");
             if fault == Fault::ShortAnswer {
                 assert!(result.is_err(), "{subject:?}: an answer too few");
@@ -45,10 +46,9 @@ fn every_subject_sees_every_fault() {
 /// A difference is counted for the backend that has it, not for the one beside it.
 #[test]
 fn differences_are_told_apart_by_backend() {
-    let plan =
-        VerifyPlan { subjects: vec![Subject::Transitions], shard: Shard { part: 1, of: 31 } };
     let faulty = Faulty::new(CoreBackend, Fault::LastIndex, 0);
-    let rows = run(&mut [vec![Box::new(CoreBackend), Box::new(faulty)]], &plan);
+    let backends: [Box<dyn Backend>; 2] = [Box::new(CoreBackend), Box::new(faulty)];
+    let rows = run(backends.into(), Subject::Transitions, Shard { part: 1, of: 31 });
     let mismatches: Vec<u64> = rows.iter().map(|row| row.mismatches).collect();
     assert_eq!(mismatches, [0, 1], "{rows:?}");
 }
@@ -56,12 +56,10 @@ fn differences_are_told_apart_by_backend() {
 /// A single bit of a single random patch, somewhere in the middle.
 #[test]
 fn one_bit_of_one_random_patch() {
-    let plan = VerifyPlan {
-        subjects: vec![Subject::Random { patches: 5000, seed: 3 }],
-        shard: Shard::WHOLE,
-    };
+    let subject = Subject::Random { patches: 5000, seed: 3 };
     for fault in [Fault::PointU, Fault::LastPoint] {
-        let rows = run(&mut [vec![Box::new(Faulty::new(CoreBackend, fault, 101))]], &plan);
+        let faulty = Box::new(Faulty::new(CoreBackend, fault, 101));
+        let rows = run(vec![faulty], subject, Shard::WHOLE);
         let [row] = &rows[..] else { panic!("one row: {rows:?}") };
         assert_eq!((row.compared, row.mismatches), (96 * 5000, 1), "{row:?}");
         let first = row.first.as_deref().unwrap_or_default();
@@ -73,19 +71,15 @@ fn one_bit_of_one_random_patch() {
 /// The patch that differs is excused, and no other; the stage of what is not is counted.
 #[test]
 fn a_known_difference_is_no_mismatch() {
-    let plan = VerifyPlan {
-        subjects: vec![Subject::Random { patches: 100, seed: 3 }],
-        shard: Shard::WHOLE,
-    };
-    let faulty = || -> Vec<Vec<Box<dyn Backend>>> {
-        vec![vec![Box::new(Faulty::new(CoreBackend, Fault::PointU, 20))]]
-    };
-    let row = run(&mut faulty(), &plan).remove(0);
+    let subject = Subject::Random { patches: 100, seed: 3 };
+    let faulty =
+        || -> Vec<Box<dyn Backend>> { vec![Box::new(Faulty::new(CoreBackend, Fault::PointU, 20))] };
+    let row = run(faulty(), subject, Shard::WHOLE).remove(0);
     assert_eq!(row.stages.values().sum::<u64>(), 1, "{row:?}");
     let line = row.first.as_deref().and_then(|first| first.lines().next()).expect("a case line");
     let with = |line: &str| {
         let known = Known::read("known", line.as_bytes(), None, "2026-01-01").expect("a baseline");
-        let rows = verify(&mut faulty(), &plan, &known, &|_, _, _| {});
+        let rows = verify(&mut [faulty()], subject, Shard::WHOLE, &known, &|_, _| {});
         let row = rows.expect("the backend runs").remove(0);
         let (_, gone, wrong) = known.outcome(true);
         (row.mismatches, row.known, gone.len() + wrong.len())

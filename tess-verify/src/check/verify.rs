@@ -12,16 +12,5 @@ pub use run::{SubjectRow, verify};
 pub use subject::Subject;
 use units::{Unit, Units};
 
-use crate::generate::Shard;
-
-/// What to compare.
-#[derive(Clone, Debug)]
-pub struct VerifyPlan {
-    /// The subjects, in order.
-    pub subjects: Vec<Subject>,
-    /// The part of each subject's units to do.
-    pub shard: Shard,
-}
-
 #[cfg(test)]
 mod tests;

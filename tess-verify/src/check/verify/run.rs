@@ -1,7 +1,7 @@
 //! Compares units and adds up what was compared.
 
 use super::units::VALUES;
-use super::{Subject, Unit, Units, VerifyPlan};
+use super::{Subject, Unit, Units};
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::Case;
 use crate::check::Known;
@@ -9,6 +9,7 @@ use crate::check::compare::{self, Mismatch, SpecStage};
 use crate::check::sequences::bucket;
 use crate::check::{Strength, check_case, tessellate};
 use crate::core_backend::CoreBackend;
+use crate::generate::Shard;
 use crate::names::Named;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -36,52 +37,40 @@ pub struct SubjectRow {
     pub passes_alone: bool,
 }
 
-/// Compares everything in the plan's shard. A patch that differs is no mismatch if that is `known`.
+/// Compares the units of a subject that are in the shard, one row for each backend. A patch that differs is no mismatch
+/// if that is `known`.
 ///
 /// Give one list of backends for each thread to use, all lists with the same backends. `progress` is
-/// called from any thread with the subject, the number of units that are done, and the number of all.
+/// called from any thread with the number of units that are done, and the number of all.
 ///
 /// # Errors
 /// A backend that could not run, or no backend at all.
 pub fn verify(
     workers: &mut [Vec<Box<dyn Backend>>],
-    plan: &VerifyPlan,
+    subject: Subject,
+    shard: Shard,
     known: &Known,
-    progress: &(dyn Fn(Subject, u64, u64) + Sync),
+    progress: &(dyn Fn(u64, u64) + Sync),
 ) -> Result<Vec<SubjectRow>, BackendError> {
     if workers.first().is_none_or(Vec::is_empty) {
         return Err(BackendError::new("no backend to verify"));
     }
-    let mut table = Vec::new();
-    for &subject in &plan.subjects {
-        table.extend(verify_subject(workers, plan, known, subject, progress)?);
-    }
-    Ok(table)
-}
-
-fn verify_subject(
-    workers: &mut [Vec<Box<dyn Backend>>],
-    plan: &VerifyPlan,
-    known: &Known,
-    subject: Subject,
-    progress: &(dyn Fn(Subject, u64, u64) + Sync),
-) -> Result<Vec<SubjectRow>, BackendError> {
     let units = Units::of(subject);
-    let mine = plan.shard.items(units.count());
+    let mine = shard.items(units.count());
     let names: Vec<&'static str> = workers[0].iter().map(|backend| backend.name()).collect();
     let rows: Vec<SubjectRow> =
         names.into_iter().map(|backend| SubjectRow::new(subject, backend)).collect();
     let rows = Mutex::new(rows);
     let (next, done) = (AtomicU64::new(0), AtomicU64::new(0));
     let work = |backends: &mut Vec<Box<dyn Backend>>| -> Result<(), BackendError> {
-        let next_unit = || plan.shard.item(next.fetch_add(1, Ordering::Relaxed));
+        let next_unit = || shard.item(next.fetch_add(1, Ordering::Relaxed));
         while let Some(unit) = next_unit().and_then(|number| units.get(number)) {
             for (column, backend) in backends.iter_mut().enumerate() {
                 let compared = compare_unit(backend.as_mut(), &unit, known)?;
                 rows.lock().unwrap_or_else(PoisonError::into_inner)[column].add(compared);
             }
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress(subject, done, mine);
+            progress(done, mine);
         }
         Ok(())
     };

@@ -10,7 +10,7 @@ use crate::output::{Role, note, print, progress, refuse_shared};
 use std::fmt::Write;
 use std::time::Instant;
 use tess_core::SplitOrder;
-use tess_verify::check::{Known, SecondFormulation, Subject, SubjectRow, VerifyPlan, verify};
+use tess_verify::check::{Known, SecondFormulation, Subject, SubjectRow, verify};
 use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::rules::{Specification, check_rules};
 use tess_verify::{Backend, Named};
@@ -101,16 +101,14 @@ impl Args {
         known: &Known,
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
-        let VerifyPlan { subjects, shard } = self.plan(placed);
         let bar = progress(0, "units");
         print(&bar, &heading())?;
         let started = Instant::now();
         let mut all_equal = true;
-        for &subject in &subjects {
-            let one = VerifyPlan { subjects: vec![subject], shard };
-            let table = verify(&mut workers, &one, known, &|subject, done, all| {
+        for subject in self.subjects() {
+            bar.set_message(subject.name());
+            let table = verify(&mut workers, subject, placed.shard, known, &|done, all| {
                 bar.set_length(all);
-                bar.set_message(subject.name());
                 bar.set_position(done);
             });
             let table = table.inspect_err(|_| bar.finish_and_clear())?;
@@ -124,14 +122,13 @@ impl Args {
         Ok(if all_equal { Exit::Done } else { Exit::Different })
     }
 
-    fn plan(&self, placed: Placed) -> VerifyPlan {
-        let subjects = match self.random {
+    fn subjects(&self) -> Vec<Subject> {
+        match self.random {
             Some(patches) => vec![Subject::Random { patches, seed: self.seed }],
             None if !self.subject.is_empty() => self.subject.clone(),
             None if self.exhaustive => Subject::ALL.to_vec(),
             None => vec![Subject::Level1, Subject::Level2],
-        };
-        VerifyPlan { subjects, shard: placed.shard }
+        }
     }
 
     /// Judges each backend by the rules of a standard.
