@@ -62,139 +62,81 @@ fn write_gltf(folder: &Path, name: &str, mut document: Value, bytes: &[u8]) -> P
     write(folder, name, document.to_string())
 }
 
-fn check(cases: &[(&[(&str, Value)], &str)], folder: &str) {
+/// Each line has changes of the triangle, `PATH=JSON` with `; ` between them, and what is said of the result.
+fn check(folder: &str, cases: &str) {
     let folder = directory(folder);
     let (document, bytes) = triangle();
     let right = write_gltf(&folder, "right.gltf", document.clone(), &bytes);
     assert_eq!(counts(&mesh(&right, "--factor 1", &folder.join("right.obj"))), [1, 3, 1], "right");
-    for (number, (changes, message)) in cases.iter().enumerate() {
+    for case in cases.trim().lines() {
+        let (changes, message) = case.split_once(" | ").expect("changes and a message");
         let mut wrong = document.clone();
-        for (path, value) in *changes {
-            set(&mut wrong, path, value.clone());
+        for change in changes.trim().split("; ") {
+            let (path, value) = change.split_once('=').expect("a path and a value");
+            set(&mut wrong, path, serde_json::from_str(value).expect(value));
         }
-        refused(&write_gltf(&folder, &format!("{number}.gltf"), wrong, &bytes), "", message);
+        refused(&write_gltf(&folder, "wrong.gltf", wrong, &bytes), "", message);
     }
 }
 
 #[test]
 fn types_that_attributes_must_not_have() {
-    const POSITION: &str = "meshes[0].primitives[0].attributes.POSITION: accessors[0] ";
-    let bytes = |component: u32| {
-        [("accessors/0/componentType", json!(component)), ("bufferViews/0/byteStride", json!(12))]
-    };
     check(
-        &[
-            (&bytes(5120), POSITION),
-            (&bytes(5121), "is Vec3 of UnsignedByte; it must be VEC3 of Float"),
-            (&bytes(5122), POSITION),
-            (&bytes(5125), POSITION),
-            (&bytes(5124), "accessors[0].componentType: 5124 is not a component type"),
-            (&bytes(5126 + (1 << 31)), "is not a component type"),
-            (&[("accessors/0/type", json!("VEC2"))], "is Vec2 of Float; it must be VEC3"),
-            (
-                &[("accessors/0/type", json!("VEC4")), ("accessors/0/count", json!(2))],
-                "is Vec4 of Float; it must be VEC3",
-            ),
-            (
-                &[
-                    ("accessors/0/type", json!("MAT4")),
-                    ("bufferViews/0/byteLength", json!(104)),
-                    ("accessors/0/count", json!(1)),
-                ],
-                "is Mat4 of Float",
-            ),
-            (&[("accessors/0/type", json!("VEC5"))], "accessors[0].type: unknown variant `VEC5`"),
-            (&[("accessors/1/type", json!("SCALAR"))], "NORMAL: accessors[1] is Scalar of Float"),
-            (
-                &[
-                    ("accessors/2/type", json!("VEC3")),
-                    ("bufferViews/2/byteLength", json!(36)),
-                    ("bufferViews/2/byteOffset", json!(64)),
-                ],
-                "TEXCOORD_0: accessors[2] is Vec3",
-            ),
-            (&[("accessors/2/componentType", json!(5123))], "TEXCOORD_0: accessors[2] is Vec2 of"),
-            (
-                &[("accessors/3/type", json!("VEC2")), ("accessors/3/count", json!(2))],
-                "meshes[0].primitives[0].indices: accessors[3] is Vec2 of UnsignedShort",
-            ),
-            (&[("accessors/3/componentType", json!(5122))], "accessors[3] is Scalar of Short"),
-            (&[("accessors/3/componentType", json!(5120))], "accessors[3] is Scalar of Byte"),
-            (&[("accessors/0/normalized", json!(true))], "accessors[0].normalized: only bytes"),
-            (&[("accessors/0/min", Value::Null)], "accessors[0] has no min or no max"),
-            (
-                &[("meshes/0/primitives/0/attributes/NORMALS", json!(1))],
-                "NORMALS: accessors[1] has a",
-            ),
-            (
-                &[("meshes/0/primitives/0/attributes/POSITION", Value::Null)],
-                "attributes: no POSITION",
-            ),
-            (&[("meshes/0/primitives/0/mode", json!(5))], "primitives[0].mode: mode 5; only"),
-        ],
         "mesh_gltf_types",
+        r#"
+         accessors/0/componentType=5120; bufferViews/0/byteStride=12 | meshes[0].primitives[0].attributes.POSITION: accessors[0]
+         accessors/0/componentType=5121; bufferViews/0/byteStride=12 | is Vec3 of UnsignedByte; it must be VEC3 of Float
+         accessors/0/componentType=5122; bufferViews/0/byteStride=12 | meshes[0].primitives[0].attributes.POSITION: accessors[0]
+         accessors/0/componentType=5125; bufferViews/0/byteStride=12 | meshes[0].primitives[0].attributes.POSITION: accessors[0]
+         accessors/0/componentType=5124; bufferViews/0/byteStride=12 | accessors[0].componentType: 5124 is not a component type
+         accessors/0/componentType=2147488774; bufferViews/0/byteStride=12 | is not a component type
+         accessors/0/type="VEC2" | is Vec2 of Float; it must be VEC3
+         accessors/0/type="VEC4"; accessors/0/count=2 | is Vec4 of Float; it must be VEC3
+         accessors/0/type="MAT4"; bufferViews/0/byteLength=104; accessors/0/count=1 | is Mat4 of Float
+         accessors/0/type="VEC5" | accessors[0].type: unknown variant `VEC5`
+         accessors/1/type="SCALAR" | NORMAL: accessors[1] is Scalar of Float
+         accessors/2/type="VEC3"; bufferViews/2/byteLength=36; bufferViews/2/byteOffset=64 | TEXCOORD_0: accessors[2] is Vec3
+         accessors/2/componentType=5123 | TEXCOORD_0: accessors[2] is Vec2 of
+         accessors/3/type="VEC2"; accessors/3/count=2 | meshes[0].primitives[0].indices: accessors[3] is Vec2 of UnsignedShort
+         accessors/3/componentType=5122 | accessors[3] is Scalar of Short
+         accessors/3/componentType=5120 | accessors[3] is Scalar of Byte
+         accessors/0/normalized=true | accessors[0].normalized: only bytes
+         accessors/0/min=null | accessors[0] has no min or no max
+         meshes/0/primitives/0/attributes/NORMALS=1 | NORMALS: accessors[1] has a
+         meshes/0/primitives/0/attributes/POSITION=null | attributes: no POSITION
+         meshes/0/primitives/0/mode=5 | primitives[0].mode: mode 5; only"#,
     );
 }
 
 #[test]
 fn bytes_that_are_not_there() {
-    let sparse = |index: u32| {
-        json!({
-            "count": 1, "indices": {"bufferView": 3, "componentType": 5123, "byteOffset": index},
-            "values": {"bufferView": 0},
-        })
-    };
-    check(
-        &[
-            (
-                &[("accessors/0/count", json!(4))],
-                "accessors[0].count: 4 elements of 12 bytes, 12 apart",
-            ),
-            (&[("accessors/1/count", json!(4))], "accessors[1].count: 4 elements"),
-            (&[("accessors/1/byteOffset", json!(4))], "accessors[1].count: 3 elements"),
-            (&[("accessors/0/count", json!(u64::MAX))], "accessors[0].count: "),
-            (&[("accessors/0/count", json!(0))], "accessors[0].count: it is 0"),
-            (&[("accessors/0/bufferView", json!(4))], "accessors[0].bufferView: 4 is out of range"),
-            (&[("accessors/0/bufferView", json!(1u64 << 32))], "accessors[0].bufferView: "),
-            (&[("accessors/0/bufferView", Value::Null)], "it is missing, and so is sparse"),
-            (
-                &[("bufferViews/0/byteStride", json!(4))],
-                "accessors[0].bufferView: its byteStride 4",
-            ),
-            (&[("bufferViews/0/byteStride", json!(13))], "bufferViews[0].byteStride: 13 is not"),
-            (
-                &[("bufferViews/0/byteLength", json!(105))],
-                "bufferViews[0].byteLength: 105 bytes from 0",
-            ),
-            (&[("bufferViews/0/byteOffset", json!(u64::MAX))], "bufferViews[0].byteLength: "),
-            (&[("bufferViews/1/byteOffset", json!(38))], "accessors[1].byteOffset: components"),
-            (&[("bufferViews/0/buffer", json!(1))], "bufferViews[0].buffer: 1 is out of range"),
-            (&[("buffers/0/byteLength", json!(105))], "buffers[0]: it has 104 of its 105 bytes"),
-            (&[("buffers/0/byteLength", json!(1u64 << 40))], "the buffers have more than 4 GiB"),
-            (
-                &[("meshes/0/primitives/0/attributes/POSITION", json!(9))],
-                "POSITION: 9 is out of range",
-            ),
-            (&[("meshes/0/primitives/0/indices", json!(9))], "indices: 9 is out of range"),
-            (&[("accessors/2/count", json!(2))], "attributes.TEXCOORD_0: its count is not that of"),
-            (&[("accessors/3/count", json!(2))], "accessors[3] 2 indices are no whole triangles"),
-            (&[("bufferViews/3/byteOffset", json!(12))], "accessors[3] index 16256 at 1 is out of"),
-            (
-                &[
-                    ("accessors/0/sparse", sparse(10)),
-                    ("bufferViews/3/byteOffset", json!(72)),
-                    ("bufferViews/3/byteLength", json!(24)),
-                ],
-                "accessors[0].sparse.indices: 16256 is out of range: there are 3 elements",
-            ),
-            (
-                &[("accessors/0/sparse", sparse(8))],
-                "accessors[0].sparse.indices: count: 1 elements",
-            ),
-            (&[("accessors/0/sparse", sparse(1))], "accessors[0].sparse.indices: byteOffset: comp"),
-        ],
-        "mesh_gltf_bytes",
-    );
+    let sparse = r#"{"count":1,"values":{"bufferView":0},"indices":{"bufferView":3,"componentType":5123,"byteOffset""#;
+    let cases = r#"
+         accessors/0/count=4 | accessors[0].count: 4 elements of 12 bytes, 12 apart
+         accessors/1/count=4 | accessors[1].count: 4 elements
+         accessors/1/byteOffset=4 | accessors[1].count: 3 elements
+         accessors/0/count=18446744073709551615 | accessors[0].count:
+         accessors/0/count=0 | accessors[0].count: it is 0
+         accessors/0/bufferView=4 | accessors[0].bufferView: 4 is out of range
+         accessors/0/bufferView=4294967296 | accessors[0].bufferView:
+         accessors/0/bufferView=null | it is missing, and so is sparse
+         bufferViews/0/byteStride=4 | accessors[0].bufferView: its byteStride 4
+         bufferViews/0/byteStride=13 | bufferViews[0].byteStride: 13 is not
+         bufferViews/0/byteLength=105 | bufferViews[0].byteLength: 105 bytes from 0
+         bufferViews/0/byteOffset=18446744073709551615 | bufferViews[0].byteLength:
+         bufferViews/1/byteOffset=38 | accessors[1].byteOffset: components
+         bufferViews/0/buffer=1 | bufferViews[0].buffer: 1 is out of range
+         buffers/0/byteLength=105 | buffers[0]: it has 104 of its 105 bytes
+         buffers/0/byteLength=1099511627776 | the buffers have more than 4 GiB
+         meshes/0/primitives/0/attributes/POSITION=9 | POSITION: 9 is out of range
+         meshes/0/primitives/0/indices=9 | indices: 9 is out of range
+         accessors/2/count=2 | attributes.TEXCOORD_0: its count is not that of
+         accessors/3/count=2 | accessors[3] 2 indices are no whole triangles
+         bufferViews/3/byteOffset=12 | accessors[3] index 16256 at 1 is out of
+         accessors/0/sparse=SPARSE:10}}; bufferViews/3/byteOffset=72; bufferViews/3/byteLength=24 | accessors[0].sparse.indices: 16256 is out of range: there are 3 elements
+         accessors/0/sparse=SPARSE:8}} | accessors[0].sparse.indices: count: 1 elements
+         accessors/0/sparse=SPARSE:1}} | accessors[0].sparse.indices: byteOffset: comp"#;
+    check("mesh_gltf_bytes", &cases.replace("SPARSE", sparse));
 }
 
 /// JSON is UTF-8, also in the members that nobody reads.
@@ -214,20 +156,19 @@ fn text_that_is_not_utf8() {
 #[test]
 fn documents_for_other_readers() {
     check(
-        &[
-            (&[("asset/version", json!("1.0"))], "asset.version: 1.0 is not read, only 2.x"),
-            (&[("asset/version", json!("3.0"))], "asset.version: 3.0 is not read, only 2.x"),
-            (&[("asset/version", json!("two"))], "asset.version: `two` is not a version"),
-            (&[("asset/version", json!(2))], "asset.version: invalid type"),
-            (&[("asset/minVersion", json!("2.9"))], "asset.minVersion: 2.9 is needed, but 2.0"),
-            (&[("extensionsRequired", json!(["X_y"]))], "extensionsRequired[0]: `X_y` is not"),
-            (&[("scene", json!(1))], "scene: 1 is out of range: there are 1 scenes"),
-            (&[("nodes/0/mesh", json!(7))], "nodes[0].mesh: 7 is out of range: there are 1 meshes"),
-            (&[("nodes/0/scale", json!([1, 1e39, 1]))], "nodes[0].scale: a number is too large"),
-            (&[("nodes/0/rotation", json!([1, 1, 1, 1]))], "nodes[0].rotation: it is not a unit"),
-            (&[("nodes/0/matrix", json!(vec![0; 16]))], "nodes[0].matrix: its last row"),
-        ],
         "mesh_gltf_documents",
+        r#"
+         asset/version="1.0" | asset.version: 1.0 is not read, only 2.x
+         asset/version="3.0" | asset.version: 3.0 is not read, only 2.x
+         asset/version="two" | asset.version: `two` is not a version
+         asset/version=2 | asset.version: invalid type
+         asset/minVersion="2.9" | asset.minVersion: 2.9 is needed, but 2.0
+         extensionsRequired=["X_y"] | extensionsRequired[0]: `X_y` is not
+         scene=1 | scene: 1 is out of range: there are 1 scenes
+         nodes/0/mesh=7 | nodes[0].mesh: 7 is out of range: there are 1 meshes
+         nodes/0/scale=[1, 1e39, 1] | nodes[0].scale: a number is too large
+         nodes/0/rotation=[1, 1, 1, 1] | nodes[0].rotation: it is not a unit
+         nodes/0/matrix=[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0] | nodes[0].matrix: its last row"#,
     );
 }
 
@@ -238,22 +179,13 @@ fn nodes_in_circles() {
         .map(|k| if k < 39 { json!({"children": [k + 1, k + 1]}) } else { json!({"mesh": 0}) })
         .collect();
     let folder = directory("mesh_gltf_chain");
-    check(
-        &[
-            (
-                &[("nodes/0/children", json!([0]))],
-                "scenes[0].nodes[0]: node 0 is a child of node 0",
-            ),
-            (
-                &[("nodes", json!(doubled))],
-                "nodes[0].children[1]: node 1 is a child of node 0 already",
-            ),
-            (&[("nodes/0/children", json!([5]))], "nodes[0].children[0]: 5 is out of range"),
-            (&[("scenes/0/nodes", json!([0, 0]))], "scenes[0].nodes[1]: node 0 is there twice"),
-            (&[("scenes/0/nodes", json!([3]))], "scenes[0].nodes[0]: 3 is out of range"),
-        ],
-        "mesh_gltf_nodes",
-    );
+    let nodes = r#"
+         nodes/0/children=[0] | scenes[0].nodes[0]: node 0 is a child of node 0
+         nodes=DOUBLED | nodes[0].children[1]: node 1 is a child of node 0 already
+         nodes/0/children=[5] | nodes[0].children[0]: 5 is out of range
+         scenes/0/nodes=[0, 0] | scenes[0].nodes[1]: node 0 is there twice
+         scenes/0/nodes=[3] | scenes[0].nodes[0]: 3 is out of range"#;
+    check("mesh_gltf_nodes", &nodes.replace("DOUBLED", &json!(doubled).to_string()));
     let (mut chain, bytes) = triangle();
     let nodes = (0..20_000)
         .map(|k| if k < 19_999 { json!({"children": [k + 1]}) } else { json!({"mesh": 0}) });
