@@ -83,10 +83,11 @@ pub struct BackendError {
 }
 
 impl BackendError {
-    /// An error with no other underneath.
+    /// An error with no other underneath, of a text or of what shows as one.
     #[must_use]
-    pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), source: None }
+    #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
+    pub fn new(message: impl ToString) -> Self {
+        Self { message: message.to_string(), source: None }
     }
 
     /// The answer of an implementation that does not have a configuration. A fuzz target leaves such a case out:

@@ -39,20 +39,21 @@ pub(crate) struct Failure {
     pub(crate) message: String,
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
 impl Failure {
     /// Bad usage or bad input: exit code 2.
-    pub(crate) fn bad_input(message: impl Into<String>) -> Self {
-        Self { exit: Exit::BadInput, message: message.into() }
+    pub(crate) fn bad_input(message: impl ToString) -> Self {
+        Self { exit: Exit::BadInput, message: message.to_string() }
     }
 
     /// A result that is not what it must be: exit code 1.
-    pub(crate) fn different(message: impl Into<String>) -> Self {
-        Self { exit: Exit::Different, message: message.into() }
+    pub(crate) fn different(message: impl ToString) -> Self {
+        Self { exit: Exit::Different, message: message.to_string() }
     }
 
     /// A backend that is not built in or cannot run here: exit code 3.
-    pub(crate) fn unavailable(message: impl Into<String>) -> Self {
-        Self { exit: Exit::Unavailable, message: message.into() }
+    pub(crate) fn unavailable(message: impl ToString) -> Self {
+        Self { exit: Exit::Unavailable, message: message.to_string() }
     }
 
     /// A place that could not be written: exit code 2; a reader that left ends the program quietly.

@@ -23,8 +23,7 @@ pub(crate) struct GpuBackend {
 impl GpuBackend {
     /// Opens the adapter, for indices of 16 or 32 bits. Errors: exit code 3 if there is none.
     pub(crate) fn open(index_type: IndexWidth) -> Result<Self, Failure> {
-        let gpu = pollster::block_on(Gpu::open())
-            .map_err(|error| Failure::unavailable(error.to_string()))?;
+        let gpu = pollster::block_on(Gpu::open()).map_err(Failure::unavailable)?;
         let tessellator = Tessellator::new(&gpu.device);
         Ok(Self { gpu, tessellator, index_type })
     }
@@ -38,7 +37,7 @@ impl GpuBackend {
     ) -> Result<Vec<u32>, BackendError> {
         let config = Config { split, ..Config::new(partitioning, OutputPrimitive::Point) };
         let setup = Setup::new(Domain::Triangle, config);
-        self.tessellator.tap(&self.gpu, tap, setup, input).map_err(device_error)
+        self.tessellator.tap(&self.gpu, tap, setup, input).map_err(BackendError::new)
     }
 }
 
@@ -68,7 +67,7 @@ impl Backend for GpuBackend {
         let Some(first) = patches.first() else { return Ok(Vec::new()) };
         let setup = setup_of(first.domain(), config, self.index_type);
         let output = self.tessellator.tessellate(&self.gpu, setup, patches);
-        split_by_patch(&output.map_err(device_error)?, setup)
+        split_by_patch(&output.map_err(BackendError::new)?, setup)
     }
 
     fn fixed_factors(
@@ -102,12 +101,6 @@ impl Backend for GpuBackend {
             .flat_map(|(all, context)| all.iter().copied().take(context.points as usize))
             .collect())
     }
-}
-
-/// A message of tess-wgpu as an error of the backend.
-#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
-pub(crate) fn device_error(error: tess_wgpu::Error) -> BackendError {
-    BackendError::new(error.to_string())
 }
 
 /// The patches of a batch, one after another, as the specification numbers them.

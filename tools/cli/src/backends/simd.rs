@@ -44,7 +44,7 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
         let tessellator = match tessellators.entry(config) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(new) => {
-                new.insert(Tessellator::with_level(config, *level).map_err(unavailable)?)
+                new.insert(Tessellator::with_level(config, *level).map_err(BackendError::new)?)
             }
         };
         let mut all = Vec::with_capacity(patches.len());
@@ -52,7 +52,7 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
         for batch in patches.chunks(4096) {
             tessellator
                 .tessellate(batch, Numbering::PerPatch, output)
-                .map_err(|error| BackendError::new(error.to_string()))?;
+                .map_err(BackendError::new)?;
             let whole = (0..output.ranges().len()).filter_map(|patch| output.patch(patch));
             all.extend(whole.map(|(points, indices)| Tessellation {
                 points: points.to_vec(),
@@ -67,7 +67,7 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
         partitioning: Partitioning,
         values: &[f32],
     ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
-        tess_simd::fixed_factors(self.level, partitioning, values).map_err(unavailable)
+        tess_simd::fixed_factors(self.level, partitioning, values).map_err(BackendError::new)
     }
 
     fn contexts(
@@ -76,14 +76,10 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
         parity: Parity,
         factors: &[FixedFactor],
     ) -> Result<Vec<FactorContext>, BackendError> {
-        tess_simd::contexts(self.level, split, parity, factors).map_err(unavailable)
+        tess_simd::contexts(self.level, split, parity, factors).map_err(BackendError::new)
     }
 
     fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
-        tess_simd::locations(self.level, contexts).map_err(unavailable)
+        tess_simd::locations(self.level, contexts).map_err(BackendError::new)
     }
-}
-
-fn unavailable(error: LevelUnavailable) -> BackendError {
-    BackendError::new(error.to_string())
 }

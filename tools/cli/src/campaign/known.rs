@@ -60,8 +60,8 @@ impl KnownArgs {
             return Err(Failure::bad_input("--known is kept from run to run: give a file"));
         }
         let reader = input::open(path).map_err(|error| Failure::file("read", path, &error))?;
-        let known = Known::read(&input::name(path), reader, rules, &today())
-            .map_err(|error| Failure::bad_input(error.to_string()))?;
+        let known =
+            Known::read(&input::name(path), reader, rules, &today()).map_err(Failure::bad_input)?;
         let mut lines: Vec<String> = known.lines().map(|line| line + "\n").collect();
         let entries = lines.len() as u64;
         // Of the set of lines: neither order nor remarks change it.

@@ -67,7 +67,7 @@ impl ReportArgs {
             };
             Ok((live, Box::new(interrupted)))
         })
-        .map_err(|error| Failure::bad_input(error.to_string()))?;
+        .map_err(Failure::bad_input)?;
         Ok(Recorder { files, live, _guard: Some(guard) })
     }
 

@@ -50,7 +50,7 @@ impl PictureFormat {
     pub(crate) fn render(self, drawing: &Drawing) -> Result<Vec<u8>, Failure> {
         match self {
             Self::Svg => Ok(drawing.to_svg().into_bytes()),
-            Self::Png => drawing.to_png().map_err(|error| Failure::bad_input(error.to_string())),
+            Self::Png => drawing.to_png().map_err(Failure::bad_input),
         }
     }
 }

@@ -61,7 +61,7 @@ impl Kernel for CoreKernel {
                 (&mut points[first_point as usize..], &mut indices[first_index as usize..]);
             let counts = Patch::new(self.config, factors)
                 .write(points, indices)
-                .map_err(|error| BackendError::new(error.to_string()))?;
+                .map_err(BackendError::new)?;
             let (points, indices) = (counts.points, counts.indices);
             *range = PatchRange { first_point, points, first_index, indices };
             first_point += points;

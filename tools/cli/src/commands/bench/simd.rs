@@ -64,10 +64,6 @@ impl<I> SimdKernel<I> {
     }
 }
 
-fn failed(error: tess_simd::Error) -> BackendError {
-    BackendError::new(error.to_string())
-}
-
 impl<I: IndexFormat + Into<u32>> Kernel for SimdKernel<I> {
     type Point = [f32; 2];
     type Index = I;
@@ -81,10 +77,10 @@ impl<I: IndexFormat + Into<u32>> Kernel for SimdKernel<I> {
 
     fn take(&mut self, workload: &Workload) -> Result<(), BackendError> {
         let tessellator = Tessellator::with_level(workload.config, self.level)
-            .map_err(|error| BackendError::new(error.to_string()))?
+            .map_err(BackendError::new)?
             .threads(self.pool.current_num_threads())
             .order(self.order);
-        let patches = OwnedBatch::try_from(&workload.patches[..]).map_err(failed)?;
+        let patches = OwnedBatch::try_from(&workload.patches[..]).map_err(BackendError::new)?;
         self.taken = Some((tessellator, patches));
         self.single = match workload.calls {
             Calls::SinglePatch => workload.patches.clone(),
@@ -104,7 +100,7 @@ impl<I: IndexFormat + Into<u32>> Kernel for SimdKernel<I> {
             return Err(BackendError::new("nothing is prepared"));
         };
         if let Some(&factors) = self.single.get(patches.start) {
-            let counts = tessellator.patch(factors, points, indices).map_err(failed)?;
+            let counts = tessellator.patch(factors, points, indices).map_err(BackendError::new)?;
             let (points, indices) = (counts.points, counts.indices);
             ranges[0] = PatchRange { first_point: 0, points, first_index: 0, indices };
             return Ok(());
@@ -113,7 +109,7 @@ impl<I: IndexFormat + Into<u32>> Kernel for SimdKernel<I> {
         let batch = all.get(patches.clone()).ok_or_else(missing)?;
         let buffers = Buffers::new(points, indices).with_ranges(ranges);
         let write = || tessellator.write(batch, Numbering::PerPatch, buffers);
-        self.pool.install(write).map(|_| ()).map_err(failed)
+        self.pool.install(write).map(|_| ()).map_err(BackendError::new)
     }
 
     /// Each thread fills always the same part of each: about what it writes of a batch.

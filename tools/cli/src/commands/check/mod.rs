@@ -285,7 +285,7 @@ fn open_cases(
     path: &Path,
     read: impl FnOnce(String, Reader) -> Result<Cases<Reader>, VectorError>,
 ) -> Result<Cases<Reader>, Failure> {
-    read(input::name(path), open(path)?).map_err(|error| Failure::bad_input(error.to_string()))
+    read(input::name(path), open(path)?).map_err(Failure::bad_input)
 }
 
 fn open(path: &Path) -> Result<Reader, Failure> {
@@ -359,6 +359,6 @@ fn show_one(out: &mut impl Write, difference: &Difference, backend: &str) -> io:
 fn failure(error: CheckError) -> Failure {
     match error {
         CheckError::Backend(error) => error.into(),
-        error => Failure::bad_input(error.to_string()),
+        error => Failure::bad_input(error),
     }
 }

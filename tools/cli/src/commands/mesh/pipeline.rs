@@ -88,11 +88,6 @@ impl MeshJob<'_> {
     }
 }
 
-/// The error of a batch that cannot be tessellated.
-fn refused(error: tess_simd::Error) -> Failure {
-    Failure::bad_input(error.to_string())
-}
-
 impl Stream<'_> {
     /// Vertices and indices of all patches.
     fn count(&mut self, factors: &[PatchFactors]) -> Result<Totals, Failure> {
@@ -100,7 +95,7 @@ impl Stream<'_> {
         for block in factors.chunks(FACTOR_BLOCK) {
             let (triangles, quads) = by_domain(0, block);
             for batch in [Batch::from(&triangles.factors[..]), Batch::from(&quads.factors[..])] {
-                let counted = self.tessellator.count(batch).map_err(refused)?;
+                let counted = self.tessellator.count(batch).map_err(Failure::bad_input)?;
                 totals.vertices += counted.points() as u64;
                 totals.indices += counted.indices() as u64;
             }
@@ -142,7 +137,7 @@ impl Stream<'_> {
             .time(MeshStage::Tessellation, || {
                 self.tessellator.tessellate(batch, numbering, &mut self.domain_points)
             })
-            .map_err(refused)?;
+            .map_err(Failure::bad_input)?;
         statistics.time(MeshStage::Evaluation, || self.evaluate(patches));
         let block = MeshBlock {
             first_vertex: statistics.vertices,

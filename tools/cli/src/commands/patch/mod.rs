@@ -75,7 +75,7 @@ impl Args {
         let source = format!("tess-{}", backend.name());
         let header = Header { kind: Kind::Listings, count: None, source, notes: Vec::new() };
         let mut listing = |case: Result<Case, VectorError>| {
-            let case = case.map_err(|error| Failure::bad_input(error.to_string()))?;
+            let case = case.map_err(Failure::bad_input)?;
             OnePatch::tessellate(backend.as_mut(), case).map(|patch| patch.listing)
         };
         let mut failed = None;

@@ -1,6 +1,5 @@
 //! `tess probe --bench`: the fixed-function stage beside the compute shaders.
 
-use super::unavailable;
 use crate::commands::shaders::{Checks, spirv};
 use crate::failure::Failure;
 use crate::output::{OutputArgs, json, progress};
@@ -32,7 +31,7 @@ pub(super) fn run(
     for workload in &workloads {
         bar.set_message(workload.name.clone());
         let shaders = |stage, setup| spirv(stage, setup, checks);
-        rows.push(bench(device, workload, RUNS, &shaders).map_err(unavailable)?);
+        rows.push(bench(device, workload, RUNS, &shaders).map_err(Failure::unavailable)?);
         bar.inc(1);
     }
     bar.finish_and_clear();

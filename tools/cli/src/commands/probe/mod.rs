@@ -133,11 +133,6 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     known.finish(recorder, placed, ended)
 }
 
-#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
-fn unavailable(error: tess_probe::Error) -> Failure {
-    Failure::unavailable(error.to_string())
-}
-
 impl Args {
     /// Compares the device with the model.
     fn compare(
@@ -158,12 +153,12 @@ impl Args {
         }
         let open = if args.points { Prober::open_for_points } else { Prober::open };
         let mut prober =
-            open(args.device).map_err(unavailable)?.with_draw_vertices(args.draw_vertices);
+            open(args.device).map_err(Failure::unavailable)?.with_draw_vertices(args.draw_vertices);
         let bar = progress(cases.len() as u64, "patches");
         let strength = args.strength();
         let report = probe_known(&mut prober, &cases, strength, known, |patches| bar.inc(patches));
         bar.finish_and_clear();
-        let report = report.map_err(unavailable)?;
+        let report = report.map_err(Failure::unavailable)?;
         recorder.update(|record| note_parts(record, &report));
         if let (Some(picture), Some(first)) = (picture, &report.unexplained.first) {
             picture.draw(first)?;
@@ -174,7 +169,7 @@ impl Args {
     }
 
     fn list_devices(&self) -> Result<Exit, Failure> {
-        let devices = list().map_err(unavailable)?;
+        let devices = list().map_err(Failure::unavailable)?;
         if devices.is_empty() {
             return Err(Failure::unavailable("Vulkan is here, but no driver has a device"));
         }
@@ -195,14 +190,14 @@ impl Args {
         known: &Known,
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
-        let mut prober = Prober::open(self.device).map_err(unavailable)?;
+        let mut prober = Prober::open(self.device).map_err(Failure::unavailable)?;
         let selection = Selection { level: GenLevel::Rules, ..self.selection.selection() };
         let bar = progress(selection.cases().count() as u64, "patches");
         let report =
             tess_probe::rules(&mut prober, selection, specification, |patches| bar.inc(patches));
         bar.finish_and_clear();
         note(&prober.info().to_string());
-        rules::conclude("device", &report.map_err(unavailable)?, known, recorder)
+        rules::conclude("device", &report.map_err(Failure::unavailable)?, known, recorder)
     }
 
     fn strength(&self) -> Strength {

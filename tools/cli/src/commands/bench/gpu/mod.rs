@@ -2,7 +2,7 @@
 
 use super::Args;
 use super::runner::{Amount, Description, Runner, WorkingSet, totals};
-use crate::backends::gpu::{device_error, setup_of, split_by_patch};
+use crate::backends::gpu::{setup_of, split_by_patch};
 use crate::failure::Failure;
 use fill::Fill;
 use std::time::{Duration, Instant};
@@ -49,7 +49,7 @@ struct Timed {
 impl GpuRunner {
     pub(super) fn new(args: &Args) -> Result<Self, Failure> {
         let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))
-            .map_err(|error| Failure::unavailable(error.to_string()))?;
+            .map_err(Failure::unavailable)?;
         let stopwatch = Stopwatch::new(&gpu).map_err(|error| {
             Failure::unavailable(format!("{} cannot be measured: {error}", gpu.name()))
         })?;
@@ -86,17 +86,17 @@ impl GpuRunner {
         amount: (Totals, u64),
     ) -> Result<Timed, BackendError> {
         let (totals, repeats) = amount;
-        let words = words_as_bytes(&factor_words(patches));
-        let words = words.repeat(usize::try_from(repeats).unwrap_or(1));
+        let bytes: Vec<u8> = factor_words(patches).into_iter().flat_map(u32::to_le_bytes).collect();
+        let bytes = bytes.repeat(usize::try_from(repeats).unwrap_or(1));
         let usage = wgpu::BufferUsages::STORAGE;
-        let factors = self.gpu.upload("factors", &words, usage).map_err(device_error)?;
+        let factors = self.gpu.upload("factors", &bytes, usage).map_err(BackendError::new)?;
         let (points, indices) = outputs;
         let count = u32::try_from(totals.patches * repeats)
             .map_err(|_| BackendError::new("more patches than 32 bits count"))?;
         let batch = self
             .tessellator
             .batch(setup, count, &factors, Outputs::Buffers { points, indices })
-            .map_err(device_error)?;
+            .map_err(BackendError::new)?;
         let spans = [
             (points, 8 * totals.points),
             (indices, u64::from(setup.index_type.bytes()) * totals.indices),
@@ -109,19 +109,6 @@ impl GpuRunner {
                 .flat_map(|(buffer, bytes)| self.fill.spans(&self.gpu, buffer, bytes * repeats))
                 .collect(),
         })
-    }
-
-    fn outputs(
-        &self,
-        points: u64,
-        indices: u64,
-        index_bytes: u64,
-    ) -> Result<(wgpu::Buffer, wgpu::Buffer), BackendError> {
-        let usage = wgpu::BufferUsages::STORAGE;
-        let buffer = |label, bytes: u64| {
-            self.gpu.buffer(label, bytes.next_multiple_of(16), usage).map_err(device_error)
-        };
-        Ok((buffer("points", 8 * points)?, buffer("indices", index_bytes * indices)?))
     }
 
     /// Runs a part until the device has left its idle state.
@@ -140,7 +127,7 @@ impl GpuRunner {
 
     fn time(&self, work: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<Duration, BackendError> {
         let time = self.stopwatch.time(&self.gpu, work);
-        time.map(Duration::from_nanos).map_err(device_error)
+        time.map(Duration::from_nanos).map_err(BackendError::new)
     }
 
     fn part(&self, part: usize) -> &[Timed] {
@@ -173,11 +160,13 @@ impl Runner for GpuRunner {
         };
         let totals: Vec<_> = ranges.iter().map(|range| totals(workload, range)).collect();
         let most = |figure: fn(&Totals) -> u64| totals.iter().map(figure).max().unwrap_or(0);
-        let (points, indices) = self.outputs(
-            most(|totals| totals.points) * repeats,
-            most(|totals| totals.indices) * repeats,
-            setup.index_type.bytes().into(),
-        )?;
+        let output = |label, bytes: u64| {
+            let bytes = (bytes * repeats).next_multiple_of(16);
+            self.gpu.buffer(label, bytes, wgpu::BufferUsages::STORAGE).map_err(BackendError::new)
+        };
+        let points = output("points", 8 * most(|totals| totals.points))?;
+        let index_bytes = u64::from(setup.index_type.bytes());
+        let indices = output("indices", index_bytes * most(|totals| totals.indices))?;
         self.batches.clear();
         for (range, &totals) in ranges.iter().zip(&totals) {
             let patches = &workload.patches[range.clone()];
@@ -194,7 +183,7 @@ impl Runner for GpuRunner {
             self.workload.as_ref().ok_or_else(|| BackendError::new("nothing is prepared"))?;
         let output = self.tessellator.tessellate(&self.gpu, *setup, patches);
         let mut digest = Fnv1a::default();
-        for patch in split_by_patch(&output.map_err(device_error)?, *setup)? {
+        for patch in split_by_patch(&output.map_err(BackendError::new)?, *setup)? {
             digest.patch(&patch);
         }
         Ok(digest.finish())
@@ -213,8 +202,4 @@ impl Runner for GpuRunner {
             self.part(part).iter().for_each(|timed| self.fill.encode(encoder, &timed.fills));
         })
     }
-}
-
-fn words_as_bytes(words: &[u32]) -> Vec<u8> {
-    words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
