@@ -3,7 +3,7 @@
 //! ```text
 //! what a developer runs      test -> setup, suite (builds, selects, one job for each program), tally (runs, counts)
 //! what guards a change       ci -> features, fuzz, ports (a file for each system), publish, then test
-//! tests that are not Rust    python, explorer, integrations (Bevy), mesa (build, compare, piglit)
+//! tests that are not Rust    python, explorer, integrations (Bevy), mesa
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! results of measurements    records (take: bench -> JSON; performance: JSON -> tables and charts)
 //! for users                  install (header, libraries, tess.pc), dist (a release's archives)
