@@ -4,8 +4,6 @@ use crate::command::{self, cargo, in_file, target, workspace};
 use crate::setup::{self, Need, has_program};
 use crate::tally;
 use std::fs;
-use std::io::{BufRead, BufReader, Write};
-use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -72,16 +70,13 @@ fn bind(file: &str, folder: &Path) -> Result<(), String> {
 /// Builds the page and serves it until the command is stopped.
 ///
 /// # Errors
-/// As for [`build`]; no port is free.
+/// As for [`build`]; port 8370 is taken.
 pub(crate) fn serve() -> Result<(), String> {
     build()?;
-    // The same address each time, if it is free, so that links stay valid.
-    let listener =
-        TcpListener::bind("127.0.0.1:8370").or_else(|_| TcpListener::bind("127.0.0.1:0"));
-    let listener = listener.map_err(|error| format!("cannot serve: {error}"))?;
-    println!("the explorer is at http://{}/", address(&listener)?);
-    answer_all(&listener);
-    Ok(())
+    // The same address each time, so that links stay valid.
+    let mut server = command::python();
+    server.args(["-m", "http.server", "--bind", "127.0.0.1", "8370", "--directory"]);
+    command::run(server.arg(page()))
 }
 
 /// Builds the page and tests it in Chromium; the last line printed is the tally.
@@ -107,13 +102,9 @@ pub(crate) fn tests(program: &Path) -> Result<Command, String> {
     build()?;
     let modules = modules()?;
     let stage = stage(&modules)?;
-    let listener = TcpListener::bind("127.0.0.1:0").map_err(|error| error.to_string())?;
-    let address = address(&listener)?;
-    std::thread::spawn(move || answer_all(&listener));
     let mut node = Command::new("node");
     node.arg(source().join("tests/run.mjs")).current_dir(workspace());
-    node.env("EXPLORER", format!("http://{address}/")).env("TESS_PROGRAM", program);
-    node.env("EXPLORER_STAGE", stage);
+    node.env("EXPLORER", page()).env("TESS_PROGRAM", program).env("EXPLORER_STAGE", stage);
     node.env("EXPLORER_MODULES", &modules).env("EXPLORER_SCREENSHOTS", modules.join("screenshots"));
     Ok(node)
 }
@@ -170,72 +161,9 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
     Ok(entries.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| path.is_file()).collect())
 }
 
-fn address(listener: &TcpListener) -> Result<std::net::SocketAddr, String> {
-    listener.local_addr().map_err(|error| error.to_string())
-}
-
-/// Serves the page to every connection, each on a thread of its own.
-fn answer_all(listener: &TcpListener) {
-    for stream in listener.incoming().flatten() {
-        // A browser that leaves early is no fault of the server.
-        std::thread::spawn(move || drop(answer(&stream)));
-    }
-}
-
-/// Answers one request for a file of the page.
-fn answer(mut stream: &TcpStream) -> std::io::Result<()> {
-    let mut lines = BufReader::new(stream).lines();
-    let request = lines.next().unwrap_or_else(|| Ok(String::new()))?;
-    // A browser wants to have sent its whole request.
-    while lines.next().transpose()?.is_some_and(|line| !line.is_empty()) {}
-    let (status, kind, body) = response(&request, &page());
-    let length = body.len();
-    write!(
-        stream,
-        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\n\
-         Cache-Control: no-cache\r\nConnection: close\r\n\r\n"
-    )?;
-    stream.write_all(&body)
-}
-
-/// Status, type and contents for the first line of a request. Only names of files in `folder` itself exist.
-fn response(request: &str, folder: &Path) -> (&'static str, &'static str, Vec<u8>) {
-    let path = request.strip_prefix("GET /").and_then(|rest| rest.split([' ', '?']).next());
-    let name = match path {
-        Some("") => "index.html",
-        Some(name) => name,
-        None => return ("405 Method Not Allowed", "text/plain", b"only GET".to_vec()),
-    };
-    let is_plain = !name.contains(['/', '\\']) && !name.starts_with('.');
-    let kind = match Path::new(name).extension().and_then(|extension| extension.to_str()) {
-        Some("html") => "text/html; charset=utf-8",
-        Some("css") => "text/css; charset=utf-8",
-        Some("js") => "text/javascript; charset=utf-8",
-        Some("wasm") => "application/wasm",
-        _ => "application/octet-stream",
-    };
-    match fs::read(folder.join(name)) {
-        Ok(body) if is_plain => ("200 OK", kind, body),
-        _ => ("404 Not Found", "text/plain", b"no such file".to_vec()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn only_files_of_the_folder_are_served() {
-        let folder = workspace().join("tools/explorer/web");
-        let get = |path: &str| response(&format!("GET {path} HTTP/1.1"), &folder);
-        assert_eq!(get("/").0, "200 OK", "the page");
-        assert_eq!(get("/?x#y").2, get("/index.html").2, "the page, by name");
-        assert_eq!(get("/style.css").1, "text/css; charset=utf-8", "types");
-        for path in ["/../Cargo.toml", "/..\\Cargo.toml", "/none.js", "/.hidden", "//etc/passwd"] {
-            assert_eq!(get(path).0, "404 Not Found", "{path}");
-        }
-        assert_eq!(response("POST / HTTP/1.1", &folder).0, "405 Method Not Allowed", "methods");
-    }
 
     /// The page stays plain text of moderate length, and asks no other server for anything.
     #[test]

@@ -2,13 +2,24 @@
 
 import { execFileSync } from "node:child_process";
 import { createRequire } from "node:module";
-import { existsSync, mkdirSync } from "node:fs";
-import { join } from "node:path";
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { extname, join } from "node:path";
 
 const fail = (message) => { throw new Error(message); };
 export const need = (name) => process.env[name] ?? fail(`${name} is not set: run \`cargo xtask explorer --test\``);
 
-export const address = need("EXPLORER");
+const TYPES = { ".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".wasm": "application/wasm" };
+
+// The page, and beside it the stage of `stage.mjs`, which is no part of it.
+const server = createServer(({ url }, answer) => {
+  const [, folder, name] = /^\/(stage\/)?([^/?]*)/.exec(url);
+  const file = join(need(folder ? "EXPLORER_STAGE" : "EXPLORER"), name || "index.html");
+  if (existsSync(file)) answer.writeHead(200, { "Content-Type": TYPES[extname(file)] }).end(readFileSync(file));
+  else answer.writeHead(404).end();
+});
+await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
+const address = `http://127.0.0.1:${server.address().port}/`;
 const { chromium } = createRequire(join(need("EXPLORER_MODULES"), "/"))("playwright-core");
 const shots = need("EXPLORER_SCREENSHOTS");
 
@@ -132,6 +143,7 @@ export async function runAll() {
     }
   }
   for (const browser of browsers.values()) await browser.close();
+  server.close();
   const verdict = failed === 0 ? "ok" : "FAILED";
   console.log(`test result: ${verdict}. ${ran - failed} passed; ${failed} failed; 0 ignored`);
   process.exitCode = failed === 0 ? 0 : 1;

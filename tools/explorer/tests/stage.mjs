@@ -1,20 +1,11 @@
 // The tessellation stage of `tess-wgpu` in a browser. It is no part of the page.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import { address, close, need, open, test } from "./harness.mjs";
+import { close, open, test } from "./harness.mjs";
 
-const TYPES = { js: "text/javascript", wasm: "application/wasm" };
-
-// Opens the page with the stage's module beside it, as `/stage/`.
+// Opens the page with the stage's module beside it.
 async function openStage() {
   const page = await open();
-  await page.route(`${address}stage/*`, (route) => {
-    const name = new URL(route.request().url()).pathname.split("/").pop();
-    const body = readFileSync(join(need("EXPLORER_STAGE"), name));
-    return route.fulfill({ body, contentType: TYPES[name.split(".").pop()] });
-  });
   await page.evaluate(async () => {
     window.stage = await import("/stage/tess_explorer_stage.js");
     await window.stage.default("/stage/tess_explorer_stage_bg.wasm");
