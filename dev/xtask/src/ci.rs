@@ -2,7 +2,7 @@
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
-use crate::{features, fuzz, levels, public, publish, test, traceability};
+use crate::{features, fuzz, levels, publish, script, test};
 
 /// Formatting, traceability, unused public items, lints, documentation, features, the fuzz targets, other
 /// compilers and processors, packages, then every test.
@@ -11,8 +11,8 @@ pub(crate) fn run() -> Result<(), String> {
         return Err("continuous integration on x86-64 needs a processor with AVX2".into());
     }
     command::run(&mut cargo("fmt --all --check"))?;
-    traceability::run()?;
-    public::run()?;
+    script::run(script::CHECKS, &["traceability"])?;
+    script::run(script::CHECKS, &["public"])?;
     command::run(
         cargo("clippy --workspace --all-targets --all-features").args(["--", "-D", "warnings"]),
     )?;

@@ -5,7 +5,7 @@
 //! what guards a change       ci -> features, fuzz, ports (a file for each system), publish, then test
 //! tests that are not Rust    python, explorer, integrations (Bevy), mesa
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
-//! results of measurements    records (take: bench -> JSON; performance: JSON -> tables and charts)
+//! scripts in Python          script (checks of texts; records of measurements, tables and charts)
 //! for users                  install (header, libraries, tess.pc), dist (a release's archives)
 //! with the kit compiled in   kit/rtl (the circuit: bench, stages, faults, proofs, cost)
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
@@ -31,18 +31,15 @@ mod mesa;
 mod mutants;
 mod packages;
 mod ports;
-mod public;
 mod publish;
 mod python;
-mod records;
+mod script;
 mod setup;
 mod suite;
 mod tally;
 mod test;
-mod traceability;
 
 use ports::Extent;
-use records::{performance, take};
 use std::process::ExitCode;
 
 const USAGE: &str = "\
@@ -143,8 +140,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["test", ref arguments @ ..] => test::run(arguments),
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
-        ["public"] => public::run(),
-        ["traceability"] => traceability::run(),
+        ["public" | "traceability"] => script::run(script::CHECKS, words),
         ["features", ref names @ ..] => features::check(names),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),
         ["ports", ref names @ ..] => ports::run(names, Extent::Whole),
@@ -170,8 +166,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),
         ["semver", baseline] => publish::semver(baseline),
-        ["record", ref rest @ ..] => take::run(rest),
-        ["performance"] => performance::run(),
+        ["record", ..] | ["performance"] => script::run(script::RECORDS, words),
         ["help" | "--help" | "-h"] => {
             println!("{USAGE}");
             Ok(())

@@ -25,6 +25,7 @@ pub(super) const COMPARISONS: &[Need] = &[
                 && Path::new("/usr/include/vulkan/vulkan.h").exists()
         },
     },
+    PYTHON,
 ];
 
 /// Needs of `cargo xtask test all` beyond it, the browser apart.
@@ -42,12 +43,11 @@ pub(super) const BEYOND: &[Need] = &[
     VERILATOR,
     SYSTEMC,
     ICARUS,
-    PYTHON,
 ];
 
 /// The interpreter that makes the virtual environment.
 pub(crate) const PYTHON: Need = Need {
-    what: "Python 3.9 or later with the modules venv and ensurepip (tests of the Python package)",
+    what: "Python 3.9 or later with the modules venv and ensurepip (tests of the Python package, tables of measurements)",
     packages: &["python3", "python3-venv"],
     is_there: has_python,
 };

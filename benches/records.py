@@ -1,0 +1,253 @@
+"""Measurements as data, `records/NAME.json`, and what is made of them: tables of docs/performance.md and charts.
+
+    records.py record NAME [--machine TEXT] [--rows FILE] -- BENCH-ARGUMENT...
+    records.py performance
+    records.py check
+"""
+
+import argparse
+import datetime
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+RECORDS = ROOT / "benches/records"
+RESULTS = ROOT / "docs/performance.md"
+EXPERIMENTS = ROOT / "docs/experiments.md"
+
+# Columns of rows of `tess bench --json`: key, title, and what a value is divided by.
+RATES = {
+    "patches_per_s": ("M patches/s", 1e6),
+    "triangles_per_s": ("G triangles/s", 1e9),
+    "bytes_per_s": ("GB/s", 1e9),
+    "fill_ratio": ("of fill", 1.0),
+    "core_ratio": ("of core", 1.0),
+}
+
+
+def read(name):
+    record = json.loads((RECORDS / f"{name}.json").read_text())
+    assert record["rows"], f"{name}: no rows"
+    return record
+
+
+def compact(value):
+    return json.dumps(value, separators=(",", ":"), ensure_ascii=False, sort_keys=True)
+
+
+def text_of(record):
+    """The file: a line for each key and for each row."""
+    lines = [f'  "{key}": {compact(value)}' for key, value in record.items() if key != "rows"]
+    rows = ",\n".join(f"    {compact(row)}" for row in record["rows"])
+    return "{\n" + ",\n".join([*lines, f'  "rows": [\n{rows}\n  ]']) + "\n}\n"
+
+
+def digits(value):
+    """Three significant digits, never fewer than those before the point, without zeros at the end."""
+    decimals = next((count for least, count in ((100, 0), (10, 1), (1, 2), (0.1, 3), (0.01, 4)) if value >= least), 5)
+    text = f"{value:.{decimals}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def shown(value):
+    return "" if value is None else value if isinstance(value, str) else compact(value)
+
+
+# Tables
+
+
+def table(record, targets):
+    """The command, where and when it ran, and its rows."""
+    head = "    {command}\n\n{machine}; {date}, commit {commit}.\n\n".format(**record)
+    if columns := record.get("columns"):
+        titles = [column.replace("_", " ") for column in columns]
+        cells = [[shown(row.get(column)) for column in columns] for row in record["rows"]]
+    else:
+        titles, cells = bench_table(record["rows"], targets)
+    return head + "".join(f"| {' | '.join(line)} |\n" for line in [titles, ["---"] * len(titles), *cells])
+
+
+def bench_table(rows, targets):
+    """Rows of `tess bench`: of the settings, those that differ stand behind the workload; targets follow."""
+    columns = [key for key in RATES if any(row.get(key) is not None for row in rows)]
+    has_target = any(targets_of(row, targets) for row in rows)
+    titles = ["workload", *(RATES[key][0] for key in columns), *["target"] * has_target]
+    settings = ("working_set", "threads", "index_type", "level")
+    varying = [key for key in settings if any(row.get(key) != rows[0].get(key) for row in rows)]
+
+    def cells(row):
+        of_settings = (shown(row.get(key)) + " threads" * (key == "threads") for key in varying)
+        yield ", ".join([row["workload"], *of_settings])
+        for key in columns:
+            yield "" if row.get(key) is None else digits(row[key] / RATES[key][1])
+        if has_target:
+            yield "; ".join(verdict(row, target) for target in targets_of(row, targets))
+
+    return titles, [list(cells(row)) for row in rows]
+
+
+def targets_of(row, targets):
+    """The targets of this row; they hold for 32-bit indices on one thread."""
+    is_plain = row.get("index_type") != "u16" and row.get("threads", 1) == 1
+    keys = ("backend", "workload", "working_set")
+    return [target for target in targets if is_plain and all(row.get(key) == target[key] for key in keys)]
+
+
+def verdict(row, target):
+    (title, unit), value = RATES[target["key"]], row.get(target["key"])
+    words = "not recorded" if value is None else "reached" if value >= target["at_least"] else "missed"
+    return f"{digits(target['at_least'] / unit)} {title}: {words}"
+
+
+def with_tables(text, table_of):
+    """`text` with tables between the markers `<!-- table: NAME -->` and `<!-- end -->`, and their names."""
+    used = re.findall(r"<!-- table: (\S+) -->\n", text)
+    marked = r"(<!-- table: (\S+) -->\n)(?:(?!<!-- table: ).)*?(?=<!-- end -->)"
+    text, count = re.subn(marked, lambda found: found[1] + table_of(found[2]), text, flags=re.DOTALL)
+    assert count == len(used), f"a table of {used} has no `<!-- end -->`"
+    return text, used
+
+
+# Charts
+
+# Colours of the series, which people with any eyes tell apart, in any order and in grey.
+COLOURS = ["#4477aa", "#ee8866", "#44aa77"]
+# Left of the bars are labels, right of the longest is its value.
+LEFT, LONGEST, WIDTH, BAR, GAP, HEAD = 180, 500, 760, 13, 9, 62
+
+
+def charts():
+    """Each chart's file, title, scale, series, and for each label a value for each series, where there is one."""
+    cpu = {row["workload"]: row for row in read("simd-xeon")["rows"]}
+    gpu = {row["workload"]: row for row in read("gpu-h200")["rows"]}
+    of_both = lambda key: {name: [cpu[name].get(key), gpu.get(name, {}).get(key)] for name in cpu}
+    series = ["CPU: tess-simd, one thread, AVX-512, cache", "GPU: tess-gpu, H200, stream"]
+    title = "Speed of writing the output, as a part of a fill of as many bytes"
+    yield "fill", title, False, series, of_both("fill_ratio")
+    yield "core", "Patches a second, as a multiple of the model's on one thread", True, series, of_both("core_ratio")
+
+    keys = ["stage_drawn", "compute_drawn", "in_vertex_cache_order_drawn"]
+    bars = {row["workload"]: [float(row[key]) for key in keys] for row in read("probe-h200")["rows"]}
+    title = "Factors to pixels on an H200, thousands of millions of triangles a second"
+    yield "drawn", title, False, ["fixed-function stage", "compute", "compute, vertex-cache order"], bars
+
+    bars = {}
+    for row in read("stage-h200")["rows"]:
+        bars.setdefault(f"{digits(row['triangles'] / 1e6)} M triangles", []).append(row["G_triangles/s"])
+    title = "Terrain by the stage of tess-wgpu on an H200, thousands of millions of triangles a second"
+    yield "pixels", title, False, ["points stored", "points pulled", "pulled without indices"], bars
+
+
+def svg(title, is_logarithmic, series, bars):
+    """The picture; a logarithmic bar begins at 1."""
+    for number, name in enumerate(series):
+        assert any(values[number] is not None for values in bars.values()), f"no record has a value of `{name}`"
+    most = max(value for values in bars.values() for value in values if value is not None)
+    row = len(series) * BAR + GAP
+    height = HEAD + len(bars) * row + GAP
+
+    def line(x, y, anchor, text):
+        return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{text}</text>'
+
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" font-family="sans-serif" font-size="12">',
+        "<!-- Written by `cargo xtask performance` from benches/records. Do not edit. -->",
+        f'<rect width="{WIDTH}" height="{height}" fill="#ffffff"/>',
+        f'<text x="12" y="22" font-size="14" font-weight="bold">{title}</text>',
+    ]
+    x = 12
+    for name, colour in zip(series, COLOURS):
+        left = str(x).removesuffix(".0")
+        lines += [f'<rect x="{left}" y="36" width="11" height="11" fill="{colour}"/>', line(x + 16, 46, "start", name)]
+        x += 36.0 + 6.6 * len(name)
+    if is_logarithmic:
+        lines.append(line(WIDTH - 12, 46, "end", "logarithmic"))
+    for number, (label, values) in enumerate(bars.items()):
+        top = HEAD + number * row
+        lines.append(line(LEFT - 8, top + len(series) * BAR / 2 + 4, "end", label))
+        for own, (value, colour) in enumerate(zip(values, COLOURS)):
+            if value is None:
+                continue
+            length = LONGEST * (math.log(max(value, 1)) / math.log(most) if is_logarithmic else value / most)
+            y = top + own * BAR
+            lines.append(f'<rect x="{LEFT}" y="{y}" width="{length:.1f}" height="{BAR - 1}" fill="{colour}"/>')
+            lines.append(line(LEFT + length + 5, y + 10.5, "start", digits(value)))
+    return "\n".join([*lines, "</svg>\n"])
+
+
+# Commands
+
+
+def made():
+    """Every document and chart as the records make it."""
+    targets = json.loads((ROOT / "benches/targets.json").read_text())
+    assert all(target["key"] in RATES for target in targets), "targets.json: a key that no row has"
+    text, used = with_tables(RESULTS.read_text(), lambda name: table(read(name), targets))
+    files, experiments = {RESULTS: text}, EXPERIMENTS.read_text()
+    for name in sorted(path.stem for path in RECORDS.glob("*.json")):
+        is_named = name in used or f"](../benches/records/{name}.json)" in experiments
+        assert is_named, f"{RESULTS} has no table of {name}, {EXPERIMENTS} no link to it"
+    for name, *chart in charts():
+        assert f"](images/{name}.svg)" in text, f"{RESULTS} does not show the chart {name}"
+        files[ROOT / f"docs/images/{name}.svg"] = svg(*chart)
+    return files
+
+
+def performance():
+    for path, text in made().items():
+        if not path.exists() or path.read_text() != text:
+            path.write_text(text)
+            print(f"{path} is new")
+
+
+def record(arguments):
+    """Runs `tess bench --json` and writes its rows."""
+    parser = argparse.ArgumentParser(prog="cargo xtask record", usage="%(prog)s NAME [options] -- BENCH-ARGUMENT...")
+    parser.add_argument("name", help="lower-case letters, digits and hyphens")
+    parser.add_argument("--machine", help="what ran it, instead of this machine's processor")
+    parser.add_argument("--rows", help="a file of rows that `tess bench --json` printed elsewhere")
+    at = arguments.index("--") if "--" in arguments else parser.error("no `--` before the arguments of `tess bench`")
+    options, command = parser.parse_args(arguments[:at]), f"run --release -- bench --json {' '.join(arguments[at + 1 :])}"
+    if not re.fullmatch("[a-z][a-z0-9-]*", options.name):
+        parser.error(f"`{options.name}`: a name has lower-case letters, digits and hyphens")
+
+    def output(*words):
+        return subprocess.run(words, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
+
+    if changed := output("git", "status", "--porcelain", "--", ".", ":!benches/records", ":!docs"):
+        sys.exit(f"a record names a commit; commit these first:\n{changed}")
+    commit = output("git", "rev-parse", "--short=10", "HEAD").strip()
+    machine = options.machine or f"{processor()}, {os.cpu_count()} processors"
+    rows = Path(options.rows).read_text() if options.rows else output("cargo", *command.split())
+    date = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d")
+    new = {"command": f"cargo {command}", "machine": machine, "date": date, "commit": commit, "rows": json.loads(rows)}
+    (RECORDS / f"{options.name}.json").write_text(text_of(new))
+    performance()
+
+
+def processor():
+    found = re.search(r"^model name\s*: (.*)", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    return found[1] if found else sys.exit("what machine is this? Say it with --machine TEXT")
+
+
+def check():
+    """Sees to it that documents and charts are those of the records."""
+    for path in RECORDS.glob("*.json"):
+        assert path.read_text() == text_of(json.loads(path.read_text())), f"{path}: another layout"
+    for path, text in made().items():
+        assert path.read_text() == text, f"{path}: cargo xtask performance"
+
+
+if __name__ == "__main__":
+    words = sys.argv[1:]
+    if words[:1] == ["record"]:
+        record(words[1:])
+    elif words in (["performance"], ["check"]):
+        {"performance": performance, "check": check}[words[0]]()
+    else:
+        sys.exit(__doc__)

@@ -1,0 +1,50 @@
+//! Commands that are scripts in Python.
+
+use crate::command::{self, workspace};
+
+/// Measurements as data: takes them, and makes tables and charts of them.
+pub(crate) const RECORDS: &str = "benches/records.py";
+
+/// Checks of texts.
+pub(crate) const CHECKS: &str = "dev/checks.py";
+
+/// Runs a script with these words.
+///
+/// # Errors
+/// It fails, or there is no Python.
+pub(crate) fn run(script: &str, words: &[&str]) -> Result<(), String> {
+    command::run(command::python().arg("-BE").arg(workspace().join(script)).args(words))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scripts_see_the_faults_that_they_must() {
+        for tests in
+            ["benches/records_test.py", "dev/checks_test.py", "integrations/mesa/compare_test.py"]
+        {
+            assert_eq!(run(tests, &[]), Ok(()), "{tests}");
+        }
+    }
+
+    #[test]
+    fn every_sentence_has_what_sees_a_violation() {
+        assert_eq!(run(CHECKS, &["traceability"]), Ok(()), "docs/traceability.md");
+    }
+
+    #[test]
+    fn every_public_item_has_a_user() {
+        assert_eq!(run(CHECKS, &["public"]), Ok(()), "public items");
+    }
+
+    #[test]
+    fn documents_and_charts_are_those_of_the_records() {
+        assert_eq!(
+            run(RECORDS, &["check"]),
+            Ok(()),
+            "`cargo xtask performance` brings them up to date"
+        );
+    }
+}
