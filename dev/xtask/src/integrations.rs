@@ -1,7 +1,7 @@
 //! Integrations into engines, workspaces of their own: builds, tests and runs them, and compares their pictures.
 
 use crate::command::{self, in_file, workspace};
-use crate::setup::{self, Extra};
+use crate::setup;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ impl Integration {
             text.lines().find_map(|line| line.strip_prefix("channel = \"")?.strip_suffix('"'));
         let channel =
             channel.ok_or_else(|| in_file(&path, &"no line `channel = \"...\"`"))?.to_owned();
-        setup::toolchain(&channel, &[(Extra::Component, "clippy"), (Extra::Component, "rustfmt")])?;
+        setup::toolchain(&channel, &[("component", "clippy"), ("component", "rustfmt")])?;
         Ok(Self { folder, channel })
     }
 

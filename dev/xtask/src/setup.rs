@@ -75,9 +75,9 @@ fn apt() -> Command {
     command
 }
 
-/// Installs a Rust toolchain (`stable`, `nightly`, `1.89.0`) with these components and targets
-/// where it is missing.
-pub(crate) fn toolchain(name: &str, parts: &[(Extra, &str)]) -> Result<(), String> {
+/// Installs a Rust toolchain (`stable`, `nightly`, `1.89.0`) where it is missing, with these parts: a `component` or a
+/// `target` each.
+pub(crate) fn toolchain(name: &str, parts: &[(&str, &str)]) -> Result<(), String> {
     let mut list = rustup(&["toolchain", "list"]);
     let known = command::output(&mut list).map_err(|error| {
         format!("{error}. Toolchains other than the current one need rustup: https://rustup.rs")
@@ -85,8 +85,7 @@ pub(crate) fn toolchain(name: &str, parts: &[(Extra, &str)]) -> Result<(), Strin
     if !known.lines().any(|line| line.starts_with(name)) {
         command::run(&mut rustup(&["toolchain", "install", name, "--profile", "minimal"]))?;
     }
-    for &(part, wanted) in parts {
-        let word = part.word();
+    for &(word, wanted) in parts {
         let mut list = rustup(&[word, "list", "--installed", "--toolchain", name]);
         let installed = command::output(&mut list)?;
         if !installed.lines().any(|line| line.starts_with(wanted)) {
@@ -101,24 +100,7 @@ pub(crate) fn target(target: &str) -> Result<(), String> {
     let current = std::env::var("RUSTUP_TOOLCHAIN").map_err(|_| {
         format!("the target {target} needs a compiler from rustup: https://rustup.rs")
     })?;
-    toolchain(&current, &[(Extra::Target, target)])
-}
-
-/// An extension of a toolchain.
-#[derive(Clone, Copy)]
-pub(crate) enum Extra {
-    Component,
-    Target,
-}
-
-impl Extra {
-    /// The command of `rustup` for it.
-    const fn word(self) -> &'static str {
-        match self {
-            Self::Component => "component",
-            Self::Target => "target",
-        }
-    }
+    toolchain(&current, &[("target", target)])
 }
 
 fn rustup(arguments: &[&str]) -> Command {

@@ -2,7 +2,7 @@
 
 use super::Extent;
 use crate::command;
-use crate::setup::{self, Extra};
+use crate::setup;
 use crate::tally;
 use std::process::Command;
 
@@ -20,7 +20,7 @@ const WHOLE: &[&str] = &[
 
 /// Runs tests of the model, and those of the C interface, whose `unsafe` code takes callers' memory.
 pub(super) fn check(extent: Extent) -> Result<(), String> {
-    let parts = [(Extra::Component, "miri"), (Extra::Component, "rust-src")];
+    let parts = [("component", "miri"), ("component", "rust-src")];
     setup::toolchain("nightly", &parts)?;
     let commands = if extent == Extent::Brief { BRIEF } else { WHOLE };
     tally::run(commands.iter().map(|arguments| {
