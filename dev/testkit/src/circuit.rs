@@ -113,7 +113,7 @@ fn chosen(right: &str, wrong: &[(usize, &str)]) -> Result<String, String> {
     let each = |form: &dyn Fn(usize, &str) -> String| -> String {
         wrong.iter().map(|&(number, wrong)| form(number, wrong)).collect()
     };
-    let Some(statements) = right.strip_suffix(';') else {
+    let Some(statements) = right.strip_suffix(';').or_else(|| right.strip_suffix(" end")) else {
         let wrong = each(&|n, wrong| format!("tess_fault_pkg::number == {n} ? ({wrong}) : "));
         return Ok(format!("({wrong}({right}))"));
     };

@@ -5,7 +5,7 @@ mod needs;
 use crate::command;
 pub(crate) use needs::{ICARUS, PYTHON};
 #[cfg(feature = "kit")]
-pub(crate) use needs::{SOLVER, SYSTEMC, VERILATOR, YOSYS};
+pub(crate) use needs::{SYSTEMC, VERILATOR, YOSYS};
 use std::path::Path;
 use std::process::{Command, Stdio};
 

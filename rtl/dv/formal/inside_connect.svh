@@ -1,6 +1,11 @@
-// Stands at the end of tess_connect in the copy that is proved.
-prove_connect proof (
-    .clk(clk), .rst(rst), .starts(start_valid && start_ready), .start_primitives(start_patch.primitives), .active(active),
-    .is_first(is_first), .patch_primitives(patch.primitives), .edge_valid(edge_valid), .remaining(remaining),
-    .ahead_valid(ahead_valid), .ahead_last(ahead.last), .ahead_further(ahead.further), .takes(takes)
-);
+// tess_connect neither drops nor doubles a primitive where it describes stitches: it holds those to be described and those of the
+// stitch ahead, which may be taken at any time. tess_stitch and tess_rows go on from there.
+always_comb assume (!takes || ahead_valid);
+ledger ledger (
+    .clk, .rst, .came((start_valid && start_ready) ? 16'(start_patch.primitives) : 16'd0),
+    .left(takes ? 16'(ahead.further) + 16'd1 : 16'd0),
+    .came_last(start_valid && start_ready && start_patch.primitives != 14'd0), .left_last(takes && ahead.last),
+    .held((!active ? 16'd0 : is_first ? 16'(patch.primitives) : 16'(remaining) + 16'd1)
+        + (ahead_valid ? 16'(ahead.further) + 16'd1 : 16'd0)),
+    .held_last(8'(active) + 8'(ahead_valid && ahead.last)),
+    .also((!edge_valid || (active && !is_first)) && (!active || !is_first || patch.primitives != 14'd0)));

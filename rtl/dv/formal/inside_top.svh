@@ -1,0 +1,9 @@
+// tess_top hands each patch whole to each stage, and its counts to the consumer. Each stage is a port here that may do anything
+// else.
+port #(.WIDTH(462), .TAKES(1'b1)) made_port (.clk, .rst, .valid(made_valid), .ready(made_ready), .data({made, contexts}));
+port #(.WIDTH(462)) points_port (.clk, .rst, .valid(points_starts), .ready(points_ready), .data({made, contexts}));
+port #(.WIDTH(462)) connect_port (.clk, .rst, .valid(connect_starts), .ready(connect_ready), .data({made, contexts}));
+port #(.WIDTH(27)) counts_port (.clk, .rst, .valid(counts_valid), .ready(counts_ready), .data({counts_points, counts_primitives}));
+ledger ledger (
+    .clk, .rst, .came(16'(counts_starts && counts_free)), .left(16'(counts_valid && counts_ready)), .held(16'(counts_valid)),
+    .came_last(1'b0), .left_last(1'b0), .held_last(8'd0), .also(1'b1));
