@@ -1,6 +1,5 @@
 //! Seeds of the readers of mesh files: small files of every form, all of them right.
 
-use super::height_png::{PASSES, channels};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
@@ -236,6 +235,17 @@ pub fn height_png() -> Vec<Vec<u8>> {
     seeds
 }
 
+/// First column and row of each pass of an interlaced image, and the steps between them.
+const PASSES: [[usize; 4]; 7] = [
+    [0, 0, 8, 8],
+    [4, 0, 8, 8],
+    [0, 4, 4, 8],
+    [2, 0, 4, 4],
+    [0, 2, 2, 4],
+    [1, 0, 2, 2],
+    [0, 1, 1, 2],
+];
+
 fn png(width: u8, height: u8, depth: u8, colour: u8, interlaced: bool) -> Vec<u8> {
     let header = [0, 0, 0, width, 0, 0, 0, height, depth, colour, 0, 0, u8::from(interlaced)];
     let mut state = u32::from_be_bytes([width, height, depth, colour]) | 1;
@@ -246,10 +256,16 @@ fn png(width: u8, height: u8, depth: u8, colour: u8, interlaced: bool) -> Vec<u8
         state.to_le_bytes()[1]
     };
     let mut rows = Vec::new();
+    let channels = match colour {
+        2 => 3,
+        4 => 2,
+        6 => 4,
+        _ => 1,
+    };
     let passes = if interlaced { &PASSES[..] } else { &[[0, 0, 1, 1]] };
     for &[x0, y0, dx, dy] in passes {
         let columns = (x0..usize::from(width)).step_by(dx).count();
-        let bytes = (columns * channels(colour) * usize::from(depth)).div_ceil(8);
+        let bytes = (columns * channels * usize::from(depth)).div_ceil(8);
         for _ in (y0..usize::from(height)).step_by(dy).filter(|_| columns > 0) {
             rows.push(random() % 5);
             rows.extend((0..bytes).map(|_| random()));
