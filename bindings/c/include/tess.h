@@ -1180,7 +1180,7 @@ TessStatus tess_batch_groups(const struct TessRange *ranges,
  * must not overlap (`TESS_OVERLAP`).
  *
  * A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of 2022 with
- * AVX-512). With `TESS_MEMORY_INITIALISED` and the factors of the patch before, it takes 31 ns and 43 ns on one of
+ * AVX-512). With `TESS_MEMORY_INITIALISED` and the factors of the patch before, it takes 19 ns and 28 ns on one of
  * 2024. It takes less than `tess_batch_run` with one patch, which counts twice. Large patches cost what they
  * cost there. A call allocates where a patch has point counts that this batch has not met before; after
  * `tess_batch_reserve` none does.

@@ -27,8 +27,10 @@ pub(crate) fn bytes<T>(pointer: *const T, len: usize) -> Result<Bytes, TessStatu
     if len > 0 && pointer.is_null() {
         return Err(TESS_NULL_POINTER);
     }
-    let size = len.checked_mul(size_of::<T>()).filter(|&size| isize::try_from(size).is_ok());
-    let end = size.and_then(|size| pointer.addr().checked_add(size));
+    if len > isize::MAX.unsigned_abs() / size_of::<T>() {
+        return Err(TESS_TOO_LARGE);
+    }
+    let end = pointer.addr().checked_add(len * size_of::<T>());
     end.map(|end| pointer.addr()..end).ok_or(TESS_TOO_LARGE)
 }
 

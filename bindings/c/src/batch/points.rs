@@ -5,10 +5,10 @@ use crate::status::{TESS_TOO_LARGE, TessStatus};
 use std::ffi::c_void;
 use std::fmt::Debug;
 use std::mem::MaybeUninit;
-use tess_core::Counts;
+use tess_core::{Counts, PatchFactors};
 use tess_simd::{
-    ApartBuffers, BatchCounts, Buffers, Counted, CountedPatch, Error, IndexFormat, Numbering,
-    OutputPoint, PatchRange,
+    ApartBuffers, BatchCounts, Buffers, Counted, Error, IndexFormat, Numbering, OutputPoint,
+    PatchRange, Tessellator,
 };
 
 /// A caller's memory for points, which need not be initialised.
@@ -40,22 +40,17 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
         rest: (&mut [I], &mut [PatchRange]),
     ) -> Result<BatchCounts, Error>;
 
-    /// Has a counted patch written.
+    /// Has a patch written.
     ///
     /// # Errors
-    /// Those of [`CountedPatch::write`].
+    /// Those of [`Tessellator::patch`].
     fn patch<I: IndexFormat>(
         self,
         memory: MemoryState,
-        counted: &mut CountedPatch<'_>,
+        tessellator: &mut Tessellator,
+        factors: impl Into<PatchFactors>,
         indices: &mut [I],
     ) -> Result<Counts, Error>;
-}
-
-/// Part of a room that a patch may write if its output has this length.
-pub(super) fn with_overrun<T>(room: &mut [T], length: u32) -> &mut [T] {
-    let end = room.len().min(length as usize + CountedPatch::OVERRUN);
-    &mut room[..end]
 }
 
 /// Points in pairs of coordinates.
@@ -89,14 +84,16 @@ impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
         counted.write(numbering, Buffers::new(points, indices).with_ranges(ranges))
     }
 
+    #[inline(always)]
     fn patch<I: IndexFormat>(
         self,
         memory: MemoryState,
-        counted: &mut CountedPatch<'_>,
+        tessellator: &mut Tessellator,
+        factors: impl Into<PatchFactors>,
         indices: &mut [I],
     ) -> Result<Counts, Error> {
-        let points = with_overrun(self.0, counted.counts().points);
-        counted.write(boundary::initialised(points, memory, P::default()), indices)
+        let points = boundary::initialised(self.0, memory, P::default());
+        tessellator.patch(factors, points, indices)
     }
 }
 
@@ -105,6 +102,12 @@ impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
 pub(super) struct Apart<'a> {
     u: &'a mut [MaybeUninit<f32>],
     v: &'a mut [MaybeUninit<f32>],
+}
+
+impl<'a> Apart<'a> {
+    fn initialised(self, memory: MemoryState) -> [&'a mut [f32]; 2] {
+        [self.u, self.v].map(|array| boundary::initialised(array, memory, 0.0))
+    }
 }
 
 impl<'a> PointRoom<'a> for Apart<'a> {
@@ -134,19 +137,19 @@ impl<'a> PointRoom<'a> for Apart<'a> {
         numbering: Numbering,
         (indices, ranges): (&mut [I], &mut [PatchRange]),
     ) -> Result<BatchCounts, Error> {
-        let [u, v] = [self.u, self.v].map(|array| boundary::initialised(array, memory, 0.0));
+        let [u, v] = self.initialised(memory);
         counted.write_apart(numbering, ApartBuffers::new(u, v, indices).with_ranges(ranges))
     }
 
+    #[inline(always)]
     fn patch<I: IndexFormat>(
         self,
         memory: MemoryState,
-        counted: &mut CountedPatch<'_>,
+        tessellator: &mut Tessellator,
+        factors: impl Into<PatchFactors>,
         indices: &mut [I],
     ) -> Result<Counts, Error> {
-        let points = counted.counts().points;
-        let [u, v] = [self.u, self.v]
-            .map(|array| boundary::initialised(with_overrun(array, points), memory, 0.0));
-        counted.write_apart(u, v, indices)
+        let [u, v] = self.initialised(memory);
+        tessellator.patch_apart(factors, u, v, indices)
     }
 }
