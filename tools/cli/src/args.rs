@@ -14,7 +14,11 @@ pub(crate) type Choices<T> = &'static [(&'static str, T, &'static str)];
 /// Orders of triangles.
 pub(crate) const ORDERS: Choices<Order> = &[
     ("specification", Order::Specification, "That of the specification"),
-    ("cache", Order::VertexCache, "The same triangles for a vertex cache"),
+    (
+        "cache",
+        Order::VertexCache,
+        "The same triangles, in columns that suit the vertex caches of GPUs",
+    ),
 ];
 
 /// The arguments that describe one patch.

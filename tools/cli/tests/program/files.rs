@@ -229,7 +229,7 @@ fn shaders_replace_only_shaders() {
     let write = |options: &str| shell(&format!("$TESS shaders {options} -o out"), &folder);
     fs::create_dir(folder.join("out")).expect("an empty folder");
     done(&write("--force --target wgsl"));
-    assert_eq!(write("--target wgsl").code, Some(2), "it is there");
+    write("--target wgsl").exits(2).says("it exists already; --force replaces it");
     done(&write("--force --target spirv --order cache"));
     let written = names(&folder.join("out"));
     assert!(written.contains(&"manifest.json".into()), "{written:?}");

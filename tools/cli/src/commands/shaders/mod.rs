@@ -72,7 +72,7 @@ pub(crate) struct Args {
     /// Whether the shaders check every access and every loop
     #[arg(long, value_name = "WHICH", default_value = "full")]
     checks: Checks,
-    /// Replace the folder if this command wrote it, or if it is empty
+    /// Replace the folder, with all that is in it, if this command wrote it or it is empty
     #[arg(long)]
     force: bool,
     /// New folder to write
@@ -103,10 +103,13 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let translation = Translation { target: args.target, checks: args.checks };
     let shaders = Shaders::new(setup, translation)?;
     let write = || {
-        let new = if args.force && is_ours(&args.folder) {
-            NewFolder::replacing(&args.folder)?
-        } else {
-            NewFolder::create(&args.folder)?
+        let new = match (is_ours(&args.folder), args.force) {
+            (true, true) => NewFolder::replacing(&args.folder)?,
+            (true, false) => {
+                let message = "it exists already; --force replaces it";
+                return Err(io::Error::new(io::ErrorKind::AlreadyExists, message));
+            }
+            (false, _) => NewFolder::create(&args.folder)?,
         };
         shaders.write(new.path())?;
         new.finish()
