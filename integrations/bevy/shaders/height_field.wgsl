@@ -48,8 +48,8 @@ fn corner(at: TessPlace, map: Ground, uv: vec2<f32>) -> vec3<f32> {
     return tess_to_world(at, raised(map.size, place, height(at, map.texels, place)));
 }
 
-// Whether the camera sees nothing of the patch, however high it is.
-fn is_outside(at: TessPlace, map: Ground) -> bool {
+// Whether the camera sees nothing of the patch and its shadow, however high it is.
+fn is_unseen(at: TessPlace, map: Ground) -> bool {
     let near = place_of(at, map.patches, vec2<f32>(0.0));
     let far = place_of(at, map.patches, vec2<f32>(1.0));
     let middle = 0.5 * (map.lowest + map.highest);
@@ -60,13 +60,13 @@ fn is_outside(at: TessPlace, map: Ground) -> bool {
         let high = select(map.lowest, map.highest, (i & 4u) != 0u);
         radius = max(radius, distance(center, tess_to_world(at, raised(map.size, place, high))));
     }
-    return tess_is_outside(tess_view.clip_from_world, center, radius);
+    return tess_is_unseen(center, radius);
 }
 
 fn hull(number: u32) -> QuadFactors {
     let at = tess_place(number);
     let map = ground(at);
-    if is_outside(at, map) {
+    if is_unseen(at, map) {
         return QuadFactors();
     }
     let a = corner(at, map, vec2<f32>(0.0, 0.0));

@@ -61,12 +61,21 @@ fn tess_edge(at: TessPlace, a: vec3<f32>, b: vec3<f32>) -> f32 {
     }
 }
 
+// Whether the camera sees nothing of a ball in world space, nor of a shadow of it.
+fn tess_is_unseen(center: vec3<f32>, radius: f32) -> bool {
+    for (var i = 0u; i < 6u; i++) {
+        if tess_is_behind(tess_view.planes[i], center, radius) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // A vertex from what a shape knows, in local space.
 fn tess_vertex_of(
     at: TessPlace, local: vec3<f32>, normal: vec3<f32>, uv: vec2<f32>, color: vec4<f32>,
 ) -> Vertex {
     let world = tess_to_world(at, local);
     let turned = tess_instances[at.instance].normal_from_local * vec4<f32>(normal, 0.0);
-    let position = tess_view.clip_from_world * vec4<f32>(world, 1.0);
-    return Vertex(position, world, normalize(turned.xyz), uv, color, at.instance);
+    return Vertex(tess_project(world), world, normalize(turned.xyz), uv, color, at.instance);
 }

@@ -10,12 +10,16 @@ struct TessView {
     reserved_0: u32,
     reserved_1: u32,
     reserved_2: u32,
+    // What is behind one of them is neither seen nor casts a shadow that is.
+    planes: array<vec4<f32>, 6>,
 }
 
 struct TessInstance {
     world_from_local: mat4x4<f32>,
     // The inverse transpose; its upper left 3 x 3 part is used.
     normal_from_local: mat4x4<f32>,
+    // To the place of the frame before.
+    previous_from_world: mat4x4<f32>,
     base_color: vec4<f32>,
     emissive: vec4<f32>,
     // Perceptual roughness, metallic, reflectance, 1 if unlit.
@@ -24,13 +28,14 @@ struct TessInstance {
     rule: vec4<f32>,
     first_patch: u32,
     first_word: u32,
-    reserved_0: u32,
-    reserved_1: u32,
+    // 1 if shadows fall on it.
+    receives_shadows: u32,
+    reserved: u32,
 }
 
 // In world space.
 struct Vertex {
-    @builtin(position) position: vec4<f32>,
+    @builtin(position) @invariant position: vec4<f32>,
     @location(0) world: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,

@@ -3,8 +3,9 @@
 use crate::detail::LevelOfDetail;
 use crate::look::Look;
 use crate::shape::Shape;
-use bevy::camera::visibility::{self, NoAutoAabb, Visibility, VisibilityClass};
+use bevy::camera::visibility::{NoAutoAabb, Visibility};
 use bevy::ecs::prelude::*;
+use bevy::mesh::Mesh3d;
 use bevy::render::sync_world::SyncToRenderWorld;
 use bevy::transform::components::Transform;
 use std::sync::Arc;
@@ -13,8 +14,8 @@ use tess_core::{Config, Partitioning};
 
 /// A surface that is tessellated in each frame, by what each camera sees of it.
 #[derive(Clone, Component, Debug)]
-#[require(Transform, Visibility, VisibilityClass, SyncToRenderWorld, NoAutoAabb)]
-#[component(on_add = visibility::add_visibility_class::<Tessellated>)]
+// The mesh is empty; Bevy finds the cameras and lights that see it.
+#[require(Transform, Visibility, Mesh3d, SyncToRenderWorld, NoAutoAabb)]
 pub struct Tessellated {
     /// Its patches. Share them between entities that look alike in shape: they are then kept once.
     pub shape: Arc<dyn Shape>,

@@ -1,7 +1,7 @@
 //! The CPU in place of the GPU: surfaces become ordinary meshes, by the same domain points.
 
 use crate::component::{TessSettings, TessStats, Tessellated};
-use crate::eye::{Eye, View};
+use crate::eye::{Casting, Eye, View};
 use crate::is_on_cpu;
 use crate::look::Look;
 use crate::shape::{CpuShape, ShapeVertex};
@@ -9,7 +9,6 @@ use bevy::asset::{Assets, Handle, RenderAssetUsages};
 use bevy::camera::primitives::Aabb;
 use bevy::camera::{Camera, Camera3d};
 use bevy::ecs::prelude::*;
-use bevy::light::NotShadowCaster;
 use bevy::log::warn_once;
 use bevy::math::Vec3A;
 use bevy::mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology};
@@ -94,7 +93,7 @@ type Surface<'a> = (Entity, Ref<'a, Tessellated>, &'a GlobalTransform, Option<&'
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are what it uses")]
 pub(crate) fn tessellate(
     mut commands: Commands,
-    settings: Res<TessSettings>,
+    (settings, casting): (Res<TessSettings>, Res<Casting>),
     stats: Res<TessStats>,
     device: Option<Res<RenderDevice>>,
     cameras: Query<(&Camera, &GlobalTransform), With<Camera3d>>,
@@ -106,22 +105,19 @@ pub(crate) fn tessellate(
     if !is_on_cpu(&settings, device.as_deref()) {
         for (entity, .., fallback) in &surfaces {
             if fallback.is_some() {
-                commands.entity(entity).remove::<(
-                    Fallback,
-                    Mesh3d,
-                    MeshMaterial3d<StandardMaterial>,
-                    NotShadowCaster,
-                )>();
+                let mut entity = commands.entity(entity);
+                entity.remove::<(Fallback, MeshMaterial3d<StandardMaterial>)>();
+                entity.insert(Mesh3d::default());
             }
         }
         return;
     }
-    let Some(view) = view_of(&cameras) else { return };
+    let Some(view) = view_of(&cameras, &casting) else { return };
     let mut triangles = 0;
     for (entity, surface, transform, mut fallback) in &mut surfaces {
         let rule = surface.detail;
         let eye = Eye { view, world_from_local: transform.affine(), rule };
-        if is_out_of_sight(&surface, &eye) {
+        if is_unseen(&surface, &eye) {
             continue;
         }
         let is_same = |old: &Fallback| old.eye == eye && old.wireframe == settings.wireframe;
@@ -152,16 +148,14 @@ pub(crate) fn tessellate(
         commands.entity(entity).insert((
             Mesh3d(handle.clone()),
             MeshMaterial3d(materials.add(StandardMaterial::from(look))),
-            // As on the GPU.
-            NotShadowCaster,
             Fallback { eye, look, wireframe, triangles: count, mesh: handle },
         ));
     }
     stats.set(triangles);
 }
 
-/// Whether the camera sees nothing of a surface; a mesh that it has is then as good as another.
-fn is_out_of_sight(surface: &Tessellated, eye: &Eye) -> bool {
+/// Whether the camera sees nothing of a surface and its shadow; a mesh that it has is then as good as another.
+fn is_unseen(surface: &Tessellated, eye: &Eye) -> bool {
     let Aabb { center, half_extents } = surface.shape.bounds();
     let corners =
         [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| [-1.0, 1.0].map(|z| Vec3A::new(x, y, z))));
@@ -169,15 +163,18 @@ fn is_out_of_sight(surface: &Tessellated, eye: &Eye) -> bool {
     let away =
         |corner: &Vec3A| middle.distance(eye.to_world((center + *corner * half_extents).into()));
     let radius = corners.as_flattened().as_flattened().iter().map(away).fold(0.0, f32::max);
-    eye.is_outside(middle, radius)
+    eye.is_unseen(middle, radius)
 }
 
 /// The view of the first camera that is active.
-fn view_of(cameras: &Query<(&Camera, &GlobalTransform), With<Camera3d>>) -> Option<View> {
+fn view_of(
+    cameras: &Query<(&Camera, &GlobalTransform), With<Camera3d>>,
+    casting: &Casting,
+) -> Option<View> {
     let active = |&(camera, _): &(&Camera, &GlobalTransform)| camera.is_active;
     let (camera, transform) = cameras.iter().find(active)?;
     let height = camera.physical_viewport_size()?.y;
-    Some(View::new(transform, camera.clip_from_view(), height))
+    Some(View::new(transform, camera.clip_from_view(), height, casting))
 }
 
 fn tessellate_one(

@@ -1,9 +1,43 @@
-//! The view of a surface, and its factors and culling on the CPU: `tess_edge` and `tess_is_outside` of the WGSL in Rust.
+//! The view of a surface, and its factors and culling on the CPU: `tess_edge` and `tess_is_unseen` of the WGSL in Rust.
 
 use crate::detail::LevelOfDetail;
-use bevy::math::{Affine3A, Mat4, Vec3};
+use bevy::ecs::prelude::*;
+use bevy::light::{DirectionalLight, PointLight, SpotLight};
+use bevy::math::{Affine3A, Mat4, Vec3, Vec4, Vec4Swizzles};
 use bevy::transform::components::GlobalTransform;
 use tess_surface::{culling, factors, glam};
+
+/// The lights that cast shadows. What is between them and the picture is not culled.
+#[derive(Clone, Debug, Default, Resource)]
+pub(crate) struct Casting {
+    /// Directions towards lights that are infinitely far.
+    toward: Vec<Vec3>,
+    /// Whether there are others.
+    is_near: bool,
+}
+
+pub(crate) fn find_casting(
+    mut casting: ResMut<Casting>,
+    suns: Query<(&DirectionalLight, &GlobalTransform)>,
+    points: Query<&PointLight>,
+    spots: Query<&SpotLight>,
+) {
+    let suns = suns.iter().filter(|(sun, _)| sun.shadow_maps_enabled);
+    casting.toward = suns.map(|(_, transform)| transform.back().into()).collect();
+    casting.is_near = points.iter().any(|light| light.shadow_maps_enabled)
+        || spots.iter().any(|light| light.shadow_maps_enabled);
+}
+
+impl Casting {
+    /// The planes of a camera's picture, without those beyond which a caster can be.
+    fn planes(&self, clip_from_world: Mat4) -> [Vec4; 6] {
+        let [x, y, z, w] = [0, 1, 2, 3].map(|row| clip_from_world.row(row));
+        [w + x, w - x, w + y, w - y, z, w - z].map(|plane| {
+            let is_beyond = |toward: &Vec3| plane.xyz().dot(*toward) < 0.0;
+            if self.is_near || self.toward.iter().any(is_beyond) { Vec4::W } else { plane }
+        })
+    }
+}
 
 /// View and size of a camera's picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +47,8 @@ pub(crate) struct View {
     /// Pixels of a length of 1 at distance 1; with an orthographic projection at any distance.
     pub(crate) pixels_per_unit: f32,
     pub(crate) is_orthographic: bool,
+    /// By [`Casting::planes`].
+    pub(crate) planes: [Vec4; 6],
 }
 
 impl View {
@@ -21,13 +57,15 @@ impl View {
         world_from_view: &GlobalTransform,
         clip_from_view: Mat4,
         height: u32,
+        casting: &Casting,
     ) -> Self {
-        let view_from_world = world_from_view.affine().inverse();
+        let clip_from_world = clip_from_view * Mat4::from(world_from_view.affine().inverse());
         Self {
-            clip_from_world: clip_from_view * Mat4::from(view_from_world),
+            clip_from_world,
             eye: world_from_view.translation(),
             pixels_per_unit: 0.5 * height as f32 * clip_from_view.y_axis.y.abs(),
             is_orthographic: clip_from_view.w_axis.w == 1.0,
+            planes: casting.planes(clip_from_world),
         }
     }
 }
@@ -65,12 +103,12 @@ impl Eye {
         }
     }
 
-    /// Whether a ball in world space is outside the camera's picture.
+    /// Whether the camera sees nothing of a ball in world space, nor of a shadow of it.
     #[must_use]
-    pub fn is_outside(&self, center: Vec3, radius: f32) -> bool {
-        let columns = self.view.clip_from_world.to_cols_array();
-        let clip_from_world = glam::Mat4::from_cols_array(&columns);
-        culling::is_outside(&clip_from_world, of_surface(center), radius)
+    pub fn is_unseen(&self, center: Vec3, radius: f32) -> bool {
+        let plane_of = |plane: Vec4| glam::Vec4::from_array(plane.to_array());
+        let center = of_surface(center);
+        self.view.planes.iter().any(|&plane| culling::is_behind(plane_of(plane), center, radius))
     }
 }
 
@@ -86,7 +124,7 @@ mod tests {
     use bevy::math::Quat;
 
     /// Looks along -z from (0, 0, 10), 90 degrees high, 400 pixels.
-    fn eye(rule: LevelOfDetail) -> Eye {
+    fn eye(rule: LevelOfDetail, casting: &Casting) -> Eye {
         let camera = GlobalTransform::from(Affine3A::from_rotation_translation(
             Quat::IDENTITY,
             Vec3::new(0.0, 0.0, 10.0),
@@ -94,13 +132,13 @@ mod tests {
         let fov = core::f32::consts::FRAC_PI_2;
         let projection = PerspectiveProjection { fov, aspect_ratio: 1.0, ..Default::default() };
         let clip_from_view = projection.get_clip_from_view();
-        let view = View::new(&camera, clip_from_view, 400);
+        let view = View::new(&camera, clip_from_view, 400, casting);
         Eye { view, world_from_local: Affine3A::IDENTITY, rule }
     }
 
     #[test]
     fn edges_have_segments_of_so_many_pixels() {
-        let eye = eye(LevelOfDetail::Pixels(5.0));
+        let eye = eye(LevelOfDetail::Pixels(5.0), &Casting::default());
         // A length of 1 at distance 10 has 20 pixels.
         let (a, b) = (Vec3::new(-1.0, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0));
         assert!((eye.edge(a, b) - 8.0).abs() < 1e-4, "{}", eye.edge(a, b));
@@ -110,11 +148,20 @@ mod tests {
     }
 
     #[test]
-    fn balls_beside_the_picture_are_outside() {
-        let eye = eye(LevelOfDetail::default());
-        assert!(!eye.is_outside(Vec3::ZERO, 1.0), "in front");
-        assert!(eye.is_outside(Vec3::new(0.0, 0.0, 20.0), 1.0), "behind");
-        assert!(eye.is_outside(Vec3::new(30.0, 0.0, 0.0), 1.0), "to the right");
-        assert!(!eye.is_outside(Vec3::new(30.0, 0.0, 0.0), 25.0), "it reaches into the picture");
+    fn balls_beside_the_picture_are_unseen_but_for_their_shadows() {
+        let (right, behind) = (Vec3::new(30.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 20.0));
+        let unseen = |toward: &[Vec3], is_near| {
+            let casting = Casting { toward: toward.to_vec(), is_near };
+            let eye = eye(LevelOfDetail::default(), &casting);
+            [Vec3::ZERO, right, -right, behind].map(|ball| eye.is_unseen(ball, 1.0))
+        };
+        assert_eq!(unseen(&[], false), [false, true, true, true], "without shadows");
+        assert_eq!(unseen(&[Vec3::X], false), [false, false, true, true], "from the right");
+        assert_eq!(unseen(&[Vec3::Z], false), [false; 4], "from behind");
+        assert_eq!(unseen(&[Vec3::X, -Vec3::X], false), [false, false, false, true], "two");
+        assert_eq!(unseen(&[Vec3::NEG_Z], false), [false, true, true, true], "from ahead");
+        assert_eq!(unseen(&[], true), [false; 4], "from somewhere");
+        let eye = eye(LevelOfDetail::default(), &Casting::default());
+        assert!(!eye.is_unseen(right, 25.0), "it reaches into the picture");
     }
 }

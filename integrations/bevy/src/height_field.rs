@@ -144,7 +144,7 @@ impl HeightField {
         )
     }
 
-    fn is_outside(&self, patch: u32, eye: &Eye) -> bool {
+    fn is_unseen(&self, patch: u32, eye: &Eye) -> bool {
         let [lowest, highest] = self.range;
         let [near, far] = [Vec2::ZERO, Vec2::ONE].map(|uv| self.place_of(patch, uv));
         let middle = self.raised(0.5 * (near + far), 0.5 * (lowest + highest));
@@ -155,7 +155,7 @@ impl HeightField {
             let high = if i & 4 == 0 { lowest } else { highest };
             center.distance(eye.to_world(self.raised(Vec2::new(x, z), high)))
         });
-        eye.is_outside(center, radius.fold(0.0, f32::max))
+        eye.is_unseen(center, radius.fold(0.0, f32::max))
     }
 
     fn slope(&self, place: Vec2) -> Vec3 {
@@ -228,7 +228,7 @@ impl Shape for HeightField {
 
 impl CpuShape for HeightField {
     fn factors(&self, patch: u32, eye: &Eye) -> PatchFactors {
-        if self.is_outside(patch, eye) {
+        if self.is_unseen(patch, eye) {
             return PatchFactors::Quad(QuadFactors::uniform(0.0));
         }
         let corners = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];

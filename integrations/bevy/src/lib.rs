@@ -31,8 +31,9 @@ use bevy::ecs::prelude::*;
 use bevy::render::renderer::RenderDevice;
 use bevy::transform::TransformSystems;
 use component::Backend as Chosen;
+use eye::Casting;
 
-/// Draws every entity with a [`Tessellated`] in the main pass of every 3D camera.
+/// Draws every entity with a [`Tessellated`] for every 3D camera, and into the shadow maps of every light.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TessPlugin;
 
@@ -44,10 +45,15 @@ impl Plugin for TessPlugin {
             (
                 set_bounds.before(VisibilitySystems::CalculateBounds),
                 program::register.before(VisibilitySystems::CalculateBounds),
-                cpu::tessellate.after(TransformSystems::Propagate).before(AssetEventSystems),
+                (eye::find_casting, cpu::tessellate)
+                    .chain()
+                    .after(TransformSystems::Propagate)
+                    .before(AssetEventSystems),
             ),
         );
-        app.init_resource::<program::Programs>().init_resource::<cpu::Tessellators>();
+        app.init_resource::<Casting>()
+            .init_resource::<program::Programs>()
+            .init_resource::<cpu::Tessellators>();
         render::build(app);
     }
 }

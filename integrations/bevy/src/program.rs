@@ -12,6 +12,12 @@ use tess_wgpu::TessellationStage;
 
 const TYPES: &str = include_str!("../shaders/types.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
+const PROJECT: &str = include_str!("../shaders/project.wgsl");
+const PREPASS: &str = include_str!("../shaders/prepass.wesl");
+/// [`PROJECT`] where there is no pass of Bevy's.
+const PROJECT_OF_HULL: &str = "fn tess_project(world: vec3<f32>) -> vec4<f32> {
+    return tess_view.clip_from_world * vec4<f32>(world, 1.0);
+}";
 const FRAGMENT: &str = include_str!("../shaders/fragment.wesl");
 /// Bevy's items that fragment.wesl uses, in one line in front of the shape's first.
 const IMPORTS: &str = "import bevy_pbr::render::pbr_types as tess_pbr_types; \
@@ -44,18 +50,18 @@ impl Key {
     }
 
     /// The shape's WGSL, then the plugin's, for a bind group of this number.
-    fn joined(&self, group: &str) -> String {
-        let own = [TYPES, SURFACE].join("\n").replace("TESS_GROUP", group);
+    fn joined(&self, project: &str, group: &str) -> String {
+        let own = [TYPES, SURFACE, project].join("\n").replace("TESS_GROUP", group);
         format!("{}\n{own}", self.surface)
     }
 
     /// Source of the stage's hull pass.
     pub(crate) fn hull_source(&self) -> String {
-        self.joined(HULL_GROUP)
+        self.joined(PROJECT_OF_HULL, HULL_GROUP)
     }
 
     fn vertex_shader(&self, number: usize) -> Shader {
-        let source = self.joined(&DRAW_GROUP.to_string());
+        let source = self.joined(PROJECT, &DRAW_GROUP.to_string());
         let builder = TessellationStage::builder(&source, self.domain, self.config, 1);
         Shader::from_wgsl(builder.vertex_shader(), format!("bevy_tess/surface_{number}.wgsl"))
     }
@@ -76,13 +82,17 @@ pub(crate) struct Program {
     pub(crate) key: Key,
     pub(crate) vertex: Handle<Shader>,
     pub(crate) fragment: Handle<Shader>,
+    /// The fragment shader of prepasses.
+    pub(crate) prepass: Handle<Shader>,
 }
 
 /// Every program so far, and the program of each entity.
 #[derive(Debug, Resource)]
 pub(crate) struct Programs {
-    /// The modules of [`IMPORTS`].
-    library: [Handle<Shader>; 3],
+    /// The modules of [`IMPORTS`] and [`PREPASS`].
+    library: [Handle<Shader>; 5],
+    /// The fragment shader of prepasses.
+    prepass: Handle<Shader>,
     all: HashMap<Key, Arc<Program>>,
     of_entities: HashMap<Entity, Arc<Program>>,
 }
@@ -90,9 +100,17 @@ pub(crate) struct Programs {
 impl FromWorld for Programs {
     fn from_world(world: &mut World) -> Self {
         let assets = world.resource::<AssetServer>();
-        let library = ["pbr_types", "pbr_functions", "mesh_types"]
-            .map(|name| assets.load(format!("embedded://bevy_pbr/render/{name}.wesl")));
-        Self { library, all: HashMap::default(), of_entities: HashMap::default() }
+        let library = [
+            "render/pbr_types",
+            "render/pbr_functions",
+            "render/mesh_types",
+            "prepass/bindings",
+            "prepass/io",
+        ]
+        .map(|name| assets.load(format!("embedded://bevy_pbr/{name}.wesl")));
+        let source = [PREPASS, TYPES].join("\n").replace("TESS_GROUP", &DRAW_GROUP.to_string());
+        let prepass = assets.add(Shader::from_wesl(source, "bevy_tess/prepass.wesl"));
+        Self { library, prepass, all: HashMap::default(), of_entities: HashMap::default() }
     }
 }
 
@@ -119,11 +137,11 @@ pub(crate) fn register(
     }
     for (entity, tessellated) in &changed {
         let key = Key::new(tessellated);
-        let number = programs.all.len();
+        let (number, prepass) = (programs.all.len(), programs.prepass.clone());
         let program = programs.all.entry(key).or_insert_with_key(|key| {
             let vertex = shaders.add(key.vertex_shader(number));
             let fragment = shaders.add(key.fragment_shader(number));
-            Arc::new(Program { number, key: key.clone(), vertex, fragment })
+            Arc::new(Program { number, key: key.clone(), vertex, fragment, prepass })
         });
         let program = Arc::clone(program);
         programs.of_entities.insert(entity, program);

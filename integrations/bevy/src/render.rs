@@ -12,10 +12,12 @@ mod tests;
 
 use crate::component::TessStats;
 use bevy::app::App;
-use bevy::core_pipeline::core_3d::{Opaque3d, main_opaque_pass_3d};
-use bevy::core_pipeline::schedule::{Core3d, Core3dSystems};
+use bevy::core_pipeline::core_3d::Opaque3d;
+use bevy::core_pipeline::prepass::Opaque3dPrepass;
 use bevy::ecs::prelude::*;
+use bevy::pbr::Shadow;
 use bevy::render::render_phase::AddRenderCommand;
+use bevy::render::renderer::{RenderGraph, RenderGraphSystems};
 use bevy::render::{ExtractSchedule, GpuResourceAppExt, Render, RenderApp, RenderSystems};
 
 pub(crate) fn build(app: &mut App) {
@@ -26,12 +28,15 @@ pub(crate) fn build(app: &mut App) {
         .init_resource::<extract::Extracted>()
         .init_gpu_resource::<pipelines::Pipelines>()
         .init_gpu_resource::<stages::Stages>()
-        .add_render_command::<Opaque3d, draw::DrawTessellated>()
+        .add_render_command::<Opaque3d, draw::DrawLit>()
+        .add_render_command::<Opaque3dPrepass, draw::DrawDepth>()
+        .add_render_command::<Shadow, draw::DrawDepth>()
         .add_systems(ExtractSchedule, extract::extract)
-        .add_systems(Render, queue::queue.in_set(RenderSystems::Queue))
-        .add_systems(Render, stages::forget.in_set(RenderSystems::Cleanup))
         .add_systems(
-            Core3d,
-            stages::prepare.in_set(Core3dSystems::MainPass).before(main_opaque_pass_3d),
-        );
+            Render,
+            (queue::queue::<Opaque3d>, queue::queue::<Opaque3dPrepass>, queue::queue::<Shadow>)
+                .in_set(RenderSystems::Queue),
+        )
+        .add_systems(Render, stages::forget.in_set(RenderSystems::Cleanup))
+        .add_systems(RenderGraph, stages::prepare.in_set(RenderGraphSystems::Begin));
 }

@@ -14,9 +14,10 @@ macro_rules! shader {
 
 /// The error in a shape's WGSL, joined with the plugin's and the stage's.
 fn complaint(shape: &[&str]) -> Option<String> {
-    let own = [&shape.join("\n"), shader!("types.wgsl"), shader!("surface.wgsl")].join("\n");
+    let own = [shader!("types.wgsl"), shader!("surface.wgsl"), shader!("project.wgsl")];
     // As program.rs and height_field.rs put them in.
-    let user = own.replace("TESS_GROUP", "0").replace("HEADER", "20u");
+    let user =
+        [shape, &own].concat().join("\n").replace("TESS_GROUP", "2").replace("HEADER", "20u");
     let source = TessellationStage::joined(&user, "");
     let module = match wgsl::parse_str(&source) {
         Ok(module) => module,

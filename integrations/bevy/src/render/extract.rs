@@ -2,13 +2,16 @@
 
 use crate::component::{TessSettings, Tessellated};
 use crate::detail::LevelOfDetail;
+use crate::eye::Casting;
 use crate::is_on_cpu;
 use crate::look::Look;
 use crate::program::{Program, Programs};
 use crate::shape::Shape;
 use bevy::asset::AssetServer;
 use bevy::ecs::prelude::*;
+use bevy::light::NotShadowReceiver;
 use bevy::math::Affine3A;
+use bevy::pbr::PreviousGlobalTransform;
 use bevy::render::Extract;
 use bevy::render::renderer::RenderDevice;
 use bevy::render::sync_world::MainEntity;
@@ -24,40 +27,57 @@ pub(crate) struct Item {
     pub(crate) rule: LevelOfDetail,
     pub(crate) look: Look,
     pub(crate) world_from_local: Affine3A,
+    pub(crate) previous_from_world: Affine3A,
+    pub(crate) receives_shadows: bool,
 }
 
 /// The surfaces of the frame, if the GPU tessellates them.
 #[derive(Debug, Default, Resource)]
 pub(crate) struct Extracted {
     pub(crate) items: Vec<Item>,
+    pub(crate) casting: Casting,
     pub(crate) is_on_gpu: bool,
     pub(crate) wireframe: bool,
 }
+
+type Surface<'a> = (
+    Entity,
+    &'a Tessellated,
+    &'a GlobalTransform,
+    Option<&'a PreviousGlobalTransform>,
+    Has<NotShadowReceiver>,
+);
 
 pub(crate) fn extract(
     mut extracted: ResMut<Extracted>,
     device: Res<RenderDevice>,
     settings: Extract<Res<TessSettings>>,
+    casting: Extract<Res<Casting>>,
     programs: Extract<Res<Programs>>,
     assets: Extract<Res<AssetServer>>,
-    surfaces: Extract<Query<(Entity, &Tessellated, &GlobalTransform)>>,
+    surfaces: Extract<Query<Surface<'_>>>,
 ) {
     extracted.items.clear();
     extracted.wireframe = settings.wireframe;
+    extracted.casting.clone_from(&casting);
     extracted.is_on_gpu = !is_on_cpu(&settings, Some(&device));
     if !extracted.is_on_gpu || !programs.are_ready(&assets) {
         return;
     }
-    let item = |(entity, tessellated, transform): (Entity, &Tessellated, &GlobalTransform)| {
+    extracted.items.extend(surfaces.iter().filter_map(|surface| {
+        let (entity, tessellated, transform, previous, not_receiver) = surface;
+        let world_from_local = transform.affine();
+        let previous = previous.map_or(world_from_local, |previous| previous.0);
         Some(Item {
             entity: entity.into(),
             program: Arc::clone(programs.of(entity)?),
             shape: Arc::clone(&tessellated.shape),
             rule: tessellated.detail,
             look: tessellated.look,
-            world_from_local: transform.affine(),
+            world_from_local,
+            previous_from_world: previous * world_from_local.inverse(),
+            receives_shadows: !not_receiver,
         })
-    };
-    extracted.items.extend(surfaces.iter().filter_map(item));
+    }));
     extracted.items.sort_unstable_by_key(|item| item.entity);
 }

@@ -19,6 +19,7 @@ pub(crate) struct GpuView {
     pixels_per_unit: f32,
     is_orthographic: u32,
     reserved: [u32; 3],
+    planes: [[f32; 4]; 6],
 }
 
 impl From<View> for GpuView {
@@ -29,6 +30,7 @@ impl From<View> for GpuView {
             pixels_per_unit: view.pixels_per_unit,
             is_orthographic: view.is_orthographic.into(),
             reserved: [0; 3],
+            planes: view.planes.map(|plane| plane.to_array()),
         }
     }
 }
@@ -39,13 +41,15 @@ impl From<View> for GpuView {
 pub(crate) struct GpuInstance {
     world_from_local: [[f32; 4]; 4],
     normal_from_local: [[f32; 4]; 4],
+    previous_from_world: [[f32; 4]; 4],
     base_color: [f32; 4],
     emissive: [f32; 4],
     material: [f32; 4],
     rule: [f32; 4],
     first_patch: u32,
     first_word: u32,
-    reserved: [u32; 2],
+    receives_shadows: u32,
+    reserved: u32,
 }
 
 impl GpuInstance {
@@ -58,13 +62,15 @@ impl GpuInstance {
         Self {
             world_from_local: Mat4::from(item.world_from_local).to_cols_array_2d(),
             normal_from_local: Mat4::from_mat3(linear.inverse().transpose()).to_cols_array_2d(),
+            previous_from_world: Mat4::from(item.previous_from_world).to_cols_array_2d(),
             base_color: look.base_color.to_linear().to_f32_array(),
             emissive: [red, green, blue, 0.0],
             material: [look.perceptual_roughness, look.metallic, look.reflectance, unlit],
             rule: if is_visible { item.rule.words() } else { LevelOfDetail::HIDDEN },
             first_patch,
             first_word,
-            reserved: [0; 2],
+            receives_shadows: item.receives_shadows.into(),
+            reserved: 0,
         }
     }
 }

@@ -3,17 +3,20 @@
 use super::content::Content;
 use super::extract::{Extracted, Item};
 use super::layout;
-use crate::component::{TessStats, Tessellated};
+use super::queue::Seen;
+use crate::component::TessStats;
 use crate::eye::View;
 use crate::program::Key;
 use crate::shape::Shape;
+use bevy::camera::Camera3d;
 use bevy::ecs::prelude::*;
 use bevy::log::error;
-use bevy::platform::collections::{HashMap, HashSet};
-use bevy::render::render_resource::{BindGroup, Buffer, PipelineCache};
-use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
+use bevy::platform::collections::HashMap;
+use bevy::render::camera::SortedCameras;
+use bevy::render::render_resource::{BindGroup, Buffer, CommandEncoder, PipelineCache};
+use bevy::render::renderer::{PendingCommandBuffers, RenderDevice, RenderQueue};
 use bevy::render::sync_world::MainEntity;
-use bevy::render::view::{ExtractedView, RenderVisibleEntities, RetainedViewEntity};
+use bevy::render::view::{ExtractedView, RetainedViewEntity};
 use std::sync::Arc;
 use tess_wgpu::TessellationStage;
 
@@ -22,6 +25,8 @@ use tess_wgpu::TessellationStage;
 pub(crate) struct Stages {
     /// By the program's number.
     of_views: HashMap<RetainedViewEntity, HashMap<usize, Prepared>>,
+    /// The camera by which surfaces are tessellated for lights that all cameras share.
+    first: Option<RetainedViewEntity>,
 }
 
 impl Stages {
@@ -32,14 +37,18 @@ impl Stages {
         prepared.stage.as_ref().map(|(stage, _)| stage)
     }
 
-    /// The number of an entity's program, its stage, and the entity's group in it.
+    /// What the draw of an entity takes, and its group, for a camera or for a shadow map.
     pub(crate) fn find(
         &self,
         view: RetainedViewEntity,
         entity: MainEntity,
-    ) -> Option<(usize, &Prepared, u32)> {
-        self.of_views.get(&view)?.iter().find_map(|(&program, prepared)| {
-            Some((program, prepared, *prepared.content.as_ref()?.groups.get(&entity)?))
+    ) -> Option<(&BindGroup, &Drawn, u32)> {
+        let of_camera = |camera| RetainedViewEntity::new(camera, None, 0);
+        let camera = view.auxiliary_entity.map_or(view, of_camera);
+        let of_view = self.of_views.get(&camera).or_else(|| self.of_views.get(&self.first?))?;
+        of_view.values().find_map(|Prepared { content, drawn, .. }| {
+            let content = content.as_ref()?;
+            Some((&content.bind_group, drawn.as_ref()?, *content.groups.get(&entity)?))
         })
     }
 }
@@ -65,51 +74,48 @@ pub(crate) struct Drawn {
     pub(crate) arguments: Buffer,
 }
 
-impl Prepared {
-    pub(crate) const fn drawn(&self) -> Option<&Drawn> {
-        self.drawn.as_ref()
-    }
-
-    pub(crate) fn bind_group(&self) -> &BindGroup {
-        &self.content.as_ref().expect("what is drawn has content").bind_group
-    }
-}
-
-/// Prepares the stages of a camera, in front of its main pass.
+/// Prepares the stages of all cameras, in front of every pass.
+#[expect(clippy::too_many_arguments, reason = "a system's parameters are what it uses")]
 pub(crate) fn prepare(
-    camera: ViewQuery<(&ExtractedView, &RenderVisibleEntities)>,
+    cameras: Res<SortedCameras>,
+    views: Query<&ExtractedView, With<Camera3d>>,
+    seen: Seen<'_, '_>,
     extracted: Res<Extracted>,
     mut stages: ResMut<Stages>,
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     cache: Res<PipelineCache>,
-    mut context: RenderContext,
+    mut pending: ResMut<PendingCommandBuffers>,
 ) {
-    let (camera, visible) = camera.into_inner();
-    let clip_from_view = camera.clip_from_view;
-    let view = View::new(&camera.world_from_view, clip_from_view, camera.viewport.w);
-    let visible = visible.get::<Tessellated>();
-    let visible: HashSet<MainEntity> =
-        visible.iter().flat_map(|class| &class.entities_cpu_culling).map(|pair| pair.1).collect();
     let mut programs: HashMap<usize, Vec<&Item>> = HashMap::default();
     for item in &extracted.items {
         programs.entry(item.program.number).or_default().push(item);
     }
-    let of_view = stages.of_views.entry(camera.retained_view_entity).or_default();
-    for (number, items) in programs {
-        let prepared = of_view.entry(number).or_default();
-        prepared.is_used = true;
-        prepared.refresh(&items, &device, &cache);
-        let Some(content) = &prepared.content else { continue };
-        content.update(&items, view, &visible, &queue);
-        if let Err(problem) =
-            prepared.tessellate(&items[0].program.key, &device, &cache, &mut context)
-        {
-            error!("surfaces cannot be tessellated: {problem}");
-            prepared.has_failed = true;
-            prepared.drawn = None;
+    let mut encoder = device.create_command_encoder(&Default::default());
+    stages.first = None;
+    for view in cameras.0.iter().filter_map(|camera| views.get(camera.entity).ok()) {
+        let camera = view.retained_view_entity;
+        stages.first.get_or_insert(camera);
+        let of_view = stages.of_views.entry(camera).or_default();
+        let visible = seen.by(camera);
+        let height = view.viewport.w;
+        let view =
+            View::new(&view.world_from_view, view.clip_from_view, height, &extracted.casting);
+        for (number, items) in &programs {
+            let prepared = of_view.entry(*number).or_default();
+            prepared.is_used = true;
+            prepared.refresh(items, &device, &cache);
+            let Some(content) = &prepared.content else { continue };
+            content.update(items, view, &visible, &queue);
+            let key = &items[0].program.key;
+            if let Err(problem) = prepared.tessellate(key, &device, &cache, &mut encoder) {
+                error!("surfaces cannot be tessellated: {problem}");
+                prepared.has_failed = true;
+                prepared.drawn = None;
+            }
         }
     }
+    pending.push([encoder.finish()]);
 }
 
 impl Prepared {
@@ -134,7 +140,7 @@ impl Prepared {
         key: &Key,
         device: &RenderDevice,
         cache: &PipelineCache,
-        context: &mut RenderContext,
+        encoder: &mut CommandEncoder,
     ) -> Result<(), tess_wgpu::Error> {
         let Some(content) = self.content.as_ref().filter(|_| !self.has_failed) else {
             return Ok(());
@@ -148,7 +154,7 @@ impl Prepared {
             stage.set_groups(&content.first_patches())?;
         }
         let Some((stage, _)) = &mut self.stage else { return Ok(()) };
-        stage.prepare(context.command_encoder(), content.patches)?;
+        stage.prepare(encoder, content.patches)?;
         let buffers = stage.buffers()?;
         self.drawn = Some(Drawn {
             points: buffers.points.clone().into(),

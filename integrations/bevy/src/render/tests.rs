@@ -1,6 +1,8 @@
 //! Whole frames without a window: the domain points equal the CPU's, user shaders are drawn, and what is
 //! wrong with them does not end the program.
 
+mod passes;
+
 use super::stages::Stages;
 use crate::cpu::Tessellators;
 use crate::shape::{CpuShape, Shape, ShapeVertex};
@@ -75,19 +77,23 @@ fn run(app: &mut App) {
 
 /// The pixel in the middle of the picture.
 fn middle(app: &mut App) -> [u8; 4] {
+    picture(app)[(SIZE * (SIZE + 1) / 2) as usize]
+}
+
+/// The pixels of the picture, row by row.
+fn picture(app: &mut App) -> Vec<[u8; 4]> {
     let seen = Arc::new(Mutex::new(None));
     let target = app.world().resource::<Target>().0.clone();
     let to = Arc::clone(&seen);
     app.world_mut().spawn(Screenshot::image(target)).observe(
         move |captured: On<ScreenshotCaptured>| {
-            let pixel = captured.image.get_color_at(SIZE / 2, SIZE / 2).expect("it is inside");
-            *to.lock().expect("nobody panics") = Some(pixel.to_srgba().to_u8_array());
+            *to.lock().expect("nobody panics") = captured.image.data.clone();
         },
     );
     for _ in 0..100 {
         app.update();
-        if let Some(pixel) = *seen.lock().expect("nobody panics") {
-            return pixel;
+        if let Some(bytes) = seen.lock().expect("nobody panics").take() {
+            return bytes.as_chunks().0.to_vec();
         }
     }
     panic!("no picture came");

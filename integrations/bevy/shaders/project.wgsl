@@ -1,0 +1,10 @@
+// The camera or the light of Bevy's pass: what begins its uniform buffer.
+@group(0) @binding(0) var<uniform> tess_clip_from_world: mat4x4<f32>;
+// Whether what is in front of the near plane is drawn on it, where the device cannot do so.
+override tess_clamps: bool = false;
+
+fn tess_project(world: vec3<f32>) -> vec4<f32> {
+    var position = tess_clip_from_world * vec4<f32>(world, 1.0);
+    position.z = select(position.z, min(position.z, position.w), tess_clamps);
+    return position;
+}
