@@ -1,7 +1,5 @@
 //! Times workloads with edited shaders, stage by stage.
 
-mod variant;
-
 use crate::Result;
 use clap::Args;
 use std::fmt::Write;
@@ -10,10 +8,10 @@ use std::time::{Duration, Instant};
 use tess_core::{DomainPoint, Tessellation};
 use tess_gpu::layout::{PackedPoint, factor_words};
 use tess_gpu::{Numbering, Setup, Stage};
+use tess_testkit::listed::{self, ListedFault};
 use tess_verify::generate::{IndexWidth, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
-use variant::ShaderVariant;
 
 /// Runs whose median is taken.
 const SAMPLES: usize = 7;
@@ -21,8 +19,8 @@ const SAMPLES: usize = 7;
 /// The measurements to take.
 #[derive(Args, Debug)]
 pub(crate) struct AblationArguments {
-    /// Folder of edits, one `*.edit` file for each variant of the shaders
-    folder: PathBuf,
+    /// List of edits, of which those of one name are a variant of the shaders
+    edits: PathBuf,
     /// Workloads of `tess bench`, for example uniform-16
     #[arg(required = true, value_name = "WORKLOAD")]
     workloads: Vec<String>,
@@ -40,7 +38,7 @@ pub(crate) fn run(arguments: &AblationArguments) -> Result<()> {
     let features = Stopwatch::FEATURES | wgpu::Features::SUBGROUP;
     let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, features))?;
     let stopwatch = Stopwatch::new(&gpu)?;
-    let variants = ShaderVariant::read_all(&arguments.folder)?;
+    let variants = variants(&std::fs::read_to_string(&arguments.edits)?)?;
     println!("{}", gpu.name());
     let mut selected = Vec::new();
     for name in &arguments.workloads {
@@ -58,11 +56,29 @@ pub(crate) fn run(arguments: &AblationArguments) -> Result<()> {
     for workload in &selected {
         let bench = WorkloadBench::new(&gpu, workload, arguments.repeats)?;
         println!("{}, {} triangles", workload.name, bench.totals.primitives * bench.repeats);
-        for variant in &variants {
-            println!("{:<26} {}", variant.name, bench.line(&gpu, &stopwatch, variant)?);
+        for (name, edits) in &variants {
+            println!("{name:<26} {}", bench.line(&gpu, &stopwatch, edits)?);
         }
     }
     Ok(())
+}
+
+/// The edits of each variant of a list, behind the unedited shaders.
+fn variants(list: &str) -> Result<Vec<(String, Vec<ListedFault>)>> {
+    let mut all = vec![("as they are".to_owned(), Vec::new())];
+    for edit in listed::parse(list)? {
+        match all.last_mut() {
+            Some((name, edits)) if *name == edit.name => edits.push(edit),
+            _ => all.push((edit.name.clone(), vec![edit])),
+        }
+    }
+    Ok(all)
+}
+
+/// The first edit whose text no shader has.
+fn missing(edits: &[ListedFault], setup: Setup) -> Option<&ListedFault> {
+    let sources = Stage::ALL.map(|stage| stage.source(setup));
+    edits.iter().find(|edit| sources.iter().all(|source| edit.places(source) == 0))
 }
 
 /// A workload with the buffers of its working set `stream`.
@@ -103,14 +119,14 @@ impl<'a> WorkloadBench<'a> {
     }
 
     /// Triangles a second, the time of each stage in microseconds, and whether the bits are right.
-    fn line(&self, gpu: &Gpu, stopwatch: &Stopwatch, variant: &ShaderVariant) -> Result<String> {
-        let sources = Stage::ALL.map(|stage| stage.source(self.setup));
-        if let Some(missing) = variant.missing(&sources) {
-            return Err(format!("{}: no shader has the text\n{missing}", variant.name).into());
+    fn line(&self, gpu: &Gpu, stopwatch: &Stopwatch, edits: &[ListedFault]) -> Result<String> {
+        if let Some(ListedFault { name, right, .. }) = missing(edits, self.setup) {
+            return Err(format!("{name}: no shader has the text\n{right}").into());
         }
-        let edited = variant.clone();
-        let mut tessellator =
-            Tessellator::with_edit(&gpu.device, move |_, source| edited.edit(source));
+        let edits = edits.to_vec();
+        let mut tessellator = Tessellator::with_edit(&gpu.device, move |_, source| {
+            edits.iter().fold(source, |source, edit| edit.planted(&source).unwrap_or(source))
+        });
         let outputs = Outputs::Buffers { points: &self.points, indices: &self.indices };
         let patches = u32::try_from(self.totals.patches * self.repeats)?;
         let batch = tessellator.batch(self.setup, patches, &self.factors, outputs)?;
@@ -171,4 +187,21 @@ fn warm_up(gpu: &Gpu, batch: &Batch) -> Result<()> {
 fn median(mut values: Vec<u64>) -> u64 {
     values.sort_unstable();
     values.get(values.len() / 2).copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+
+    /// The edits of this crate still find what they replace.
+    #[test]
+    fn edits_are_of_the_shaders() {
+        let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+        let variants = variants(include_str!("../../../edits")).expect("edits");
+        assert!(variants.len() > 5, "{} variants", variants.len());
+        for (name, edits) in &variants {
+            assert_eq!(missing(edits, Setup::new(Domain::Quad, config)), None, "{name}");
+        }
+    }
 }
