@@ -1,7 +1,7 @@
 //! Why a mesh or a patch is refused.
 
-use core::fmt;
 use tess_core::Domain;
+use thiserror::Error;
 
 /// The largest magnitude that a coordinate may have: 1e16.
 ///
@@ -12,10 +12,11 @@ use tess_core::Domain;
 pub const MAX_COORDINATE: f32 = 1e16;
 
 /// Fault of one face or patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MeshFault {
     /// An index points beyond its list.
+    #[error("a {what} index is out of range: there are {count}")]
     OutOfRange {
         /// The name of the list's elements.
         what: &'static str,
@@ -23,6 +24,7 @@ pub enum MeshFault {
         count: usize,
     },
     /// The normals or texture coordinates are not one for each corner.
+    #[error("a face of {corners} corners has {found} {what} indices")]
     WrongCount {
         /// The name of the elements.
         what: &'static str,
@@ -33,18 +35,26 @@ pub enum MeshFault {
     },
     /// A position or texture coordinate is NaN or infinite, or a normal has no direction. The
     /// string names which.
+    #[error("a {0} is {zero}NaN or infinite", zero = if *.0 == "normal" { "zero, " } else { "" })]
     NotFinite(&'static str),
     /// A position, texture coordinate or control point has a coordinate beyond [`MAX_COORDINATE`].
     /// The string names which.
+    #[error(
+        "a {0} is too large to be evaluated: coordinates must lie within {MAX_COORDINATE:e} of 0"
+    )]
     TooLarge(&'static str),
     /// Two neighbouring corners have the same position.
+    #[error("two neighbouring corners are in the same place")]
     RepeatedCorner,
     /// All corners or control points lie on one line.
+    #[error("it has zero area")]
     NoArea,
     /// A weight is not greater than zero.
+    #[error("a weight is not greater than zero")]
     Weight,
     /// An edge of this face already belongs to two other faces, and not as many of all its faces run
     /// one way along it as the other.
+    #[error("one of its edges belongs to two other faces already (not manifold)")]
     NonManifold {
         /// The numbers of the other faces.
         others: [usize; 2],
@@ -52,17 +62,20 @@ pub enum MeshFault {
 }
 
 /// Why a mesh cannot be tessellated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MeshError {
     /// The mesh has no face.
+    #[error("there is no face")]
     Empty,
     /// The mesh has 2^30 faces or more.
+    #[error("there are {faces} faces; 2^30 are too many")]
     TooMany {
         /// The number of faces.
         faces: usize,
     },
     /// One face, the first such, is at fault.
+    #[error("face {face}: {fault}")]
     Face {
         /// Its number, from 0.
         face: usize,
@@ -72,7 +85,8 @@ pub enum MeshError {
 }
 
 /// A value for each corner was given for another domain than the surface's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the values belong to a {found:?} patch, but the surface is a {expected:?}")]
 pub struct WrongDomain {
     /// The domain of the values.
     pub found: Domain,
@@ -81,10 +95,13 @@ pub struct WrongDomain {
 }
 
 /// Why there is no such height image, or no such displacement by it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HeightError {
     /// The number of texels is not width times height, or it is 0.
+    #[error(
+        "there are {texels} texels for an image of {width} x {height}; give one for each place, and at least one"
+    )]
     WrongLength {
         /// How many texels there are.
         texels: usize,
@@ -94,16 +111,24 @@ pub enum HeightError {
         height: usize,
     },
     /// A texel is NaN or infinite.
+    #[error("texel {index} is NaN or infinite; replace it by a number")]
     NotFinite {
         /// Its number, from 0.
         index: usize,
     },
     /// A texel is beyond [`MAX_COORDINATE`].
+    #[error(
+        "texel {index} is too large to be evaluated: heights must lie within {MAX_COORDINATE:e} of 0"
+    )]
     TooLarge {
         /// Its number, from 0.
         index: usize,
     },
     /// The image's largest height times the scale is NaN or beyond [`MAX_COORDINATE`].
+    #[error(
+        "heights up to {height:e} times the scale {scale:e} are too large to be evaluated: products must lie within \
+         {MAX_COORDINATE:e} of 0"
+    )]
     TooHigh {
         /// The largest magnitude in the image.
         height: f32,
@@ -117,76 +142,3 @@ impl MeshError {
         Self::Face { face, fault }
     }
 }
-
-impl fmt::Display for MeshFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::OutOfRange { what, count } => {
-                write!(f, "a {what} index is out of range: there are {count}")
-            }
-            Self::WrongCount { what, found, corners } => {
-                write!(f, "a face of {corners} corners has {found} {what} indices")
-            }
-            Self::NotFinite("normal") => f.write_str("a normal is zero, NaN or infinite"),
-            Self::NotFinite(what) => write!(f, "a {what} is NaN or infinite"),
-            Self::TooLarge(what) => write!(
-                f,
-                "a {what} is too large to be evaluated: coordinates must lie within \
-                 {MAX_COORDINATE:e} of 0"
-            ),
-            Self::RepeatedCorner => f.write_str("two neighbouring corners are in the same place"),
-            Self::NoArea => f.write_str("it has zero area"),
-            Self::Weight => f.write_str("a weight is not greater than zero"),
-            Self::NonManifold { .. } => {
-                f.write_str("one of its edges belongs to two other faces already (not manifold)")
-            }
-        }
-    }
-}
-
-impl fmt::Display for MeshError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty => f.write_str("there is no face"),
-            Self::TooMany { faces } => write!(f, "there are {faces} faces; 2^30 are too many"),
-            Self::Face { face, fault } => write!(f, "face {face}: {fault}"),
-        }
-    }
-}
-
-impl fmt::Display for WrongDomain {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { found, expected } = self;
-        write!(f, "the values belong to a {found:?} patch, but the surface is a {expected:?}")
-    }
-}
-
-impl fmt::Display for HeightError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::WrongLength { texels, width, height } => write!(
-                f,
-                "there are {texels} texels for an image of {width} x {height}; give one for each \
-                 place, and at least one"
-            ),
-            Self::NotFinite { index } => {
-                write!(f, "texel {index} is NaN or infinite; replace it by a number")
-            }
-            Self::TooLarge { index } => write!(
-                f,
-                "texel {index} is too large to be evaluated: heights must lie within \
-                 {MAX_COORDINATE:e} of 0"
-            ),
-            Self::TooHigh { height, scale } => write!(
-                f,
-                "heights up to {height:e} times the scale {scale:e} are too large to be evaluated: \
-                 products must lie within {MAX_COORDINATE:e} of 0"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for HeightError {}
-impl core::error::Error for WrongDomain {}
-impl core::error::Error for MeshFault {}
-impl core::error::Error for MeshError {}

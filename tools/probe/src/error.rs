@@ -1,15 +1,16 @@
 //! Errors of a device.
 
 use ash::vk;
-use std::fmt;
 
 /// Why a device could not be asked.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// There is no Vulkan loader here; what the system says.
+    #[error("there is no Vulkan here ({0}); install the loader and a driver")]
     NoLoader(String),
     /// There is no device of this number.
+    #[error("there is no Vulkan device {asked}{}", numbers(*.there))]
     NoDevice {
         /// The number that was asked for.
         asked: usize,
@@ -17,12 +18,16 @@ pub enum Error {
         there: usize,
     },
     /// The device lacks something that a probe needs.
+    #[error("this device has no {0}, which a probe needs")]
     Missing(&'static str),
     /// The device stopped answering.
+    #[error("the device was lost: its driver ended it while it worked")]
     Lost,
     /// The device or the system has too little memory.
+    #[error("the device or the system is out of memory")]
     OutOfMemory,
     /// A call failed in another way.
+    #[error("{call} failed: {result}")]
     Call {
         /// The call.
         call: &'static str,
@@ -30,6 +35,7 @@ pub enum Error {
         result: String,
     },
     /// A capture cannot be what a device gives; the text says why.
+    #[error("the capture makes no sense: {0}")]
     Capture(String),
 }
 
@@ -46,25 +52,10 @@ impl Error {
     }
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoLoader(why) => {
-                write!(f, "there is no Vulkan here ({why}); install the loader and a driver")
-            }
-            Self::NoDevice { asked, there: 0 } => {
-                write!(f, "there is no Vulkan device {asked}: no driver has any")
-            }
-            Self::NoDevice { asked, there } => {
-                write!(f, "there is no Vulkan device {asked}; they are numbered 0 to {}", there - 1)
-            }
-            Self::Missing(what) => write!(f, "this device has no {what}, which a probe needs"),
-            Self::Lost => f.write_str("the device was lost: its driver ended it while it worked"),
-            Self::OutOfMemory => f.write_str("the device or the system is out of memory"),
-            Self::Call { call, result } => write!(f, "{call} failed: {result}"),
-            Self::Capture(why) => write!(f, "the capture makes no sense: {why}"),
-        }
+/// What numbers there are, behind one that there is not.
+fn numbers(there: usize) -> String {
+    match there {
+        0 => ": no driver has any".to_owned(),
+        _ => format!("; they are numbered 0 to {}", there - 1),
     }
 }
-
-impl std::error::Error for Error {}
