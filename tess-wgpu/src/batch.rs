@@ -64,7 +64,8 @@ impl Batch {
             match workgroups {
                 Workgroups::Direct([x, y, z]) => pass.dispatch_workgroups(*x, *y, *z),
                 Workgroups::Indirect(at) => {
-                    pass.dispatch_workgroups_indirect(&self.buffers.arguments, *at);
+                    let arguments = self.buffers.of(Resource::Arguments);
+                    pass.dispatch_workgroups_indirect(arguments, *at);
                 }
             }
             after(&mut pass, *stage);
@@ -79,53 +80,53 @@ impl Batch {
 
     /// A [`Status`](tess_gpu::layout::Status) after the batch has run.
     #[must_use]
-    pub const fn status(&self) -> &wgpu::Buffer {
-        &self.buffers.status
+    pub fn status(&self) -> &wgpu::Buffer {
+        self.buffers.of(Resource::Status)
     }
 
     /// The arguments of `draw_indexed_indirect` at offset 0, after the batch has run: see
     /// [`tess_gpu::layout::DrawIndexed`].
     #[must_use]
-    pub const fn draw_arguments(&self) -> &wgpu::Buffer {
-        &self.buffers.arguments
+    pub fn draw_arguments(&self) -> &wgpu::Buffer {
+        self.buffers.of(Resource::Arguments)
     }
 
     /// The arguments of one `draw_indexed_indirect` for each group, 20 bytes each and in order, after
     /// the batch has run. A batch without groups has none.
     #[must_use]
-    pub const fn group_arguments(&self) -> &wgpu::Buffer {
-        &self.buffers.draws
+    pub fn group_arguments(&self) -> &wgpu::Buffer {
+        self.buffers.of(Resource::Draws)
     }
 
     /// The [`tess_gpu::layout::Topology`] of each patch, after the batch has run.
     #[must_use]
-    pub const fn topologies(&self) -> &wgpu::Buffer {
-        &self.buffers.topologies
+    pub fn topologies(&self) -> &wgpu::Buffer {
+        self.buffers.of(Resource::Topologies)
     }
 
     /// The packed factor contexts ([`tess_gpu::layout::pack_context`]), after the batch has run.
     #[must_use]
-    pub const fn contexts(&self) -> &wgpu::Buffer {
-        &self.buffers.contexts
+    pub fn contexts(&self) -> &wgpu::Buffer {
+        self.buffers.of(Resource::Contexts)
     }
 
     /// The offsets of patches, blocks and sections, after the batch has run.
     #[must_use]
-    pub const fn offsets(&self) -> &wgpu::Buffer {
-        &self.buffers.offsets
+    pub fn offsets(&self) -> &wgpu::Buffer {
+        self.buffers.of(Resource::Offsets)
     }
 
     /// The [`tess_gpu::layout::Job`] of each part of the batch, 256 bytes apart. A shader of [`tess_gpu::Pull`] binds
     /// the first.
     #[must_use]
-    pub const fn jobs(&self) -> &wgpu::Buffer {
-        &self.buffers.jobs
+    pub fn jobs(&self) -> &wgpu::Buffer {
+        self.buffers.of(Resource::Job)
     }
 
     /// The number of the first patch of each tile of the output, after the batch has run.
     #[must_use]
-    pub const fn tiles(&self) -> &wgpu::Buffer {
-        &self.buffers.tiles
+    pub fn tiles(&self) -> &wgpu::Buffer {
+        self.buffers.of(Resource::Tiles)
     }
 }
 

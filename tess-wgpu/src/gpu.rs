@@ -2,11 +2,11 @@
 
 use crate::error::{Error, StageError, checked};
 use crate::open::{self, Wanted};
+use futures_channel::oneshot;
 use std::fmt;
-use std::future::Future;
+use std::future::{Future, poll_fn};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::pin::{Pin, pin};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
 /// A device with its queue and the adapter that it was made from. The fields are public: fill them with your own
@@ -108,12 +108,22 @@ impl Gpu {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size);
         self.submit(encoder)?;
-        let answer = Arc::new(Mutex::new(Answer::default()));
-        let sender = Arc::clone(&answer);
+        let (sender, mut receiver) = oneshot::channel();
         checked(&self.device, || {
-            staging.map_async(wgpu::MapMode::Read, .., move |result| Answer::give(&sender, result));
+            staging.map_async(wgpu::MapMode::Read, .., move |result| _ = sender.send(result));
         })?;
-        Arrival { device: &self.device, answer }.await?;
+        let answer = poll_fn(|context| {
+            if let Err(error) = poll(&self.device, wgpu::PollType::Poll) {
+                return Poll::Ready(Err(error));
+            }
+            let answer = pin!(&mut receiver).poll(context);
+            if cfg!(not(target_arch = "wasm32")) && answer.is_pending() {
+                context.waker().wake_by_ref();
+            }
+            answer.map(Ok)
+        });
+        let answer = answer.await?.map_err(|_| lost(&"it never answered"))?;
+        answer.map_err(|error| lost(&error))?;
         let view = staging.get_mapped_range(..).map_err(|error| lost(&error))?;
         Ok(view.to_vec())
     }
@@ -146,55 +156,6 @@ impl Gpu {
     fn wait(&self) -> Result<(), Error> {
         poll(&self.device, wgpu::PollType::wait_indefinitely())?;
         check_alive(&self.device)
-    }
-}
-
-/// The answer to `map_async`, and who waits for it.
-#[derive(Default)]
-struct Answer {
-    result: Option<Result<(), wgpu::BufferAsyncError>>,
-    waiting: Option<Waker>,
-}
-
-impl Answer {
-    fn give(answer: &Mutex<Self>, result: Result<(), wgpu::BufferAsyncError>) {
-        let mut answer = answer.lock().unwrap_or_else(PoisonError::into_inner);
-        answer.result = Some(result);
-        let waiting = answer.waiting.take();
-        drop(answer);
-        if let Some(waker) = waiting {
-            waker.wake();
-        }
-    }
-}
-
-/// Waits for an answer.
-struct Arrival<'a> {
-    device: &'a wgpu::Device,
-    answer: Arc<Mutex<Answer>>,
-}
-
-impl Future for Arrival<'_> {
-    type Output = Result<(), Error>;
-
-    fn poll(self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
-        if let Err(error) = poll(self.device, wgpu::PollType::Poll) {
-            return Poll::Ready(Err(error));
-        }
-        // Whoever answers holds the other half until then.
-        let is_dropped = Arc::strong_count(&self.answer) == 1;
-        let mut answer = self.answer.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(result) = answer.result.take() {
-            return Poll::Ready(result.map_err(|error| lost(&error)));
-        }
-        if is_dropped {
-            return Poll::Ready(Err(lost(&"it never answered")));
-        }
-        answer.waiting = Some(context.waker().clone());
-        if cfg!(not(target_arch = "wasm32")) {
-            context.waker().wake_by_ref();
-        }
-        Poll::Pending
     }
 }
 

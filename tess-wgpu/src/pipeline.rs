@@ -1,66 +1,57 @@
-//! Compute pipelines of the shaders, and bind groups.
+//! Compute pipelines and what they are made of, and bind groups.
 
 use crate::error::{Error, checked};
-use tess_gpu::{Access, Binding, Resource, Stage};
+use tess_gpu::{Access, Binding, Resource};
 
-/// The pipeline of a stage's source.
-pub(crate) fn of_stage(
+/// A compute pipeline of an entry point with these layouts.
+pub(crate) fn compute(
     device: &wgpu::Device,
-    stage: Stage,
-    source: &str,
+    (module, entry_point): (&wgpu::ShaderModule, &str),
+    layouts: &[wgpu::BindGroupLayout],
+    compilation_options: wgpu::PipelineCompilationOptions<'_>,
     cache: Option<&wgpu::PipelineCache>,
-) -> wgpu::ComputePipeline {
-    let label = Some(stage.entry_point());
-    let entries: Vec<_> = entries(stage.bindings()).collect();
-    compute_pipeline(device, label, source, &entries, cache)
-}
-
-/// The pipeline of a tap's source: it binds the input, the output and the tables.
-#[cfg(feature = "measure")]
-pub(crate) fn of_tap(device: &wgpu::Device, source: &str) -> wgpu::ComputePipeline {
-    let accesses = [Access::Read, Access::ReadWrite, Access::Read];
-    let bindings = accesses.map(|access| Binding(Resource::Tables, access));
-    let entries: Vec<_> = entries(&bindings).collect();
-    compute_pipeline(device, Some("taps"), source, &entries, None)
-}
-
-fn compute_pipeline(
-    device: &wgpu::Device,
-    label: Option<&str>,
-    source: &str,
-    entries: &[wgpu::BindGroupLayoutEntry],
-    cache: Option<&wgpu::PipelineCache>,
-) -> wgpu::ComputePipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label,
-        source: wgpu::ShaderSource::Wgsl(source.into()),
-    });
-    let group =
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label,
-        bind_group_layouts: &[Some(&group)],
-        immediate_size: 0,
-    });
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label,
-        layout: Some(&layout),
-        module: &module,
-        entry_point: label,
-        compilation_options: wgpu::PipelineCompilationOptions {
-            // Every word of it is written before it is read.
-            zero_initialize_workgroup_memory: false,
-            ..Default::default()
-        },
-        cache,
+) -> Result<wgpu::ComputePipeline, Error> {
+    let (layout, label) = (layout(device, entry_point, layouts)?, Some(entry_point));
+    checked(device, || {
+        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label,
+            layout: Some(&layout),
+            module,
+            entry_point: label,
+            compilation_options,
+            cache,
+        })
     })
 }
 
-/// The entries of bindings 0, 1, ... of a compute shader.
-fn entries(bindings: &[Binding]) -> impl Iterator<Item = wgpu::BindGroupLayoutEntry> {
-    (0..)
-        .zip(bindings)
-        .map(|(number, &binding)| entry(number, binding, wgpu::ShaderStages::COMPUTE))
+/// The layout of a pipeline.
+pub(crate) fn layout(
+    device: &wgpu::Device,
+    label: &str,
+    layouts: &[wgpu::BindGroupLayout],
+) -> Result<wgpu::PipelineLayout, Error> {
+    let layouts: Vec<_> = layouts.iter().map(Some).collect();
+    checked(device, || {
+        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(label),
+            bind_group_layouts: &layouts,
+            immediate_size: 0,
+        })
+    })
+}
+
+/// A module of WGSL that is not the user's.
+pub(crate) fn module(
+    device: &wgpu::Device,
+    label: &str,
+    source: String,
+) -> Result<wgpu::ShaderModule, Error> {
+    checked(device, || {
+        device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        })
+    })
 }
 
 /// The entry of a binding in the layout of its bind group.

@@ -7,8 +7,8 @@ use std::fmt;
 use std::sync::{Arc, Weak};
 use tess_core::SplitOrder;
 #[cfg(feature = "measure")]
-use tess_gpu::Tap;
-use tess_gpu::{Setup, Stage, tables};
+use tess_gpu::{Access, Resource, Tap};
+use tess_gpu::{Binding, Setup, Stage, tables};
 
 /// A change of a shader's source before it is compiled.
 pub(crate) type Edit = Box<dyn Fn(Stage, String) -> String + Send + Sync>;
@@ -110,11 +110,29 @@ impl Pipelines {
         if let Some(edit) = &self.edit {
             source = edit(stage, source);
         }
-        let pipeline = checked(&self.device, || {
-            pipeline::of_stage(&self.device, stage, &source, self.cache.as_ref())
-        })?;
+        let pipeline = self.compiled(stage.entry_point(), source, stage.bindings())?;
         self.pipelines.insert(key, pipeline.clone());
         Ok(pipeline)
+    }
+
+    /// The pipeline of a shader with these bindings in group 0.
+    fn compiled(
+        &mut self,
+        entry_point: &str,
+        source: String,
+        bindings: &[Binding],
+    ) -> Result<wgpu::ComputePipeline, Error> {
+        let entry =
+            |(number, &binding)| pipeline::entry(number, binding, wgpu::ShaderStages::COMPUTE);
+        let layouts = [self.layout(entry_point, (0..).zip(bindings).map(entry).collect())?];
+        let module = pipeline::module(&self.device, entry_point, source)?;
+        let options = wgpu::PipelineCompilationOptions {
+            // Every word of it is written before it is read.
+            zero_initialize_workgroup_memory: false,
+            ..Default::default()
+        };
+        let (of, cache) = ((&module, entry_point), self.cache.as_ref());
+        pipeline::compute(&self.device, of, &layouts, options, cache)
     }
 
     /// The pipeline of a tap, made when it is first asked for.
@@ -123,8 +141,9 @@ impl Pipelines {
         if let Some(pipeline) = self.taps.get(&(tap, setup)) {
             return Ok(pipeline.clone());
         }
-        let source = tap.source(setup);
-        let pipeline = checked(&self.device, || pipeline::of_tap(&self.device, &source))?;
+        let bindings = [Access::Read, Access::ReadWrite, Access::Read]
+            .map(|access| Binding(Resource::Tables, access));
+        let pipeline = self.compiled("taps", tap.source(setup), &bindings)?;
         self.taps.insert((tap, setup), pipeline.clone());
         Ok(pipeline)
     }

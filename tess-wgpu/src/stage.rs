@@ -150,7 +150,7 @@ impl TessellationStage {
     ///
     /// # Errors
     /// [`StageError::NothingStored`] unless points and indices are stored.
-    pub const fn buffers(&self) -> Result<DrawBuffers<'_>, Error> {
+    pub fn buffers(&self) -> Result<DrawBuffers<'_>, Error> {
         match (&self.output.stored.points, &self.output.stored.indices) {
             (Some(points), Some(indices)) => Ok(DrawBuffers {
                 points,

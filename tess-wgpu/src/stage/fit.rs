@@ -55,7 +55,7 @@
 use super::passes;
 use crate::error::Error;
 use crate::pipelines::PipelineKey;
-use crate::{Tessellator, gpu};
+use crate::{Tessellator, gpu, pipeline};
 use std::sync::Arc;
 use tess_gpu::{Access, Capacity, Counting, Setup};
 use wgpu::BufferUsages as Usage;
@@ -195,7 +195,7 @@ fn pipelines(
         passes::pipeline(tessellator, key, || match &module {
             Some(made) => Ok(wgpu::ShaderModule::clone(made)),
             None => {
-                let made = passes::module(tessellator.device(), "fit", text.clone())?;
+                let made = pipeline::module(tessellator.device(), "fit", text.clone())?;
                 Ok(module.insert(made).clone())
             }
         })

@@ -247,7 +247,7 @@ async fn render_pipeline(
     }
     let module = modules::user_module(device, "domain", user, shader.clone()).await?;
     gl::check_flat_members(device, &shader)?;
-    let layout = passes::pipeline_layout(device, "tessellation stage", &key.layouts)?;
+    let layout = pipeline::layout(device, "tessellation stage", &key.layouts)?;
     let mut pipelines = tessellator.pipelines();
     let cache = pipelines.cache.as_ref();
     let made = new_render_pipeline(builder, device, (&module, &layout), (&key, cache))?;

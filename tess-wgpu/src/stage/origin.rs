@@ -7,7 +7,7 @@ use super::room::Form;
 use super::{UserGroup, modules, source, wgsl};
 use crate::error::Error;
 use crate::pipelines::PipelineKey;
-use crate::{Tessellator, gpu};
+use crate::{Tessellator, gpu, pipeline};
 use std::sync::Arc;
 use tess_gpu::{Access, Resource, Setup};
 use wgpu::BufferUsages as Usage;
@@ -67,7 +67,7 @@ impl Origin {
         let key = PipelineKey { text, entry_point: "copy_factors", layouts, constants };
         let text = key.text.clone();
         let pipeline =
-            passes::pipeline(tessellator, key, || passes::module(device, "copy factors", text))?;
+            passes::pipeline(tessellator, key, || pipeline::module(device, "copy factors", text))?;
         let host = matches!(builder.factors, Factors::Host).then_some(given);
         Ok(Self { pipeline, own, own_group: 0, workgroups, host })
     }

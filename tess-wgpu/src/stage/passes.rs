@@ -1,6 +1,6 @@
 //! Compute pipelines of the stage, and how their threads are laid out.
 
-use crate::error::{Error, checked};
+use crate::error::Error;
 use crate::pipelines::PipelineKey;
 use crate::{Tessellator, pipeline};
 use std::sync::Arc;
@@ -45,57 +45,15 @@ pub(crate) fn pipeline(
     if let Some(pipeline) = tessellator.pipelines().passes.find(&key) {
         return Ok(pipeline);
     }
-    let (module, device) = (module()?, tessellator.device());
-    let label = Some(key.entry_point);
-    let layout = pipeline_layout(device, key.entry_point, &key.layouts)?;
-    let constants = constants(&key);
+    let (module, constants) = (module()?, constants(&key));
+    let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     let mut pipelines = tessellator.pipelines();
-    let made = checked(device, || {
-        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label,
-            layout: Some(&layout),
-            module: &module,
-            entry_point: label,
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
-            cache: pipelines.cache.as_ref(),
-        })
-    })?;
+    let (of, cache) = ((&module, key.entry_point), pipelines.cache.as_ref());
+    let made = pipeline::compute(tessellator.device(), of, &key.layouts, options, cache)?;
     Ok(pipelines.passes.keep(key, made))
 }
 
 /// The pipeline constants of a key, as wgpu takes them.
 pub(crate) fn constants(key: &PipelineKey) -> Vec<(&str, f64)> {
     key.constants.iter().map(|(name, bits)| (name.as_str(), f64::from_bits(*bits))).collect()
-}
-
-pub(crate) fn pipeline_layout(
-    device: &wgpu::Device,
-    label: &str,
-    layouts: &[wgpu::BindGroupLayout],
-) -> Result<wgpu::PipelineLayout, Error> {
-    let layouts: Vec<_> = layouts.iter().map(Some).collect();
-    checked(device, || {
-        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(label),
-            bind_group_layouts: &layouts,
-            immediate_size: 0,
-        })
-    })
-}
-
-/// A module of the stage's own WGSL.
-pub(crate) fn module(
-    device: &wgpu::Device,
-    label: &str,
-    source: String,
-) -> Result<wgpu::ShaderModule, Error> {
-    checked(device, || {
-        device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
-        })
-    })
 }

@@ -136,21 +136,7 @@ pub(super) fn reached<'a>(all: &[Declaration<'a>], entries: &[&'a str]) -> Vec<D
 }
 
 /// WGSL's own types that the stage's text names; it has no aliases of them.
-const TYPES: [&str; 13] = [
-    "array",
-    "atomic",
-    "bool",
-    "f32",
-    "i32",
-    "mat4x4",
-    "ptr",
-    "texture_2d",
-    "u32",
-    "vec2",
-    "vec3",
-    "vec4",
-    "bitcast",
-];
+const TYPES: &str = "array atomic bitcast bool f32 i32 mat4x4 ptr texture_2d u32 vec2 vec3 vec4";
 
 /// The user's first declaration of a name that is WGSL's own and that the stage's text uses: the text would then use
 /// the user's.
@@ -158,7 +144,7 @@ pub(super) fn shadowed<'a>(user: &'a str, own: &str) -> Option<Declaration<'a>> 
     let declared: Vec<&str> = declarations(own).into_iter().map(|one| one.name).collect();
     let words: Vec<&str> = tokens(own).map(|(_, token)| token).collect();
     let is_used = |name: &str| {
-        TYPES.contains(&name) && words.contains(&name)
+        TYPES.split(' ').any(|own| own == name) && words.contains(&name)
             || words.windows(3).any(|w| w[0] != "@" && w[1] == name && w[2] == "(")
     };
     declarations(user).into_iter().find(|one| {

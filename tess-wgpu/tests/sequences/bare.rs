@@ -1,11 +1,14 @@
 //! A plan of tess-gpu on bare wgpu, and what a batch leaves, whoever ran it.
 
+#[allow(dead_code, reason = "batches are made and recorded apart")]
+#[path = "../../../tess-gpu/examples/bare_wgpu.rs"]
+mod bare_wgpu;
+
 use crate::common::device::Machine;
-use crate::common::objects;
+use bare_wgpu::Buffers;
 use std::collections::HashMap;
-use tess_gpu::{Access, Binding, Plan, Resource, Setup, Stage, Workgroups, tables};
+use tess_gpu::{Plan, Resource, Setup, Stage};
 use tess_wgpu::Batch;
-use wgpu::BufferUsages as Usage;
 
 /// The buffers that a batch leaves beside its output.
 pub(crate) struct Left<'a> {
@@ -26,11 +29,12 @@ pub(crate) enum Runner {
     Bare(Bare),
 }
 
-/// A plan with its buffers and bind groups.
+/// A plan with its buffers and the pipelines of its dispatches.
 pub(crate) struct Bare {
+    device: wgpu::Device,
     plan: Plan,
-    buffers: HashMap<Resource, wgpu::Buffer>,
-    dispatches: Vec<(wgpu::ComputePipeline, wgpu::BindGroup, Workgroups)>,
+    buffers: Box<Buffers>,
+    pipelines: Vec<wgpu::ComputePipeline>,
 }
 
 /// Pipelines by stage and the part of the setup that it depends on.
@@ -59,14 +63,14 @@ impl Runner {
             },
             Self::Bare(Bare { plan, buffers, .. }) => Left {
                 plan,
-                status: &buffers[&Resource::Status],
-                arguments: &buffers[&Resource::Arguments],
-                draws: &buffers[&Resource::Draws],
-                offsets: &buffers[&Resource::Offsets],
-                topologies: &buffers[&Resource::Topologies],
-                contexts: &buffers[&Resource::Contexts],
-                jobs: &buffers[&Resource::Job],
-                tiles: &buffers[&Resource::Tiles],
+                status: &buffers[Resource::Status as usize],
+                arguments: &buffers[Resource::Arguments as usize],
+                draws: &buffers[Resource::Draws as usize],
+                offsets: &buffers[Resource::Offsets as usize],
+                topologies: &buffers[Resource::Topologies as usize],
+                contexts: &buffers[Resource::Contexts as usize],
+                jobs: &buffers[Resource::Job as usize],
+                tiles: &buffers[Resource::Tiles as usize],
             },
         }
     }
@@ -81,63 +85,22 @@ impl Bare {
         groups: &[u32],
         given: &[(Resource, &wgpu::Buffer)],
     ) -> Self {
-        let make = |resource| {
-            let given = given.iter().find(|(other, _)| *other == resource);
-            match (given, resource) {
-                (Some(&(_, buffer)), _) => buffer.clone(),
-                (_, Resource::Job) => {
-                    let jobs = plan.jobs();
-                    machine.gpu.upload("jobs", &jobs, Usage::UNIFORM).expect("there is room")
-                }
-                (_, Resource::Tables) => {
-                    machine.upload(&tables(setup.config.split), Usage::STORAGE)
-                }
-                (_, Resource::Groups) => machine.upload(groups, Usage::STORAGE),
-                _ => {
-                    let usage = Usage::STORAGE | Usage::COPY_SRC | Usage::INDIRECT;
-                    let size = plan.buffer_size(resource);
-                    machine.gpu.buffer("between", size, usage).expect("there is room")
-                }
-            }
-        };
-        let buffers = Resource::ALL.map(|resource| (resource, make(resource))).into();
-        let device = &machine.gpu.device;
-        let mut own = Self { plan, buffers, dispatches: Vec::new() };
-        for dispatch in plan.dispatches() {
-            let stage = dispatch.stage();
-            let relevant = stage.relevant(setup);
-            let pipeline = pipelines.entry((stage, relevant));
-            let pipeline = pipeline.or_insert_with(|| pipeline_of(device, stage, relevant)).clone();
-            let bindings = (0..).zip(dispatch.bindings()).map(|(number, (resource, span))| {
-                (number, objects::part(&own.buffers[&resource], span.offset, span.size))
-            });
-            let group = objects::group(device, &pipeline.get_bind_group_layout(0), bindings);
-            own.dispatches.push((pipeline, group, dispatch.workgroups()));
-        }
-        own
+        let gpu = (machine.gpu.device.clone(), machine.gpu.queue.clone());
+        let mut buffers = bare_wgpu::buffers(&gpu, setup, &plan, &[], groups);
+        given.iter().for_each(|&(of, buffer)| buffers[of as usize] = buffer.clone());
+        let pipelines = plan.dispatches().map(|dispatch| {
+            let (stage, relevant) = (dispatch.stage(), dispatch.stage().relevant(setup));
+            let make = || bare_wgpu::pipeline(&gpu.0, stage, &stage.source(relevant));
+            pipelines.entry((stage, relevant)).or_insert_with(make).clone()
+        });
+        let pipelines = pipelines.collect();
+        Self { device: gpu.0, plan, buffers: Box::new(buffers), pipelines }
     }
 
     fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         let mut pass = encoder.begin_compute_pass(&Default::default());
-        for (pipeline, group, workgroups) in &self.dispatches {
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, group, &[]);
-            match *workgroups {
-                Workgroups::Direct([x, y, z]) => pass.dispatch_workgroups(x, y, z),
-                Workgroups::Indirect(at) => {
-                    pass.dispatch_workgroups_indirect(&self.buffers[&Resource::Arguments], at);
-                }
-            }
+        for (dispatch, pipeline) in self.plan.dispatches().zip(&self.pipelines) {
+            bare_wgpu::encode(&self.device, &mut pass, pipeline, &dispatch, &self.buffers);
         }
     }
-}
-
-/// The pipeline of a stage, whose layout has all of its bindings.
-fn pipeline_of(device: &wgpu::Device, stage: Stage, setup: Setup) -> wgpu::ComputePipeline {
-    let types = stage.bindings().iter().map(|&Binding(resource, access)| match resource {
-        Resource::Job => objects::buffer(wgpu::BufferBindingType::Uniform),
-        _ => objects::storage(access == Access::Read),
-    });
-    let layout = objects::layout(device, wgpu::ShaderStages::COMPUTE, types);
-    objects::compute(device, stage.source(setup), stage.entry_point(), &[&layout])
 }

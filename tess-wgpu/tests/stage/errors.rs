@@ -21,6 +21,17 @@ fn refusal(scene: &Scene, source: &str, points: Points) -> StageError {
     }
 }
 
+/// The line and the message with which a stage refuses the right WGSL with `to` in the place of `from`.
+fn complaint(scene: &Scene, [from, to]: [&str; 2], points: Points) -> (Option<u32>, String) {
+    let right = source(Domain::Quad);
+    let wrong = right.replace(from, to);
+    assert_ne!(wrong, right, "{from}");
+    match refusal(scene, &wrong, points) {
+        StageError::Wgsl { line, message } => (line, message),
+        other => panic!("{to}: {other:?}"),
+    }
+}
+
 /// The line on which a text begins.
 fn line_of(source: &str, text: &str) -> u32 {
     let before = source.split(text).next().expect("a first part");
@@ -44,19 +55,15 @@ fn wrong_wgsl_is_reported_with_the_users_line() {
                 "`return` expression",
             ),
         ] {
-            let wrong = right.replace(from, to);
             let expected = line_of(&right, from);
-            match refusal(&scene, &wrong, points) {
-                StageError::Wgsl { line: Some(line), message } => {
-                    // A missing semicolon is found where the next token begins; a statement of
-                    // the wrong type is reported with its function, which begins a line before.
-                    assert!((expected - 1..=expected + 2).contains(&line), "{line}: {message}");
-                    assert!(message.contains(says), "{message}");
-                    let text = StageError::Wgsl { line: Some(line), message }.to_string();
-                    assert!(text.starts_with(&format!("line {line} of your WGSL: ")), "{text}");
-                }
-                other => panic!("{to}: {other:?}"),
-            }
+            let (line, message) = complaint(&scene, [from, to], points);
+            let line = line.expect("a line of the user's");
+            // A missing semicolon is found where the next token begins; a statement of the wrong
+            // type is reported with its function, which begins a line before.
+            assert!((expected - 1..=expected + 2).contains(&line), "{line}: {message}");
+            assert!(message.contains(says), "{message}");
+            let text = StageError::Wgsl { line: Some(line), message }.to_string();
+            assert!(text.starts_with(&format!("line {line} of your WGSL: ")), "{text}");
         }
     }
 }
@@ -64,19 +71,15 @@ fn wrong_wgsl_is_reported_with_the_users_line() {
 #[test]
 fn missing_functions_are_named() {
     let scene = quads();
-    let right = source(Domain::Quad);
     for (from, to, says) in
         [("fn domain(", "fn surface(", "domain"), ("fn hull(", "fn control(", "hull")]
     {
-        let error = refusal(&scene, &right.replace(from, to), Points::Stored);
-        let StageError::Wgsl { line: None, message } = &error else { panic!("{error:?}") };
-        assert!(message.contains(says), "{message}");
+        let (line, message) = complaint(&scene, [from, to], Points::Stored);
+        assert!(line.is_none() && message.contains(says), "{line:?}: {message}");
+        let text = StageError::Wgsl { line, message }.to_string();
+        let demand = "`fn domain(number: u32, uv: vec2<f32>) -> Vertex`";
+        assert!(text.contains(demand), "{text}");
     }
-    let error = refusal(&scene, &right.replace("fn domain(", "fn surface("), Points::Stored);
-    assert!(
-        error.to_string().contains("`fn domain(number: u32, uv: vec2<f32>) -> Vertex`"),
-        "{error}"
-    );
 }
 
 #[test]
@@ -100,17 +103,12 @@ fn functions_that_do_not_go_with_the_stage_are_reported_with_their_line() {
         ("QuadFactors", "const ONE = 1.0;", "const ONE = 1.0; struct QuadFactors { a: f32 }"),
     ] {
         for points in [Points::Stored, Points::PullWithoutIndices] {
-            let wrong = right.replace(from, to);
-            assert_ne!(wrong, right, "{from}");
             let keyword = if function == "QuadFactors" { "struct" } else { "fn" };
-            let expected = line_of(&wrong, &format!("{keyword} {function}"));
-            match refusal(&scene, &wrong, points) {
-                StageError::Wgsl { line: Some(line), message } => {
-                    // The body of `hull` may be what is wrong instead.
-                    assert!((expected..=expected + 2).contains(&line), "{to}: {line}: {message}");
-                }
-                other => panic!("{to}: {other:?}"),
-            }
+            let expected = line_of(&right.replace(from, to), &format!("{keyword} {function}"));
+            let (line, message) = complaint(&scene, [from, to], points);
+            // The body of `hull` may be what is wrong instead.
+            let is_there = line.is_some_and(|line| (expected..=expected + 2).contains(&line));
+            assert!(is_there, "{to}: {line:?}: {message}");
         }
     }
 }
@@ -129,15 +127,12 @@ fn names_of_wgsls_own_are_refused_where_the_stage_uses_them() {
         "alias f32 = u32;",
         "struct vec4 { a: u32 }",
     ] {
-        let wrong =
-            right.replace("const ONE = 1.0;", &format!("const ONE = 1.0;\n\n{declaration}"));
-        match refusal(&scene, &wrong, Points::PullWithoutIndices) {
-            StageError::Wgsl { line, message } => {
-                assert_eq!(line, Some(line_of(&wrong, declaration)), "{message}");
-                assert!(message.contains("WGSL's own"), "{message}");
-            }
-            other => panic!("{declaration}: {other:?}"),
-        }
+        let to = format!("const ONE = 1.0;\n\n{declaration}");
+        let change = ["const ONE = 1.0;", &to];
+        let (line, message) = complaint(&scene, change, Points::PullWithoutIndices);
+        let expected = line_of(&right.replace(change[0], &to), declaration);
+        assert_eq!(line, Some(expected), "{message}");
+        assert!(message.contains("WGSL's own"), "{message}");
     }
     for declaration in ["fn pow(a: f32) -> f32 { return a; }", "fn at() {}", "const thread = 1;"] {
         let allowed = right.clone() + declaration;
@@ -338,14 +333,13 @@ fn type_errors_say_what_the_user_wrote() {
             "(i32) and (u32)",
         ),
     ] {
-        let wrong = right.replace(from, to);
-        assert_ne!(wrong, right, "{from}");
-        let error = refusal(&scene, &wrong, Points::Stored).to_string();
-        let begin = format!("line {} of your WGSL: in `{culprit}", line_of(&wrong, to));
-        assert!(error.starts_with(&begin) && error.contains(says), "{error}, not {begin}");
+        let (line, message) = complaint(&scene, [from, to], Points::Stored);
+        assert_eq!(line, Some(line_of(&right.replace(from, to), to)), "{message}");
+        let begin = format!("in `{culprit}");
+        assert!(message.starts_with(&begin) && message.contains(says), "{message}, not {begin}");
         let has_number =
-            error.as_bytes().windows(2).any(|two| two[0] == b'[' && two[1].is_ascii_digit());
-        assert!(!has_number || culprit == "given[0]", "{error}");
+            message.as_bytes().windows(2).any(|two| two[0] == b'[' && two[1].is_ascii_digit());
+        assert!(!has_number || culprit == "given[0]", "{message}");
     }
 }
 
