@@ -6,8 +6,6 @@ use crate::sizes;
 use tess_core::Order;
 use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 
-#[cfg(any(target_arch = "wasm32", test))]
-mod bare;
 mod counting;
 mod files;
 mod pull;

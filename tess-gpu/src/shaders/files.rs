@@ -4,33 +4,12 @@
 //! braces stand for one of several files, which the setup chooses. Names behind a semicolon are
 //! bindings that whoever needs the file declares.
 
-#[cfg(target_arch = "wasm32")]
-use super::bare::{bare, bare_len};
 use crate::setup::{IndexType, Setup};
 
 /// Lists files of `shaders/`: their names and texts.
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
-        [$(($name, downloaded!(include_str!(concat!("../../shaders/", $name, ".wgsl"))))),*]
-    };
-}
-
-/// The text, as short as it can be read if it is part of a page.
-#[cfg(target_arch = "wasm32")]
-macro_rules! downloaded {
-    ($text:expr) => {{
-        const LEFT: &[u8] = &bare::<{ bare_len($text) }>($text);
-        match str::from_utf8(LEFT) {
-            Ok(text) => text,
-            Err(_) => panic!("lines are removed whole"),
-        }
-    }};
-}
-
-#[cfg(not(target_arch = "wasm32"))]
-macro_rules! downloaded {
-    ($text:expr) => {
-        $text
+        [$(($name, include_str!(concat!("../../shaders/", $name, ".wgsl")))),*]
     };
 }
 
