@@ -6,72 +6,29 @@
 
 use crate::setup::{IndexType, Setup};
 
-/// Lists files of `shaders/`: their names and texts.
+/// Lists files of `shaders/` by their folders: names and texts.
 macro_rules! files {
-    ($($name:literal),* $(,)?) => {
-        [$(($name, include_str!(concat!("../../shaders/", $name, ".wgsl")))),*]
+    ($($folder:ident: $($name:ident)*;)*) => {
+        [$($(files!(@ concat!(stringify!($folder), "/", stringify!($name))),)*)*]
+    };
+    (@ $path:expr) => {
+        ($path, include_str!(concat!("../../shaders/", $path, ".wgsl")))
     };
 }
 
-const FILES: [(&str, &str); 57] = files![
-    "entry_points/expand_points",
-    "entry_points/expand_primitives",
-    "entry_points/expand_short",
-    "entry_points/factors",
-    "entry_points/groups",
-    "entry_points/list",
-    "entry_points/partition",
-    "entry_points/scan",
-    "entry_points/short_batch",
-    "entry_points/totals",
-    "layout/packed_context",
-    "layout/packed_triangle",
-    "layout/point_format",
-    "layout/setup",
-    "layout/topology",
-    "offered/counting",
-    "offered/elements",
-    "shared/alike",
-    "shared/block",
-    "shared/catalogue",
-    "shared/described",
-    "shared/expand",
-    "shared/finish",
-    "shared/offsets",
-    "shared/point_tile",
-    "shared/prefix_sum",
-    "shared/primitive_tile",
-    "shared/search",
-    "shared/tile",
-    "shared/tile_size",
-    "stages/cache_order",
-    "stages/connect",
-    "stages/counts",
-    "stages/d3d_float",
-    "stages/factor_context",
-    "stages/factors",
-    "stages/fixed_point",
-    "stages/locate",
-    "stages/place",
-    "stages/points",
-    "stages/rings",
-    "stages/stitch",
-    "taps/contexts",
-    "taps/factors",
-    "taps/locations",
-    "taps/tap",
-    "variants/indices_u16",
-    "variants/indices_u32",
-    "variants/listing",
-    "variants/narrow_tiles",
-    "variants/no_catalogue",
-    "variants/no_contexts",
-    "variants/no_listing",
-    "variants/place_evenly",
-    "variants/read_catalogue",
-    "variants/stored_contexts",
-    "variants/wide_tiles",
-];
+const FILES: [(&str, &str); 57] = files! {
+    entry_points: expand_points expand_primitives expand_short factors groups list partition scan short_batch
+        totals;
+    layout: packed_context packed_triangle point_format setup topology;
+    offered: counting elements;
+    shared: alike block catalogue described expand finish offsets point_tile prefix_sum primitive_tile search
+        tile tile_size;
+    stages: cache_order connect counts d3d_float factor_context factors fixed_point locate place points rings
+        stitch;
+    taps: contexts factors locations tap;
+    variants: indices_u16 indices_u32 listing narrow_tiles no_catalogue no_contexts no_listing place_evenly
+        read_catalogue stored_contexts wide_tiles;
+};
 
 /// A name in braces and the file that stands for it.
 pub(super) type Choice = (&'static str, &'static str);
