@@ -195,6 +195,7 @@ impl Judge {
             known: self.excused,
             stages: self.stages,
             first_different: self.first_different,
+            passes_alone: false,
             odd: self.odd,
             explanations: explanations.map(explanation).collect(),
             unexplained: Unexplained { patches: self.unexplained, first: self.first },

@@ -22,11 +22,25 @@ pub fn probe(
     probe_known(prober, cases, strength, &Arc::default(), progress)
 }
 
-/// [`probe`], where a case that differs does not count as different if that is `known`.
+/// [`probe`], where a case that differs does not count as different if that is `known`. The first different case is asked again
+/// by itself.
 ///
 /// # Errors
 /// The device fails.
 pub fn probe_known(
+    prober: &mut Prober,
+    cases: &[Case],
+    strength: Strength,
+    known: &Arc<Known>,
+    progress: impl FnMut(u64),
+) -> Result<ProbeReport, Error> {
+    let report = ask(prober, cases, strength, known, progress)?;
+    let Some(first) = &report.first_different else { return Ok(report) };
+    let alone = ask(prober, &[first.case], strength, &Arc::default(), |_| ())?;
+    Ok(report.with_alone(&alone))
+}
+
+fn ask(
     prober: &mut Prober,
     cases: &[Case],
     strength: Strength,

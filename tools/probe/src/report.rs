@@ -30,6 +30,8 @@ pub struct ProbeReport {
     pub stages: BTreeMap<String, u64>,
     /// The first of the different ones.
     pub first_different: Option<First>,
+    /// Whether that one is right when it is asked again by itself.
+    pub passes_alone: bool,
     /// Patches that are not the model's in any order.
     pub odd: u64,
     /// The freedoms that explain some of the odd ones.
@@ -198,6 +200,12 @@ impl fmt::Display for ProbeReport {
 }
 
 impl ProbeReport {
+    /// The same, with this report of the first different case, asked again by itself.
+    #[must_use]
+    pub fn with_alone(self, alone: &Self) -> Self {
+        Self { passes_alone: alone.patches == 1 && alone.different == 0, ..self }
+    }
+
     fn write_explanations(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { patches, odd, unexplained, .. } = self;
         if self.rows.iter().any(|row| row.partitioning == "pow2") {

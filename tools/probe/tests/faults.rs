@@ -95,6 +95,17 @@ fn known_differences_are_no_verdict() {
     }
 }
 
+/// A case that is right when it is asked again says that what came before matters; one that is wrong again does not.
+#[test]
+fn a_case_that_passes_alone_is_said() {
+    let lost = |captured: &mut Captured| captured.vertices.truncate(3);
+    for (alone, passes) in [(judged(LINE, any(), |_| {}), true), (judged(LINE, any(), lost), false)]
+    {
+        let report = judged(LINE, any(), lost).with_alone(&alone);
+        assert_eq!(report.passes_alone, passes, "{alone}");
+    }
+}
+
 #[test]
 fn a_moved_point_is_seen_with_its_distance() {
     let moved = |captured: &mut Captured| {

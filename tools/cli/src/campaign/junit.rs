@@ -1,6 +1,6 @@
 //! `JUnit` XML, in the form that Jenkins, GitLab and their like read.
 
-use super::report::{Part, Report, State};
+use super::report::{First, Part, Report, State, period_text};
 use std::fmt::Write;
 
 /// Some test cases under a name.
@@ -45,8 +45,11 @@ impl JunitSuite {
             milliseconds: None,
             outcome,
         };
+        let outcome = |part: &Part| {
+            Outcome::of((part.mismatches, part.cases), part.first.as_ref(), report.period)
+        };
         let mut tests: Vec<JunitCase> =
-            report.parts.iter().map(|part| test(&part.name, of_part(part))).collect();
+            report.parts.iter().map(|part| test(&part.name, outcome(part))).collect();
         if report.state != State::Done || tests.is_empty() {
             tests.push(test("run", of_end(report)));
         }
@@ -94,13 +97,20 @@ impl JunitCase {
     }
 }
 
-fn of_part(part: &Part) -> Outcome {
-    if part.mismatches == 0 {
-        return Outcome::Passed;
+impl Outcome {
+    /// The outcome of a comparison in which so many of so many differ: the first, and the period of all.
+    pub(crate) fn of(
+        (mismatches, cases): (u64, u64),
+        first: Option<&First>,
+        period: Option<u64>,
+    ) -> Self {
+        if mismatches == 0 {
+            return Self::Passed;
+        }
+        let first = first.map(|first| format!("first: {}", first.text("\n")));
+        let full: Vec<_> = first.into_iter().chain(period.map(period_text)).collect();
+        Self::Failed(format!("{mismatches} of {cases} differ"), full.join("\n"))
     }
-    let Part { cases, mismatches, .. } = part;
-    let first = part.first.as_ref().map(|first| format!("first: {}", first.text("\n")));
-    Outcome::Failed(format!("{mismatches} of {cases} differ"), first.unwrap_or_default())
 }
 
 fn of_end(report: &Report) -> Outcome {

@@ -90,6 +90,11 @@ pub(crate) struct First {
 /// What is said of a case that differs and passes alone.
 pub(crate) const PASSES_ALONE: &str = "passes alone: asked again, or in another record, the same case is right, so what came before matters";
 
+/// What is said of the numbers of all records that differ.
+pub(crate) fn period_text(period: u64) -> String {
+    format!("the numbers of all records that differ are multiples of {period} apart")
+}
+
 impl First {
     /// The case, the difference, and whether it passes alone, with this between them.
     pub(crate) fn text(&self, between: &str) -> String {

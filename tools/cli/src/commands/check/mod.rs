@@ -10,7 +10,7 @@ pub(crate) use strength::{CONVERSIONS, DENORMALS};
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
-use crate::campaign::report::PASSES_ALONE;
+use crate::campaign::report::{PASSES_ALONE, period_text};
 use crate::campaign::{Invocation, KnownArgs, Recorder, ReportArgs, ShardArgs};
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
@@ -332,7 +332,7 @@ fn show(report: &Report, sides: &str, backend: &str, right: &HashSet<Case>) -> i
         writeln!(out, "{} would accept all {all}: {}", way.options(), way.words())?;
     }
     if let Some(period) = report.period() {
-        writeln!(out, "the numbers of all records that differ are multiples of {period} apart")?;
+        writeln!(out, "{}", period_text(period))?;
     }
     writeln!(out, "{report}")?;
     out.flush()

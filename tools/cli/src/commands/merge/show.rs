@@ -183,7 +183,18 @@ pub(super) fn junit(campaign: &Campaign) -> String {
         .once()
         .map(|FoundReport { report, .. }| {
             let time = Some(report.milliseconds);
-            (report.shard, test(report.shard, time, outcome(report)))
+            (
+                report.shard,
+                test(
+                    report.shard,
+                    time,
+                    Outcome::of(
+                        (report.mismatches, report.cases),
+                        report.first.as_ref(),
+                        report.period,
+                    ),
+                ),
+            )
         })
         .collect();
     for (shard, fault) in campaign.faults().take(LISTED) {
@@ -208,13 +219,4 @@ pub(super) fn junit(campaign: &Campaign) -> String {
     let tests = tests.into_iter().map(|(_, test)| test).chain(more).chain(strangers).collect();
     let (name, milliseconds) = (format!("tess {command}"), campaign.sum().milliseconds);
     JunitSuite { name, milliseconds, tests }.to_xml()
-}
-
-fn outcome(report: &Report) -> Outcome {
-    let Report { cases, mismatches, .. } = report;
-    if *mismatches == 0 {
-        return Outcome::Passed;
-    }
-    let first = report.first.as_ref().map(|first| first.text("\n")).unwrap_or_default();
-    Outcome::Failed(format!("{mismatches} of {cases} differ"), first)
 }

@@ -5,7 +5,7 @@ mod bench;
 
 use super::check::{CONVERSIONS, DENORMALS, rules};
 use crate::args::{Choices, SelectionArgs, choice, name_of};
-use crate::campaign::report::{First as FirstOf, Part, Report};
+use crate::campaign::report::{First as FirstOf, PASSES_ALONE, Part, Report};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs};
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
@@ -226,15 +226,10 @@ fn verdict(report: &ProbeReport) -> Exit {
         Exit::Done
     } else {
         note(&format!("different: {different} of {patches} patches"));
+        if report.passes_alone {
+            note(&format!("the first {PASSES_ALONE}"));
+        }
         Exit::Different
-    }
-}
-
-fn first(first: &First) -> FirstOf {
-    FirstOf {
-        case: Some(first.line.clone()),
-        difference: first.difference.clone(),
-        ..FirstOf::default()
     }
 }
 
@@ -247,6 +242,12 @@ fn is_of(row: &ProbeRow, case: &Case) -> bool {
 
 /// Adds the configurations, and where each first differs.
 fn note_parts(record: &mut Report, report: &ProbeReport) {
+    let passes_alone = report.passes_alone;
+    let first = |First { line, difference, .. }: &First| FirstOf {
+        case: Some(line.clone()),
+        difference: difference.clone(),
+        passes_alone,
+    };
     record.add_parts(report.rows.iter().map(|row| Part {
         name: format!("{} {} {}", row.domain, row.partitioning, row.output),
         cases: row.patches,
