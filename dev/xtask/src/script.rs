@@ -1,6 +1,7 @@
 //! Commands that are scripts in Python.
 
 use crate::command::{self, workspace};
+use crate::setup::{self, PYTHON};
 
 /// Measurements as data: takes them, and makes tables and charts of them.
 pub(crate) const RECORDS: &str = "benches/records.py";
@@ -11,8 +12,9 @@ pub(crate) const CHECKS: &str = "dev/checks.py";
 /// Runs a script with these words.
 ///
 /// # Errors
-/// It fails, or there is no Python.
+/// It fails, or Python cannot be installed.
 pub(crate) fn run(script: &str, words: &[&str]) -> Result<(), String> {
+    setup::provide(&[PYTHON])?;
     command::run(command::python().arg("-BE").arg(workspace().join(script)).args(words))
 }
 
