@@ -9,7 +9,7 @@ const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden");
 
 fn equals(file: &str, backend: &str) {
     let run = tess(&format!("check {GOLDEN}/{file} --backend {backend}"));
-    assert_eq!(run.code, Some(0), "{file} with {backend}: {}{}", run.stdout, run.stderr);
+    run.exits(0);
     assert!(run.stdout.ends_with(" cases, 0 mismatches\n"), "{file}: {}", run.stdout);
 }
 
@@ -30,13 +30,11 @@ fn simd_at_every_cpu_level() {
             if level.is_available() {
                 equals(file, &backend);
             } else {
-                let run = tess(&format!("check {GOLDEN}/{file} --backend {backend}"));
-                assert_eq!(run.code, Some(3), "{level} is not available: {}", run.stdout);
+                tess(&format!("check {GOLDEN}/{file} --backend {backend}")).exits(3);
             }
         }
     }
-    let run = tess(&format!("check {GOLDEN}/cases.txt --backend simd --cpu-level avx1024"));
-    assert_eq!(run.code, Some(2), "no such level: {}", run.stderr);
+    tess(&format!("check {GOLDEN}/cases.txt --backend simd --cpu-level avx1024")).exits(2); // no such level
 }
 
 #[cfg(feature = "gpu")]
@@ -75,7 +73,7 @@ fn narrow_indices_that_differ() {
         run.exits(1);
         assert!(run.stdout.ends_with(" cases, 1 mismatches\n"), "{backend}: {}", run.stdout);
         let again = format!("--backend {backend} --index-type u16\n");
-        assert!(run.stdout.contains(&again), "{backend}, to see it again: {}", run.stdout);
+        run.prints(&again);
     }
 }
 
@@ -85,7 +83,7 @@ fn narrow_indices_where_there_are_none() {
     let patch = tess("patch quad --outer 3,4,5,6 --inner 4,7").stdout;
     for (words, input, why) in [
         ("check - --index-type u16", &patch, "--backend simd or gpu"),
-        ("check - --backend simd --index-type u8", &patch, "u16 or u32"),
+        ("check - --backend simd --index-type u8", &patch, "[possible values: u16, u32]"),
     ] {
         tess_with_input(words, input).exits(2).prints_nothing().says(why);
     }
@@ -99,8 +97,7 @@ fn a_shard_without_units() {
     run.exits(0);
     let line = "tess: nothing to compare in shard 10/40: interiors has fewer than 10 units\n";
     assert_eq!(run.stderr, line, "{}", run.stdout);
-    let run = tess(&format!("verify --backend simd {subjects} --shard 3/40"));
-    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    tess(&format!("verify --backend simd {subjects} --shard 3/40")).exits(0).says_nothing();
 }
 
 /// 561 million locations and 336 million factors: a minute or two on a software driver.
@@ -135,8 +132,7 @@ fn opengl_equals_recorded_cases() {
     run.exits(0);
     assert!(run.stdout.ends_with(" cases, 0 mismatches\n"), "{}", run.stdout);
     let bench = "bench --backend gpu --workload uniform-1 --samples 1 --working-set cache";
-    let run = tess_with_environment(bench, &gl);
-    assert!(run.stdout.contains(" (gl, "), "the device: {}{}", run.stdout, run.stderr);
+    tess_with_environment(bench, &gl).prints(" (gl, "); // the device
 }
 
 /// The same vectors from the generator through every backend, without a file.
@@ -194,9 +190,7 @@ fn verify_refuses_what_does_not_go_together() {
 fn factors_are_equal(backend: &str) {
     for part in [1, 3000, 8191, 8193, 16384] {
         let words = format!("verify --backend {backend} --subject factors --shard {part}/16384");
-        let run = tess(&words);
-        assert_eq!(run.code, Some(0), "part {part}: {}{}", run.stdout, run.stderr);
-        assert!(run.stdout.contains(" 1048576 "), "a unit was compared: {}", run.stdout);
+        tess(&words).exits(0).prints(" 1048576 "); // a unit was compared
     }
 }
 

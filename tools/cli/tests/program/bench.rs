@@ -45,7 +45,7 @@ fn bad_options_say_what_would_be_right() {
         ("bench --threads 2", "one thread"),
         ("bench --cpu-level avx2", "--backend simd"),
         ("bench --backend simd --cpu-level avx1024", "avx512"),
-        ("bench --index-type u8", "u16 or u32"),
+        ("bench --index-type u8", "[possible values: u16, u32]"),
         ("bench --working-set ram", "stream"),
         ("bench --frame 8", "--backend simd"),
         ("bench --backend simd --frame 0", "1..=1024"),

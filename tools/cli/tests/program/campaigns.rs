@@ -168,7 +168,7 @@ pub(crate) fn campaign(folder: &Folder) {
         let words = format!(
             "gen --level 3 --count 50 --shard {part}/3 --coverage c{part}.xml --report r{part}.jsonl"
         );
-        assert_eq!(tess_in(folder, &words).code, Some(0), "{words}");
+        tess_in(folder, &words).exits(0);
     }
 }
 
@@ -187,8 +187,7 @@ fn a_whole_campaign() {
     assert!(rows[3].starts_with("3,3,done,16,0,") && rows[3].ends_with(",r3.jsonl"), "{csv}");
     assert!(read("a.xml").contains("tests=\"3\" failures=\"0\" errors=\"0\""), "{}", read("a.xml"));
     let all = read("r1.jsonl") + &read("r2.jsonl") + &read("r3.jsonl");
-    let run = tess_with_input("merge -", &all);
-    assert_eq!(run.code, Some(0), "one file of all: {}{}", run.stdout, run.stderr);
+    tess_with_input("merge -", &all).exits(0); // one file of all
 }
 
 #[test]
@@ -206,14 +205,13 @@ fn what_is_missing_or_double() {
     assert!(xml.contains("name=\"shard 2/3\">\n      <error message=\"missing\""), "{xml}");
 
     fs::rename(folder.join("r2.jsonl"), folder.join("away.jsonl")).expect("moved");
-    assert_eq!(shell(again, &folder).code, Some(0), "the printed command runs: {again}");
+    shell(again, &folder).exits(0); // the printed command runs
     tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl").exits(0);
 
     let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl away.jsonl");
     run.exits(2).prints("shard 2/3 is double: r2.jsonl, away.jsonl\n");
     let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl r4.jsonl");
-    assert_eq!(run.code, Some(2), "a file that is not there: {}", run.stdout);
-    run.says("there is no r4.jsonl");
+    run.exits(2).says("there is no r4.jsonl"); // a file that is not there
 }
 
 /// Each of these differs from the campaign in one thing.
@@ -314,7 +312,7 @@ fn shards_from_the_environment() {
     assert_eq!(whole.stdout.lines().count(), 52, "the option wins: {}", whole.stderr);
     assert!(!status.exists(), "the runner is not told that its shards are done");
     let part = with_variables(&folder, gen_words, &bazel);
-    assert!(part.stderr.contains("tess: shard 2/3 (from TEST_SHARD_INDEX)\n"), "{}", part.stderr);
+    part.says("tess: shard 2/3 (from TEST_SHARD_INDEX)\n");
     assert!(status.exists(), "the runner is told");
     assert_eq!(json(&folder.join("r.jsonl"))["shard_from"], "TEST_SHARD_INDEX", "in the report");
     assert_eq!(
@@ -323,11 +321,9 @@ fn shards_from_the_environment() {
         "that part"
     );
     let run = with_variables(&folder, "gen --level 3 --count 5", &[("JOB_COMPLETION_INDEX", "0")]);
-    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "no total: {}", run.stderr);
-    run.says("TESS_SHARDS is not");
+    run.exits(2).prints_nothing().says("TESS_SHARDS is not"); // no total
     let run = with_variables(&folder, "verify --backend simd --rules d3d11", &bazel);
-    assert_eq!(run.code, Some(2), "it cannot be cut: {}", run.stderr);
-    run.says("cannot be cut into shards");
+    run.exits(2).says("cannot be cut into shards"); // it cannot be cut
 }
 
 /// A file is the shard that its first line notes.
@@ -335,9 +331,8 @@ fn shards_from_the_environment() {
 fn shards_of_files() {
     let folder = directory("shards-files");
     let asked = "gen --level 3 --count 40 --seed 5 --format listing --shard 2/4 -o asked.txt";
-    assert_eq!(tess_in(&folder, asked).code, Some(0));
-    let run = tess_in(&folder, "check asked.txt --cases asked.txt --report r.jsonl");
-    assert_eq!(run.code, Some(2), "the file itself: {}", run.stderr);
+    tess_in(&folder, asked).exits(0);
+    tess_in(&folder, "check asked.txt --cases asked.txt --report r.jsonl").exits(2); // the file itself
     fs::copy(folder.join("asked.txt"), folder.join("device.txt")).expect("copied");
     tess_in(&folder, "check device.txt --cases asked.txt --report r.jsonl").exits(0);
     let report = json(&folder.join("r.jsonl"));
@@ -363,7 +358,7 @@ fn known_differences() {
     fs::write(folder.join("lines.txt"), format!("# documented\n{case}\n{equal}\n"))
         .expect("written");
     let run = tess_in(&folder, "check device.txt --known known.txt --report r.jsonl");
-    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    run.exits(0).says_nothing();
     assert_eq!(run.stdout, "40 cases, 0 mismatches, 1 known\n", "what --failures wrote");
     let run = tess_in(&folder, "check device.txt --known lines.txt --report r.jsonl");
     run.exits(0);
@@ -373,13 +368,10 @@ fn known_differences() {
     assert_eq!((&known["entries"], &known["different"]), (&2.into(), &1.into()), "{known}");
     assert_eq!(known["gone"][0], equal, "{known}");
     fs::write(folder.join("other.txt"), format!("{equal}\n")).expect("written");
-    let run = tess_in(&folder, "check device.txt --known other.txt");
-    assert_eq!(run.code, Some(1), "it is another case: {}", run.stdout);
+    tess_in(&folder, "check device.txt --known other.txt").exits(1); // it is another case
     tess_in(&folder, "verify --backend simd --random 2 --known lines.txt").exits(0);
     fs::write(folder.join("empty.txt"), "").expect("written");
-    let run = tess_in(&folder, "check device.txt --known empty.txt");
-    assert_eq!(run.code, Some(2), "no case: {}", run.stdout);
-    run.says("there is no case");
+    tess_in(&folder, "check device.txt --known empty.txt").exits(2).says("there is no case"); // no case
 }
 
 /// A line with terms excuses what it expects, until its day; one that is not met is a difference.
@@ -413,7 +405,7 @@ fn known_differences_have_terms() {
         fs::write(folder.join("k.txt"), known).expect("written");
         let run =
             tess_in(&folder, &format!("check device.txt --known k.txt --report r.jsonl {words}"));
-        assert_eq!(run.code, Some(code), "{known}{}{}", run.stdout, run.stderr);
+        run.exits(code);
         assert!(
             run.stderr.contains(says) && run.stderr.is_empty() == says.is_empty(),
             "{}",
@@ -426,15 +418,12 @@ fn known_differences_have_terms() {
     let answer = tess_with_input("patch --cases -", &asked).stdout;
     fs::write(folder.join("answer.txt"), answer).expect("written");
     for (words, code) in [("", 1), ("--known k.txt", 0)] {
-        let run = tess_in(&folder, &format!("check answer.txt --cases one.txt {words}"));
-        assert_eq!(run.code, Some(code), "{}{}", run.stdout, run.stderr);
+        tess_in(&folder, &format!("check answer.txt --cases one.txt {words}")).exits(code);
     }
     fs::write(folder.join("k.txt"), terms(equal, "*")).expect("written");
     let report = "check device.txt --known k.txt --report r.jsonl --shard 1/1";
-    assert_eq!(tess_in(&folder, report).code, Some(1), "unused");
-    let merged = tess_in(&folder, "merge r.jsonl");
-    assert_eq!(merged.code, Some(1), "{}{}", merged.stdout, merged.stderr);
-    assert!(merged.stdout.contains("\nbaseline "), "{}", merged.stdout);
+    tess_in(&folder, report).exits(1);
+    tess_in(&folder, "merge r.jsonl").exits(1).prints("\nbaseline ");
 }
 
 /// When the device is mended, the baseline that is written anew has no record; it excuses nothing and is no error.
@@ -444,14 +433,12 @@ fn baselines_that_became_empty() {
     let (faulty, _) = faulty_listing();
     fs::write(folder.join("device.txt"), &faulty).expect("written");
     let made = "gen --level 3 --count 5 --format listing -o right.txt";
-    assert_eq!(tess_in(&folder, made).code, Some(0), "a device that is mended");
+    tess_in(&folder, made).exits(0); // a device that is mended
     tess_in(&folder, "check right.txt --failures known.txt").exits(0);
     fs::write(folder.join("remarks.txt"), "# all mended\n").expect("written");
     for baseline in ["known.txt", "remarks.txt"] {
-        let run = tess_in(&folder, &format!("check right.txt --known {baseline}"));
-        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{baseline}: {}", run.stdout);
-        let run = tess_in(&folder, &format!("check device.txt --known {baseline}"));
-        assert_eq!(run.code, Some(1), "it excuses nothing: {}{}", run.stdout, run.stderr);
+        tess_in(&folder, &format!("check right.txt --known {baseline}")).exits(0).says_nothing();
+        tess_in(&folder, &format!("check device.txt --known {baseline}")).exits(1); // it excuses nothing
         tess_in(&folder, &format!("verify --backend simd --random 2 --known {baseline}")).exits(0);
     }
 }

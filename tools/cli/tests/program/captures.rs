@@ -37,16 +37,10 @@ fn a_device_that_repeats_one_case_does_not_pass() {
     let asked = folder.join("asked.txt");
     write(&asked, format!("{TRI}\n{QUAD}\n")).expect("written");
     let right = tess(&format!("patch --cases {}", asked.display()));
-    assert_eq!(right.code, Some(0), "{}", right.stderr);
+    right.exits(0);
     let check =
         |listings: &str| tess_with_input(&format!("check - --cases {}", asked.display()), listings);
-    let run = check(&right.stdout);
-    assert_eq!(
-        (run.code, run.stdout.as_str()),
-        (Some(0), "2 cases, 0 mismatches\n"),
-        "{}",
-        run.stderr
-    );
+    check(&right.stdout).exits(0).prints_only("2 cases, 0 mismatches\n");
     let (header, body) = right.stdout.split_once('\n').expect("a header");
     let (first, _) = body.split_once("case quad").expect("two cases");
     let run = check(&format!("{header}\n{first}{first}# end\n"));
@@ -71,15 +65,14 @@ fn failing_records_are_kept_and_can_be_asked_again() {
     run.prints(beside);
     let kept = read_to_string(failing.to_string()).expect("a file");
     assert!(kept.contains(QUAD) && !kept.contains(TRI) && kept.ends_with("end\n# end\n"), "{kept}");
-    let again = tess(&format!("check {failing}"));
-    assert_eq!((again.code, again.stdout.contains("1 cases, 1 mismatches")), (Some(1), true));
+    tess(&format!("check {failing}")).exits(1).prints("1 cases, 1 mismatches");
     let asked = tess(&format!("patch --cases {failing}"));
     assert_eq!(asked.stdout.matches("\ncase ").count(), 1, "{}", asked.stdout);
-    assert_eq!(tess_with_input("check -", &asked.stdout).code, Some(0), "the model is right");
+    tess_with_input("check -", &asked.stdout).exits(0); // the model is right
     tess_with_input(&format!("check - --failures {failing}"), &right).exits(0);
-    assert_eq!(tess(&format!("check {failing}")).code, Some(2), "no record is left");
-    assert_eq!(tess(&format!("check {failing} --empty")).code, Some(0), "which may be asked for");
-    assert_eq!(tess_with_input("check - --failures -", &right).code, Some(2), "no file");
+    tess(&format!("check {failing}")).exits(2); // no record is left
+    tess(&format!("check {failing} --empty")).exits(0); // which may be asked for
+    tess_with_input("check - --failures -", &right).exits(2); // no file
 }
 
 /// A record that answers another case and is wrong is kept; one that is right for its case is not.
@@ -125,7 +118,7 @@ fn a_device_that_flushes_denormals_reads_the_option() {
     let line = "--denormals flush would accept all 1 difference: positive denormal outer factors";
     run.exits(1).prints(line);
     let run = tess_with_input("check - --order any --denormals flush", listing);
-    assert_eq!((run.code, run.stdout.as_str()), (Some(0), "1 cases, 0 mismatches\n"), "granted");
+    run.exits(0).prints_only("1 cases, 0 mismatches\n");
 }
 
 #[test]
@@ -134,12 +127,7 @@ fn captures_by_coordinates() {
         case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000\n\
         coordinates float\n0 1 0\n0 0 1\n1 0 0\nend\n# end\n";
     let run = tess_with_input("check - --order sequence", capture);
-    assert_eq!(
-        (run.code, run.stdout.as_str()),
-        (Some(0), "1 cases, 0 mismatches\n"),
-        "{}",
-        run.stderr
-    );
+    run.exits(0).prints_only("1 cases, 0 mismatches\n");
     let run = tess_with_input("check -", &capture.replace("0 0 1", "0 0 0"));
     run.exits(1).prints("third coordinate of vertex 1 of primitive 0");
     for notation in ["hex", "decimal"] {
@@ -149,16 +137,11 @@ fn captures_by_coordinates() {
 
 #[test]
 fn a_patch_or_cases() {
-    let both = tess("patch tri --outer 1,1,1 --inner 1 --cases x");
-    assert_eq!(both.code, Some(2), "{}", both.stdout);
-    assert!(both.stderr.contains("--cases"), "{}", both.stderr);
+    tess("patch tri --outer 1,1,1 --inner 1 --cases x").exits(2).says("--cases");
     for words in ["patch", "patch tri --inner 1"] {
-        let neither = tess(words);
-        assert_eq!(neither.code, Some(2), "{}", neither.stdout);
-        assert!(neither.stderr.contains("--outer"), "{}", neither.stderr);
+        tess(words).exits(2).says("--outer");
     }
-    let form = tess_with_input("patch --cases - --format json", TRI);
-    assert_eq!((form.code, form.stderr.contains("--format text")), (Some(2), true));
+    tess_with_input("patch --cases - --format json", TRI).exits(2).says("--format text");
 }
 
 /// Cases are tessellated as they come: this many would not fit the memory, and never end.
@@ -214,8 +197,7 @@ fn every_freedom_is_used() {
     let wrong = whole.replacen(&format!("\n0 1 {third}\n"), &format!("\n0 {third} 1\n"), 1);
     let freedoms = ["--denormals flush", "--conversion 0.6ulp", "--order any", "--points"];
     for (number, device) in [flushed, converted, turned, wrong].iter().enumerate() {
-        let strictly = tess_with_input("check -", device);
-        assert_eq!(strictly.code, Some(1), "{device}: {}{}", strictly.stdout, strictly.stderr);
+        tess_with_input("check -", device).exits(1);
         for (other, freedom) in freedoms.iter().enumerate() {
             // Points alone have no leading vertex.
             let equal = other == number || (number, other) == (2, 3);

@@ -26,8 +26,7 @@ fn excerpts() -> Vec<String> {
 
 #[test]
 fn equal_files() {
-    let run = tess(&format!("check {GOLDEN}/cases.txt"));
-    assert_eq!((run.code, run.stdout.as_str()), (Some(0), "51 cases, 0 mismatches\n"), "listings");
+    tess(&format!("check {GOLDEN}/cases.txt")).exits(0).prints_only("51 cases, 0 mismatches\n");
     for text in excerpts() {
         let run = tess_with_input("check -", &text);
         run.exits(0);
@@ -73,8 +72,7 @@ fn different_files() {
         let run = tess_with_input("check -", &format!("{}{last}\n", &text[..text.len() - 1]));
         run.exits(1);
         assert!(run.stdout.ends_with(" cases, 1 mismatches\n"), "{}", run.stdout);
-        assert!(run.stdout.contains("observed ") && run.stdout.contains("expected "), "both");
-        assert!(run.stdout.contains("stage: "), "the stage: {}", run.stdout);
+        run.prints("observed ").prints("expected ").prints("stage: "); // the stage
     }
 }
 
@@ -84,7 +82,7 @@ fn different_files() {
 fn differences_can_be_run_again() {
     let text = excerpt("patches.csv", 30).replacen(",435,", ",436,", 1);
     let first = tess_with_input("check -", &text);
-    assert_eq!(first.code, Some(1), "{}", first.stderr);
+    first.exits(1);
     let commands: Vec<_> =
         first.stdout.lines().filter_map(|l| l.trim().strip_prefix("again: ")).collect();
     let [check, patch] = &commands[..] else { panic!("two commands: {}", first.stdout) };
@@ -99,8 +97,7 @@ fn differences_can_be_run_again() {
     let again = String::from_utf8_lossy(&again.stdout).into_owned();
     let element = "number of indices: observed 435, expected 436 (stage: counts)";
     assert!(first.stdout.contains(element) && again.contains(element), "{again}");
-    let output = tess(patch.strip_prefix("tess ").expect("the program"));
-    assert!(output.stdout.contains("\nindices 435\n"), "{patch}: {}", output.stdout);
+    tess(patch.strip_prefix("tess ").expect("the program")).prints("\nindices 435\n");
 }
 
 #[test]
@@ -156,9 +153,9 @@ fn a_truncated_file_with_differences_is_malformed() {
 
 #[test]
 fn missing_files_and_wrong_usage() {
-    assert_eq!(tess("check /nothing/here.csv").code, Some(2), "no such file");
-    assert_eq!(tess("check").code, Some(2), "no file given");
-    assert_eq!(tess("check - --backend abacus").code, Some(2), "no such backend");
+    tess("check /nothing/here.csv").exits(2); // no such file
+    tess("check").exits(2); // no file given
+    tess("check - --backend abacus").exits(2); // no such backend
 }
 
 /// Without --backend, listings are what a device gave, whatever it calls itself: a device may be

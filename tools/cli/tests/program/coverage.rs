@@ -8,7 +8,7 @@ use std::fs;
 fn other_than_coverage_files() {
     let folder = directory("other_than_coverage_files");
     let setup = "mkfifo pipe; truncate -s 3G large.xml; printf '\\377' > bytes.xml; mkdir folder";
-    assert_eq!(shell(setup, &folder).code, Some(0));
+    shell(setup, &folder).exits(0);
     for (file, why) in [
         ("/dev/zero", "is no regular file"),
         ("pipe", "is no regular file"),
@@ -80,7 +80,7 @@ fn completeness() {
         "$TESS gen --level 1 --domain tri --coverage tri.xml; printf 'middle # all\n*/quad' > no.txt",
         &folder,
     );
-    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    made.exits(0);
     for (words, code, why) in [
         ("", 0, ""),
         ("--complete", 1, ""),
@@ -89,8 +89,7 @@ fn completeness() {
         ("--exclude no.txt --complete", 1, "4 bins hit though excluded"),
     ] {
         let run = shell(&format!("$TESS coverage tri.xml {words}"), &folder);
-        assert_eq!(run.code, Some(code), "{words}: {}", run.stderr);
-        run.says(why).prints("\nmissed ");
+        run.exits(code).says(why).prints("\nmissed ");
     }
     let run = shell("$TESS coverage tri.xml --exclude no.txt | grep ^missed.*/quad/", &folder);
     assert_eq!(run.stdout, "", "quads are excluded by name");
@@ -103,7 +102,7 @@ fn bad_coverage_files_are_refused() {
         "$TESS gen --level 3 --count 1 --coverage a.xml; ln a.xml b.xml; echo midle > no.txt",
         &folder,
     );
-    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    made.exits(0);
     for (words, why) in [
         ("", "required"),
         ("c.xml", "cannot read c.xml"),

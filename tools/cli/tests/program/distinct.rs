@@ -46,8 +46,7 @@ const LOSING: &[&str] = &[
 
 fn prepared(name: &str) -> Folder {
     let folder = directory(name);
-    let setup = shell(SETUP, &folder);
-    assert_eq!(setup.code, Some(0), "{}{}", setup.stdout, setup.stderr);
+    shell(SETUP, &folder).exits(0);
     folder
 }
 
@@ -95,7 +94,6 @@ fn what_loses_nothing_is_done() {
         ("mesh m.gltf --factor 1 -o new.gltf", 0),
         ("check e.txt --cases link.txt", 2),
     ] {
-        let run = shell(&format!("$TESS {command}"), &folder);
-        assert_eq!(run.code, Some(code), "{command}: {}{}", run.stdout, run.stderr);
+        shell(&format!("$TESS {command}"), &folder).exits(code);
     }
 }

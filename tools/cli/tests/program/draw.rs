@@ -95,22 +95,17 @@ fn overlays_show_differences() {
     let listing = tess(&format!("patch {PATCH}")).stdout;
     fs::write(&file, &listing).expect("a listing");
     let draw = format!("draw {PATCH} --overlay {}", file.display());
-    let equal = tess(&draw);
-    assert_eq!(equal.code, Some(0), "{}", equal.stderr);
-    assert!(equal.stderr.contains(": 0 points and 0 primitives"), "{}", equal.stderr);
+    tess(&draw).exits(0).says(": 0 points and 0 primitives");
 
     let faulty = listing.replacen("00000 10000", "00100 0fff0", 1).replacen("\n0 1 ", "\n1 0 ", 1);
     fs::write(&file, faulty).expect("a faulty listing");
     let different = tess(&draw);
-    assert_eq!(different.code, Some(1), "{}", different.stderr);
-    assert!(different.stderr.contains(": 1 point and 1 primitive\n"), "{}", different.stderr);
-    assert!(different.stdout.contains("#d51f1f"), "something is red");
+    different.exits(1).says(": 1 point and 1 primitive\n").prints("#d51f1f"); // something is red
     assert_eq!(digest(&different.stdout), "9c9ee765ecd04b29", "{}", different.stdout);
 
-    let other = tess(&draw.replace("3,4,5,6", "3,4,5,7"));
-    assert_eq!(other.code, Some(2), "no listing of that patch: {}", other.stderr);
+    tess(&draw.replace("3,4,5,6", "3,4,5,7")).exits(2); // no listing of that patch
     fs::write(&file, &listing[..listing.len() / 2]).expect("half a listing");
-    assert_eq!(tess(&draw).code, Some(2), "a truncated listing");
+    tess(&draw).exits(2); // a truncated listing
 }
 
 #[test]
@@ -151,8 +146,7 @@ fn overlays_mark_what_cannot_be_drawn() {
     ] {
         fs::write(&file, &faulty).expect("a faulty listing");
         let run = tess(&format!("draw {patch} --overlay {}", file.display()));
-        run.exits(1).says(words);
-        assert!(run.stdout.contains("#d51f1f"), "{words}: something is red");
+        run.exits(1).says(words).prints("#d51f1f"); // something is red
     }
     fs::write(&file, format!("{points}indices 0\nend\n")).expect("no indices");
     let run = tess(&format!("draw {patch} --overlay {}", file.display()));
@@ -166,7 +160,7 @@ fn overlays_mark_what_cannot_be_drawn() {
 fn order_of_points() {
     let patch = "tri --outer 2,2,2 --inner 2 --output point";
     let [plain, order] = ["", "--order"].map(|option| tess(&format!("draw {patch} {option}")));
-    assert_eq!(order.code, Some(0), "{}", order.stderr);
+    order.exits(0);
     assert_eq!(order.stderr, "", "no number is left out");
     let lines = |text: &str| text.matches("<polyline").count();
     assert!(lines(&order.stdout) > lines(&plain.stdout) + 6, "seven numbers:\n{}", order.stdout);

@@ -49,7 +49,7 @@ fn runs_that_end_early() {
     let folder = directory("runs_that_end_early");
     let listing =
         "$TESS patch tri --outer 2,2,2 --inner 2 -o e.txt && sed -n /^case/p e.txt > a.txt";
-    assert_eq!(shell(listing, &folder).code, Some(0), "made");
+    shell(listing, &folder).exits(0);
     let check = [
         "false | $TESS check - --cases a.txt",
         "$TESS check missing.txt",
@@ -117,7 +117,7 @@ fn sums_that_cannot_be_made() {
                     &format!("$TESS {command} {file}{}", options(names)),
                     names,
                 );
-                assert_eq!(run.code, Some(code), "{command} {file}: {}", run.stderr);
+                run.exits(code);
             }
         }
     }

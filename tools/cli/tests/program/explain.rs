@@ -17,9 +17,7 @@ fn decisions_are_named() {
         ("isoline --outer 3,4", "density is processed as integer"),
     ];
     for (patch, sentence) in cases {
-        let run = tess(&format!("explain {patch}"));
-        run.exits(0);
-        assert!(run.stdout.contains(sentence), "{patch} says {sentence}:\n{}", run.stdout);
+        tess(&format!("explain {patch}")).exits(0).prints(sentence);
     }
 }
 
@@ -87,7 +85,7 @@ fn elements_are_explained() {
     let patch = "explain quad --outer 3,4,5,6 --inner 4,7";
     let point = tess(&format!("{patch} --point 20"));
     assert!(point.stdout.starts_with("point 20: ring 1, edge 0"), "{}", point.stdout);
-    assert!(point.stdout.contains("place(inside V, "), "{}", point.stdout);
+    point.prints("place(inside V, ");
     let primitive = tess(&format!("{patch} --primitive 0"));
     assert!(
         primitive.stdout.starts_with("primitive 0: transition, edge 0"),
@@ -95,7 +93,7 @@ fn elements_are_explained() {
         primitive.stdout
     );
     for element in ["--point 36", "--primitive 52", "--point x", "--point 1 --primitive 1"] {
-        assert_eq!(tess(&format!("{patch} {element}")).code, Some(2), "{element}");
+        tess(&format!("{patch} {element}")).exits(2);
     }
 }
 
@@ -125,10 +123,10 @@ fn mismatches_of_a_circuit_are_named() {
     ];
     for (element, difference) in cases {
         let run = tess(&format!("{patch} {element}"));
-        assert_eq!(run.code, Some(i32::from(difference.is_some())), "{element}: {}", run.stderr);
+        run.exits(i32::from(difference.is_some()));
         let expected =
             difference.map_or("observed: equal".into(), |text| format!("differs: {text}"));
-        assert!(run.stdout.contains(&expected), "{element} says {expected}:\n{}", run.stdout);
+        run.prints(&expected);
         assert_eq!(
             run.stdout.matches("differs: ").count(),
             usize::from(difference.is_some()),
@@ -153,8 +151,6 @@ fn observations_are_checked() {
         ("--point 1 --factor 1", "cannot be used with"),
     ];
     for (element, message) in cases {
-        let run = tess(&format!("explain quad --outer 3,4,5,6 --inner 4,7 {element}"));
-        run.exits(2);
-        assert!(run.stderr.contains(message), "{element} says {message}:\n{}", run.stderr);
+        tess(&format!("explain quad --outer 3,4,5,6 --inner 4,7 {element}")).exits(2).says(message);
     }
 }

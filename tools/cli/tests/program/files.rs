@@ -90,8 +90,7 @@ fn stdout_by_any_name() {
     let script = "$TESS mesh --factor 1 --format obj -o - > a.obj && $TESS mesh --factor 1 -o b.obj \
                   && cmp a.obj b.obj";
     done(&shell(script, &folder));
-    let run = tess("mesh --factor 1 -o -");
-    assert_eq!((run.code, run.stderr.contains("--format")), (Some(2), true), "{}", run.stderr);
+    tess("mesh --factor 1 -o -").exits(2).says("--format");
 }
 
 /// A name may be as long as the system allows.
@@ -121,8 +120,7 @@ fn failures_change_nothing() {
         tess(&format!("{PATCH} -o {}", folder.join(name).display())).exits(2).says("cannot write");
     }
     assert_eq!(names(&folder), before, "nothing else");
-    let run = tess(&format!("{PATCH} -o /dev/full"));
-    assert_eq!(run.code, Some(2), "a full device: {}", run.stderr);
+    tess(&format!("{PATCH} -o /dev/full")).exits(2); // a full device
 }
 
 /// A stdout that cannot be written is an error, of help too.
@@ -171,14 +169,12 @@ fn the_bin_of_a_gltf() {
     fs::remove_file(&bin).expect("removed");
     done(&tess(&mesh));
     let before = [&gltf, &bin].map(|path| fs::read(path).expect("written"));
-    let run = tess(&mesh.replace("--factor 1", "--factor 64 --indices 16"));
-    assert_eq!(run.code, Some(2), "too many vertices: {}", run.stderr);
+    tess(&mesh.replace("--factor 1", "--factor 64 --indices 16")).exits(2); // too many vertices
     let after = [&gltf, &bin].map(|path| fs::read(path).expect("still there"));
     assert!(before == after, "both are as they were");
     done(&tess(&mesh.replace("--factor 1", "--factor 2")));
     assert_ne!(fs::read(&bin).expect("written"), before[1], "its own is replaced");
-    let run = shell("mkfifo p.gltf; $TESS mesh --factor 1 -o p.gltf", &folder);
-    assert_eq!((run.code, run.stderr.contains("--format glb")), (Some(2), true), "{}", run.stderr);
+    shell("mkfifo p.gltf; $TESS mesh --factor 1 -o p.gltf", &folder).exits(2).says("--format glb");
 }
 
 /// Characters with a meaning in a URI are encoded, and such a file reads back.
@@ -237,8 +233,7 @@ fn shaders_replace_only_shaders() {
     let manifest = fs::read_to_string(folder.join("out/manifest.json")).expect("a manifest");
     assert!(manifest.contains("\"order\": \"cache\""), "{manifest:.600}");
     fs::write(folder.join("out/manifest.json"), "{}").expect("another's");
-    let refused = write("--force --target wgsl");
-    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    write("--force --target wgsl").exits(2);
     assert_eq!((names(&folder), names(&folder.join("out"))), (vec!["out".into()], written));
 }
 

@@ -10,10 +10,10 @@ const PLACE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden/place.csv
 fn vectors_can_be_checked() {
     for format in ["csv", "listing"] {
         let vectors = tess(&format!("gen --level 3 --seed 7 --count 60 --format {format}"));
-        assert_eq!(vectors.code, Some(0), "{format}: {}", vectors.stderr);
+        vectors.exits(0);
         tess_with_input("check -", &vectors.stdout).exits(0);
         let wrong = with_last_digit_changed(&vectors.stdout);
-        assert_eq!(tess_with_input("check -", &wrong).code, Some(1), "{format}: the fault is seen");
+        tess_with_input("check -", &wrong).exits(1); // the fault is seen
         let again = tess(&format!("gen --level 3 --seed 7 --count 60 --format {format}"));
         assert_eq!(vectors.stdout, again.stdout, "the same arguments, the same bytes");
         let other = tess(&format!("gen --level 3 --seed 8 --count 60 --format {format}"));
@@ -59,9 +59,9 @@ fn memory_images_and_coverage() {
     let sizes = fs::read_to_string(out.join("sizes.svh")).expect("sizes");
     assert!(sizes.contains("TESS_CASES 30"), "{sizes}");
     tess("gen --level 3 --count 30 --coverage").exits(0).prints("transition");
-    assert_eq!(tess("gen --shard 9/3").code, Some(2), "no such part");
-    assert_eq!(tess("gen --level 4").code, Some(2), "no such level");
-    assert_eq!(tess("gen --format readmemh").code, Some(2), "images need a folder");
+    tess("gen --shard 9/3").exits(2); // no such part
+    tess("gen --level 4").exits(2); // no such level
+    tess("gen --format readmemh").exits(2); // images need a folder
 }
 
 /// Two shards in one file have the patches of the whole, and so has a check of the vectors, in the same order.
@@ -81,7 +81,7 @@ fn coverage_files_merge() {
     assert_eq!(merged, report, "the report of the sum");
     of(cases, "whole.xml");
     let vectors = file("vectors.csv");
-    assert_eq!(tess(&format!("{cases} -o {vectors}")).code, Some(0), "vectors");
+    tess(&format!("{cases} -o {vectors}")).exits(0);
     of(&format!("check {vectors}"), "checked.xml");
     let read = |name: &str| fs::read_to_string(folder.join(name)).expect("a coverage file");
     let whole = read("whole.xml");
@@ -97,12 +97,9 @@ fn coverage_files_merge() {
     assert_ne!(read("shards.xml"), whole, "other sequences");
     of(&format!("{cases} --seed 2"), "other.xml");
     assert_ne!(read("whole.xml"), read("other.xml"), "other cases hit other bins");
-    let run = tess(&format!("{cases} --coverage {vectors}"));
-    assert_eq!(run.code, Some(2), "no coverage file");
-    run.says("vectors.csv: line 1: ");
+    tess(&format!("{cases} --coverage {vectors}")).exits(2).says("vectors.csv: line 1: "); // no coverage file
     let run = tess(&format!("check {} --coverage {}", PLACE, file("x.xml")));
-    assert_eq!(run.code, Some(2), "no patches");
-    run.says("this file's kind is locations");
+    run.exits(2).says("this file's kind is locations"); // no patches
 }
 
 /// Each of the processes adds its hits to what the others added.
@@ -157,26 +154,22 @@ fn headers_say_how_a_file_is_made() {
 fn a_shard_without_cases() {
     let run = tess("gen --level 3 --count 2 --shard 5/9");
     assert_eq!(run.stderr, "tess: no case in shard 5/9\n", "it is said");
-    assert_eq!(run.code, Some(0), "a file without records: {}", run.stdout);
+    run.exits(0); // a file without records
     assert!(run.stdout.starts_with("# tess-vectors 1 kind=patches count=0 "), "{}", run.stdout);
-    let refused = tess_with_input("check -", &run.stdout);
-    assert_eq!((refused.code, refused.stdout.as_str()), (Some(2), ""), "{}", refused.stderr);
-    let checked = tess_with_input("check - --empty", &run.stdout);
-    assert_eq!((checked.code, checked.stdout.as_str()), (Some(0), "0 cases, 0 mismatches\n"));
+    tess_with_input("check -", &run.stdout).exits(2).prints_nothing();
+    tess_with_input("check - --empty", &run.stdout).exits(0).prints_only("0 cases, 0 mismatches\n");
     let folder = directory("empty-shard");
     let asked = folder.join("asked.csv");
     fs::write(&asked, &run.stdout).expect("written");
     let options = format!("check - --cases {}", asked.display());
-    assert_eq!(tess_with_input(&options, &run.stdout).code, Some(2), "no case was asked");
+    tess_with_input(&options, &run.stdout).exits(2); // no case was asked
     let checked = tess_with_input(&format!("{options} --empty"), &run.stdout);
-    assert_eq!((checked.code, checked.stdout.as_str()), (Some(0), "0 cases, 0 mismatches\n"));
+    checked.exits(0).prints_only("0 cases, 0 mismatches\n");
     let one = tess("gen --level 3 --count 1").stdout;
-    let surplus = tess_with_input(&format!("{options} --empty"), &one);
-    assert_eq!(surplus.code, Some(1), "an answer to nothing: {}", surplus.stdout);
-    let truncated = tess_with_input("check - --empty", "");
-    assert_eq!(truncated.code, Some(2), "nothing at all is no file");
-    assert_eq!(tess("gen --level 3 --count 0 --shard 5/9").code, Some(2), "no shard has any");
-    assert_eq!(tess("gen --level 3 --count 0").code, Some(2), "no case at all");
+    tess_with_input(&format!("{options} --empty"), &one).exits(1); // an answer to nothing
+    tess_with_input("check - --empty", "").exits(2); // nothing at all is no file
+    tess("gen --level 3 --count 0 --shard 5/9").exits(2); // no shard has any
+    tess("gen --level 3 --count 0").exits(2); // no case at all
 }
 
 /// Vectors of one stage: the same bytes for the same arguments, in both forms, for one block of a circuit.
@@ -185,7 +178,7 @@ fn vectors_of_single_stages() {
     for stage in ["factors", "context", "place", "stitch"] {
         let options = format!("gen --stage {stage} --level 3 --seed 3 --count 40");
         let csv = tess(&options);
-        assert_eq!(csv.code, Some(0), "{}", csv.stderr);
+        csv.exits(0);
         let [first, columns] = [0, 1].map(|line| csv.stdout.lines().nth(line).expect("a line"));
         let rows = csv.stdout.lines().count() - 2;
         assert!(
@@ -197,6 +190,6 @@ fn vectors_of_single_stages() {
         let image = tess(&format!("{options} --format readmemh")).stdout;
         assert_eq!(image.lines().filter(|line| !line.starts_with("//")).count(), rows, "{stage}");
     }
-    assert_eq!(tess("gen --stage place --format listing").code, Some(2), "no such form");
-    assert_eq!(tess("gen --stage places").code, Some(2), "no such stage");
+    tess("gen --stage place --format listing").exits(2); // no such form
+    tess("gen --stage places").exits(2); // no such stage
 }

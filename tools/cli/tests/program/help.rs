@@ -7,7 +7,7 @@ const COMMANDS: [&str; 5] = ["patch", "explain", "draw", "check", "bench"];
 #[test]
 fn every_command_is_listed_and_has_an_example() {
     let program = tess("--help");
-    assert_eq!(program.code, Some(0), "{}", program.stderr);
+    program.exits(0);
     let listed = program.stdout.lines().skip_while(|line| !line.starts_with("Commands:")).skip(1);
     let listed: Vec<_> = listed
         .take_while(|line| !line.is_empty())
@@ -20,9 +20,9 @@ fn every_command_is_listed_and_has_an_example() {
     }
     for command in listed {
         let help = tess(&format!("{command} --help"));
-        assert_eq!(help.code, Some(0), "{command}: {}", help.stderr);
+        help.exits(0);
         let example = format!("  tess {command} ");
-        assert!(help.stdout.contains(&example), "{command} shows an example:\n{}", help.stdout);
+        help.prints(&example);
     }
 }
 
@@ -45,9 +45,7 @@ fn examples_run() {
 #[test]
 fn no_command_and_unknown_commands_are_bad_usage() {
     for words in ["", "tessellate", "patch --what"] {
-        let run = tess(words);
-        assert_eq!(run.code, Some(2), "tess {words}: {}", run.stderr);
-        assert!(run.stderr.contains("Usage"), "tess {words}: {}", run.stderr);
+        tess(words).exits(2).says("Usage");
     }
 }
 

@@ -98,7 +98,7 @@ fn every_fault_is_listed() {
     assert_eq!(csv.lines().count(), 501, "a heading and every shard");
     assert_eq!(csv.matches(",missing,").count(), 499, "{csv}");
     assert!(xml.contains("tests=\"500\" failures=\"0\" errors=\"499\""), "{}", &xml[..300]);
-    assert!(run.stdout.contains("and more shards\n"), "the text says that it is not all");
+    run.prints("and more shards\n"); // the text says that it is not all
 }
 
 /// A command that no report shows is not guessed; one that ran before runs again as it did.
@@ -177,7 +177,7 @@ fn files_do_not_excuse_themselves() {
     let folder = directory("files_do_not_excuse_themselves");
     let made = "$TESS gen --level 3 --count 5 --format listing -o a.txt && ln -s a.txt link && ln a.txt hard \
                 && cp a.txt copy.txt && cp a.txt d.txt";
-    assert_eq!(shell(made, &folder).code, Some(0), "made");
+    shell(made, &folder).exits(0);
     for command in [
         "check a.txt --known a.txt",
         "check a.txt --known link",
@@ -188,7 +188,7 @@ fn files_do_not_excuse_themselves() {
         let run = shell(&format!("$TESS {command}"), &folder);
         run.exits(2).says("itself: every difference would be known");
     }
-    assert_eq!(tess_in(&folder, "check a.txt --known copy.txt").code, Some(0), "another file");
+    tess_in(&folder, "check a.txt --known copy.txt").exits(0); // another file
 }
 
 /// The failing records stand in the order of the file, whichever thread is first.
@@ -196,7 +196,7 @@ fn files_do_not_excuse_themselves() {
 fn failures_are_in_the_order_of_the_file() {
     let folder = directory("failures_are_in_the_order_of_the_file");
     let right = "gen --level 3 --count 3000 --domain isoline --format csv -o right.csv";
-    assert_eq!(tess_in(&folder, right).code, Some(0));
+    tess_in(&folder, right).exits(0);
     let text = fs::read_to_string(folder.join("right.csv")).expect("vectors");
     let (head, rows): (Vec<&str>, Vec<&str>) =
         (text.lines().take(2).collect(), text.lines().skip(2).collect());
@@ -234,7 +234,7 @@ fn long_exclusions() {
     let time = |lines: usize| {
         fs::write(folder.join("x.txt"), "*\n".repeat(lines)).expect("written");
         let start = Instant::now();
-        assert_eq!(tess_in(&folder, "coverage c1.xml --exclude x.txt").code, Some(0));
+        tess_in(&folder, "coverage c1.xml --exclude x.txt").exits(0);
         start.elapsed()
     };
     let (once, often) = (time(1), time(20_000));

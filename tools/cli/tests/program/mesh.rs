@@ -224,7 +224,7 @@ fn positions_that_overflow_are_refused() {
     let run = tess(&format!("mesh {} -o {}", input.display(), out.display()));
     let message = "huge.obj: line 10: a position is too large to be evaluated: coordinates must \
                    lie within 1e16 of 0";
-    assert!(run.code == Some(2) && run.stderr.contains(message), "{:?}: {}", run.code, run.stderr);
+    run.exits(2).says(message);
     assert_eq!(fs::read(&out).expect("it is still there"), b"as it was", "nothing was written");
 }
 

@@ -198,10 +198,10 @@ fn images_are_no_larger_than_the_limit() {
     let small = folder.join("small.png");
     mesh(&cube, "--factor 1 --size 8x8", &small);
     displaced(&cube, &small, "--max-pixels 63").says("8 x 8 are more than 63 pixels");
-    assert_eq!(displaced(&cube, &small, "--max-pixels 64").code, Some(0), "64 are not");
+    displaced(&cube, &small, "--max-pixels 64").exits(0); // 64 are not
     let whole = fs::read(&small).expect("the image is there");
     let cut = write(&folder, "cut.png", &whole[..whole.len() - 12]);
-    assert_eq!(displaced(&cube, &cut, "").code, Some(2), "a file without its end");
+    displaced(&cube, &cut, "").exits(2); // a file without its end
 }
 
 /// Palettes that end within a colour, and those with none or with more than a byte can name.
@@ -231,6 +231,6 @@ fn palettes_are_whole_colours() {
         assert!(refused, "{length}: {:?} {}", run.code, run.stderr);
     }
     for length in [3, 6, 768] {
-        assert_eq!(with_palette(length).code, Some(0), "{length} bytes are whole colours");
+        with_palette(length).exits(0);
     }
 }

@@ -44,7 +44,7 @@ fn deviations_have_terms() {
         tess_in(&folder, &(words + " --report r.jsonl"))
     };
     let broken = run("whole.txt", "# none\n");
-    assert_eq!(broken.code, Some(1), "{}{}", broken.stdout, broken.stderr);
+    broken.exits(1);
     let rules =
         broken.stdout.lines().filter(|line| line.contains(" broken ") && !line.contains(','));
     let rules = rules.map(|line| line.split_whitespace().collect::<Vec<_>>());
@@ -75,7 +75,7 @@ fn deviations_have_terms() {
         ),
     ] {
         let run = run(device, known);
-        assert_eq!(run.code, Some(code), "{known}{}{}", run.stdout, run.stderr);
+        run.exits(code);
         assert!(
             run.stderr.contains(says) && run.stderr.is_empty() == says.is_empty(),
             "{}",
@@ -88,8 +88,7 @@ fn deviations_have_terms() {
     }
     let run = run("part.txt", &baseline);
     let missing = format!("record 1 is missing: {}", LINES[0]);
-    assert!(run.stdout.contains(&missing), "{}", run.stdout);
-    assert!(run.stdout.contains("\n2 cases, 1 mismatches of answers\n"), "{}", run.stdout);
+    run.prints(&missing).prints("\n2 cases, 1 mismatches of answers\n");
 }
 
 /// One command says that a device conforms to Vulkan and has another order than Direct3D's.
@@ -108,7 +107,7 @@ fn another_order_is_told_from_other_output() {
 #[test]
 fn rules_are_for_listings() {
     let rows = tess("gen --rules --domain isoline --count 3 --split ruler");
-    assert_eq!(rows.code, Some(0), "{}", rows.stderr);
+    rows.exits(0);
     let header = rows.stdout.lines().next().unwrap_or_default();
     assert!(header.contains(" level=rules level-version=2 seed=1 random=3 "), "{header}");
     let run = tess_with_input("check - --rules opengl", &rows.stdout);
@@ -116,7 +115,7 @@ fn rules_are_for_listings() {
     for words in
         ["check - --rules vulkan --order any", "gen --rules --level 2", "check - --rules gl"]
     {
-        assert_eq!(tess_with_input(words, &rows.stdout).code, Some(2), "{words}");
+        tess_with_input(words, &rows.stdout).exits(2);
     }
 }
 

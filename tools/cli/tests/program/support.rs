@@ -49,16 +49,28 @@ impl Run {
         self
     }
 
+    /// On stdout stands this and nothing else.
+    #[track_caller]
+    pub(crate) fn prints_only(&self, text: &str) -> &Self {
+        assert_eq!(self.stdout, text, "{self}");
+        self
+    }
+
     #[track_caller]
     pub(crate) fn prints_nothing(&self) -> &Self {
-        assert_eq!(self.stdout, "", "{self}");
-        self
+        self.prints_only("")
     }
 
     /// On stderr stands this.
     #[track_caller]
     pub(crate) fn says(&self, text: impl AsRef<str>) -> &Self {
         assert!(self.stderr.contains(text.as_ref()), "no `{}` on stderr: {self}", text.as_ref());
+        self
+    }
+
+    #[track_caller]
+    pub(crate) fn says_nothing(&self) -> &Self {
+        assert_eq!(self.stderr, "", "{self}");
         self
     }
 }

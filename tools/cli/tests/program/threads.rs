@@ -17,7 +17,7 @@ fn with_threads(threads: u32, words: &str, folder: &Folder) -> Run {
 fn commands_run_without_threads() {
     let folder = directory("commands_run_without_threads");
     let anybody = "chmod 777 . && umask 000 && mkdir out && chmod 777 out";
-    assert_eq!(shell(anybody, &folder).code, Some(0));
+    shell(anybody, &folder).exits(0);
     fs::copy(tess_program(), folder.join("tess")).expect("a copy");
     let patch = "tri --outer 3,4,5 --inner 6";
     fs::write(folder.join("cases.txt"), shell(&format!("$TESS patch {patch}"), &folder).stdout)
