@@ -15,7 +15,7 @@ FAULTS = {
     "24": "stage=points module=tess_points signal=v point ",
     "36": "stage=connect module=tess_connect signal=i2 primitive ",
     "57": "stage=points module=tess_points signal=u point ",
-    "80": "stage=connect module=tess_connect signal=i2 primitive ",
+    "82": "stage=connect module=tess_connect signal=i2 primitive ",
 }
 
 
