@@ -59,6 +59,9 @@ fn devices_that_keep_something() {
         passes.contains("&#10;the numbers of all records that differ are multiples of 100 "),
         "{xml}"
     );
+    tess(&format!("merge {} --junit {}", file("r.jsonl"), file("m.xml"))).exits(1);
+    let merged = read_to_string(file("m.xml")).expect("written");
+    assert!(merged.contains("differ are multiples of 100 apart"), "{merged}");
     let end = "differ are multiples of 100 apart\n500 cases, 5 mismatches\n";
     assert!(run.stdout.ends_with(end), "{}", run.stdout);
 }

@@ -23,6 +23,8 @@ pub(super) struct Campaign {
     pub(super) of: u64,
     /// Where a report of another campaign stands, and why it is one.
     pub(super) strangers: Vec<(String, String)>,
+    /// The sums of all shards: cases, mismatches, also by stage and by part, and the time.
+    pub(super) sum: Report,
 }
 
 /// A fault of a shard.
@@ -160,7 +162,9 @@ impl Campaign {
         for found in own {
             shards.entry(found.report.shard).or_default().push(found);
         }
-        Ok(Self { shards, of, strangers })
+        let mut campaign = Self { shards, of, strangers, sum: Report::default() };
+        campaign.sum = campaign.added_up();
+        Ok(campaign)
     }
 
     /// Every report of the campaign, by shard.
@@ -211,11 +215,10 @@ impl Campaign {
 
     /// Whether every shard ran once, and some case was compared.
     pub(super) fn is_complete(&self) -> bool {
-        self.strangers.is_empty() && self.faults().next().is_none() && self.sum().cases > 0
+        self.strangers.is_empty() && self.faults().next().is_none() && self.sum.cases > 0
     }
 
-    /// The sums of all shards: cases, mismatches, also by stage and by part, and the time.
-    pub(super) fn sum(&self) -> Report {
+    fn added_up(&self) -> Report {
         let mut sum = Report::default();
         for FoundReport { report, .. } in self.done() {
             for part in &report.parts {

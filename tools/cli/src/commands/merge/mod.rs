@@ -67,7 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         note("no coverage is written: the campaign is not complete");
     }
     OutputArgs { file: PathBuf::from("-") }.write(show::text(&campaign).as_bytes())?;
-    Ok(match (is_complete, campaign.sum().mismatches) {
+    Ok(match (is_complete, campaign.sum.mismatches) {
         (false, _) => Exit::BadInput,
         (true, 0) => Exit::Done,
         (true, _) => Exit::Different,

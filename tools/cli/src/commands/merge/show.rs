@@ -29,7 +29,7 @@ fn heading(text: &mut String, report: &Report) {
 
 fn table(text: &mut String, campaign: &Campaign) {
     _ = writeln!(text, "{:<44} {:>15} {:>10}", "part", "cases", "mismatches");
-    let Report { parts, cases, mismatches, stages, .. } = campaign.sum();
+    let Report { parts, cases, mismatches, stages, .. } = &campaign.sum;
     for part in parts {
         _ = writeln!(text, "{:<44} {:>15} {:>10}", part.name, part.cases, part.mismatches);
     }
@@ -76,7 +76,7 @@ fn faults(text: &mut String, campaign: &Campaign) {
     if campaign.faults().nth(SHOWN).is_some() {
         _ = writeln!(text, "and more shards");
     }
-    if campaign.sum().cases == 0 {
+    if campaign.sum.cases == 0 {
         _ = writeln!(text, "no case was compared");
     }
     run_again(text, campaign, &again);
@@ -118,8 +118,8 @@ fn more(text: &mut String, all: u64, one: &str) {
 
 fn summary(text: &mut String, campaign: &Campaign) {
     let once = campaign.once().count();
-    let Report { cases, mismatches, milliseconds, .. } = campaign.sum();
-    let (of, time) = (counted(campaign.of, "shard"), seconds(milliseconds));
+    let Report { cases, mismatches, milliseconds, .. } = &campaign.sum;
+    let (of, time) = (counted(campaign.of, "shard"), seconds(*milliseconds));
     _ = writeln!(
         text,
         "{once} of {of} ran once: {cases} cases, {mismatches} mismatches, {time} s of all shards"
@@ -182,19 +182,9 @@ pub(super) fn junit(campaign: &Campaign) -> String {
     let mut tests: Vec<(u64, JunitCase)> = campaign
         .once()
         .map(|FoundReport { report, .. }| {
-            let time = Some(report.milliseconds);
-            (
-                report.shard,
-                test(
-                    report.shard,
-                    time,
-                    Outcome::of(
-                        (report.mismatches, report.cases),
-                        report.first.as_ref(),
-                        report.period,
-                    ),
-                ),
-            )
+            let counts = (report.mismatches, report.cases);
+            let outcome = Outcome::of(counts, report.first.as_ref(), report.period);
+            (report.shard, test(report.shard, Some(report.milliseconds), outcome))
         })
         .collect();
     for (shard, fault) in campaign.faults().take(LISTED) {
@@ -217,6 +207,6 @@ pub(super) fn junit(campaign: &Campaign) -> String {
         case(place.clone(), None, error)
     });
     let tests = tests.into_iter().map(|(_, test)| test).chain(more).chain(strangers).collect();
-    let (name, milliseconds) = (format!("tess {command}"), campaign.sum().milliseconds);
+    let (name, milliseconds) = (format!("tess {command}"), campaign.sum.milliseconds);
     JunitSuite { name, milliseconds, tests }.to_xml()
 }
