@@ -32,7 +32,8 @@ pub(super) struct Stitch {
 pub(super) fn point_runs(patch: &Patch) -> Vec<PointRun> {
     let place = |i| Some(point::place(patch.locate_point(i)?, patch.processed().factors()));
     let places = (0..patch.counts().points).filter_map(place);
-    runs(places).map(|(place, first, count)| PointRun { place, first, count }).collect()
+    let run = |(place, first, count)| PointRun { place, first, count };
+    runs(places).into_iter().map(run).collect()
 }
 
 /// The primitives, run by run.
@@ -54,7 +55,7 @@ pub(super) fn stitches(patch: &Patch) -> Vec<Stitch> {
             None => Stitch { place, first, count, ..Stitch::default() },
         }
     };
-    runs(places.map(describe)).map(stitch).collect()
+    runs(places.map(describe)).into_iter().map(stitch).collect()
 }
 
 fn letters(patch: &Patch, stitch: &tess_core::Stitch) -> String {
@@ -69,7 +70,7 @@ fn letters(patch: &Patch, stitch: &tess_core::Stitch) -> String {
 }
 
 /// Equal places that follow each other: the place, the number of the first element there, how many.
-fn runs(places: impl Iterator<Item = String>) -> impl Iterator<Item = (String, u32, u32)> {
+fn runs(places: impl Iterator<Item = String>) -> Vec<(String, u32, u32)> {
     let mut runs: Vec<(String, u32, u32)> = Vec::new();
     for (position, place) in (0..).zip(places) {
         match runs.last_mut() {
@@ -77,7 +78,7 @@ fn runs(places: impl Iterator<Item = String>) -> impl Iterator<Item = (String, u
             _ => runs.push((place, position, 1)),
         }
     }
-    runs.into_iter()
+    runs
 }
 
 /// The stitch between two rings that a primitive belongs to.

@@ -164,11 +164,10 @@ fn report_left_out(drawing: &Drawing) {
 /// The listing of the same case in a file.
 fn find_listing(path: &Path, patch: &OnePatch) -> Result<OnePatch, Failure> {
     let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
-    let bad = |error: tess_verify::vectors::VectorError| Failure::bad_input(error);
     let name = path.display().to_string();
     let mut found = None;
-    for record in VectorFile::new(name, BufReader::new(file)).map_err(bad)? {
-        match record.map_err(bad)? {
+    for record in VectorFile::new(name, BufReader::new(file)).map_err(Failure::bad_input)? {
+        match record.map_err(Failure::bad_input)? {
             Record::Listing(listing) if listing.case == *patch.case() => found = Some(listing),
             Record::Coordinates(vertices) if vertices.case == *patch.case() => {
                 found = Some(vertices.numbered());
