@@ -12,11 +12,13 @@ import pytest
 BENCH = Path(__file__).resolve().parents[3] / "rtl" / "dv" / "cocotb"
 BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb")) / "top"
 FAULTS = {
-    "24": "stage=points module=tess_points signal=v point ",
-    "36": "stage=connect module=tess_connect signal=i2 primitive ",
-    "57": "stage=points module=tess_points signal=u point ",
-    "82": "stage=connect module=tess_connect signal=i2 primitive ",
+    "a carry is lost where half a ring's distance is rounded": "stage=points module=tess_points signal=v point ",
+    "the next inner ring closes one index late": "stage=connect module=tess_connect signal=i2 primitive ",
+    "a stall loses the last point": "stage=points module=tess_points signal=u point ",
+    "the unused index of a line is not 0": "stage=connect module=tess_connect signal=i2 primitive ",
 }
+LIST = [line for line in (BENCH.parent / "circuit.faults").read_text().splitlines() if line.startswith("fault ")]
+NUMBERS = {line.removeprefix("fault ").partition(" := ")[0]: str(number) for number, line in enumerate(LIST, 1)}
 
 
 def bench(tmp_path: Path, *options: str) -> "subprocess.CompletedProcess[str]":
@@ -43,7 +45,7 @@ def test_icarus(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("fault", sorted(FAULTS))
 def test_planted_faults_are_named(tmp_path: Path, fault: str) -> None:
-    options = ("--sim", "icarus", "--fault", fault, "--random", "200", "--testcase", "random_patches")
+    options = ("--sim", "icarus", "--fault", NUMBERS[fault], "--random", "200", "--testcase", "random_patches")
     run = bench(tmp_path, *options)
     assert run.returncode == 1 and "1 tests, 1 failed" in run.stdout, run.stdout + run.stderr
     assert f"MISMATCH {FAULTS[fault]}" in run.stdout and "tess explain " in run.stdout, run.stdout
