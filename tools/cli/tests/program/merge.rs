@@ -140,6 +140,20 @@ fn sums_end_at_the_largest_number() {
     assert_eq!([shown("p "), shown("all ")], [u64::MAX.to_string(), u64::MAX.to_string()]);
 }
 
+/// The times of all shards, and what differs by stage, are added up.
+#[test]
+fn times_and_stages_are_added_up() {
+    let of = |shard, stages: Value| {
+        let own = value!({ "mismatches": 2, "milliseconds": 700, "stages": stages });
+        report(shard, 2, own)
+    };
+    let run =
+        merged(&[of(1, value!({ "location": 2 })), of(2, value!({ "answer": 1, "location": 1 }))]);
+    run.exits(1);
+    run.prints("stage answer: 1\nstage location: 3\n");
+    run.prints("4 cases, 4 mismatches, 1.400 s of all shards\n");
+}
+
 /// Ten times the shards take no more than about ten times the time, in one file or in many.
 #[test]
 fn the_time_grows_with_the_shards_alone() {

@@ -113,9 +113,14 @@ fn outputs_are_inputs() {
         assert_eq!(counts(&again), [108, 324, 108], "6 quads of 18 triangles, from {name}");
         assert_eq!(open_edges(&folder.join("again.obj")), 0, "{name}");
     }
-    let glb = fs::read(folder.join("a.glb")).unwrap();
-    let length = u32::from_le_bytes(glb[8..12].try_into().unwrap());
-    assert_eq!(length as usize, glb.len(), "the length in the header");
+    // Three indices of 16 bits leave two bytes to fill.
+    let triangle = write(&folder, "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    mesh(&triangle, "--factor 1 --indices 16", &folder.join("t.glb"));
+    for name in ["a.glb", "t.glb"] {
+        let glb = fs::read(folder.join(name)).unwrap();
+        let length = u32::from_le_bytes(glb[8..12].try_into().unwrap());
+        assert_eq!(length as usize, glb.len(), "the length in the header of {name}");
+    }
 }
 
 #[test]
