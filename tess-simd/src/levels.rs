@@ -4,7 +4,7 @@ use crate::at_each_level;
 #[cfg(target_arch = "x86_64")]
 use crate::cpu::instructions::with_avx512;
 use crate::data::batch::Batch;
-use crate::data::chunk::Chunk;
+use crate::data::chunk::{Chunk, Stretch};
 use crate::data::format::IndexFormat;
 use crate::data::point_writer::PointWriter;
 use crate::data::ranges::Ranges;
@@ -42,6 +42,11 @@ at_each_level! {
         batch: &Batch<'_>,
         packets: &mut [Packet; Chunk::PACKETS],
     ) = kernels::front_end::process;
+}
+
+at_each_level! {
+    /// [`Stretch::new`] at a level.
+    fn stretch(batch: &Batch<'_>, start: usize) -> Stretch = Stretch::new;
 }
 
 at_each_level! {

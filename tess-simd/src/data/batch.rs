@@ -151,6 +151,7 @@ impl Batch<'_> {
 
     /// Length of the run of patches with the same factors, bit for bit, that begins with patch `first`. 0 if there is
     /// no such patch.
+    #[inline(always)]
     pub(crate) fn run(&self, first: usize) -> usize {
         let quads = |a: &QuadFactors, b: &QuadFactors| differ(*a, *b);
         match *self {
@@ -227,22 +228,29 @@ fn run_of_columns(columns: &PatchFactors<&[f32]>, first: usize) -> usize {
     }
 }
 
-/// How many elements, from the first on, are like it.
+/// How many elements, from the first on, are like it: each like the one before.
 #[inline(always)]
 fn run<T>(all: &[T], first: usize, differ: impl Fn(&T, &T) -> u32) -> usize {
     /// Elements compared at a time, as vectors.
-    const COMPARED_AT_ONCE: usize = 16;
-    let Some((one, rest)) = all.get(first..).and_then(<[T]>::split_first) else { return 0 };
-    if rest.first().is_none_or(|next| differ(one, next) != 0) {
+    const COMPARED_AT_ONCE: usize = 8;
+    let Some(all @ [one, others @ ..]) = all.get(first..) else { return 0 };
+    if others.first().is_none_or(|next| differ(one, next) != 0) {
         return 1;
     }
-    let blocks = rest.as_chunks::<COMPARED_AT_ONCE>().0;
-    let alike = |block: &&[T; COMPARED_AT_ONCE]| {
-        block.iter().fold(0, |different, other| different | differ(one, other)) == 0
-    };
-    let whole = COMPARED_AT_ONCE * blocks.iter().take_while(alike).count();
-    let others = rest[whole..].iter().take_while(|other| differ(one, other) == 0);
-    1 + whole + others.count()
+    let mut alike = 1;
+    let blocks =
+        all.as_chunks::<COMPARED_AT_ONCE>().0.iter().zip(others.as_chunks::<COMPARED_AT_ONCE>().0);
+    for (block, next) in blocks {
+        let mut different = 0;
+        for i in 0..COMPARED_AT_ONCE {
+            different |= differ(&block[i], &next[i]);
+        }
+        if different != 0 {
+            break;
+        }
+        alike += COMPARED_AT_ONCE;
+    }
+    alike + all[alike..].iter().take_while(|other| differ(one, other) == 0).count()
 }
 
 fn part<'a, T>(slice: &'a [T], range: &Range<usize>) -> &'a [T] {

@@ -171,7 +171,7 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
         let (Stretch { patches, times }, packets) = if let Some(kept) = kept {
             (Stretch { patches: all, times: 1 }, kept)
         } else {
-            let stretch = Stretch::new(batch, start);
+            let stretch = levels::stretch(level, batch, start);
             let batch = batch.slice(&(start..start + stretch.patches));
             levels::process(level, settings.config, &batch, &mut own.packets);
             (stretch, &own.packets)
