@@ -79,13 +79,29 @@ impl Chunk {
         factors: impl Fn(&F) -> Option<[f32; N]>,
     ) {
         let patches = patches.get(..Self::PATCHES).unwrap_or(patches);
-        for (i, patch) in patches.iter().enumerate().take(Self::PATCHES) {
+        // Whole packets apart: loops of a fixed length leave no patches to be loaded one by one.
+        let (whole, others) = patches.as_chunks::<LANES>();
+        for (number, patches) in whole.iter().enumerate().take(Self::PACKETS) {
+            self.load_packet(number * LANES, patches, &factors);
+        }
+        self.load_packet(whole.len() * LANES, others, &factors);
+        self.clear(patches.len());
+    }
+
+    /// Loads patches of one packet, whose first is number `first`.
+    #[inline(always)]
+    fn load_packet<F, const N: usize>(
+        &mut self,
+        first: usize,
+        patches: &[F],
+        factors: impl Fn(&F) -> Option<[f32; N]>,
+    ) {
+        for (lane, patch) in patches.iter().enumerate().take(LANES) {
             let Some(factors) = factors(patch) else { break };
             for (values, factor) in self.0.iter_mut().zip(factors) {
-                values[i] = factor;
+                values[(first + lane) % Self::PATCHES] = factor;
             }
         }
-        self.clear(patches.len());
     }
 
     #[inline(always)]

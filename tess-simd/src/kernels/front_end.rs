@@ -85,10 +85,19 @@ struct Sums {
 impl Sums {
     #[inline(always)]
     fn add(&mut self, counts: &PacketCounts, times: usize) {
-        let times = times as u64;
+        // A product of 64 bits would not become vectors.
+        if times == 1 {
+            self.add_times(counts, |n| n)
+        } else {
+            self.add_times(counts, |n| times as u64 * n)
+        }
+    }
+
+    #[inline(always)]
+    fn add_times(&mut self, counts: &PacketCounts, times: impl Fn(u64) -> u64) {
         for lane in 0..LANES {
-            self.points[lane] += times * u64::from(counts.points[lane]);
-            self.indices[lane] += times * u64::from(counts.indices[lane]);
+            self.points[lane] += times(u64::from(counts.points[lane]));
+            self.indices[lane] += times(u64::from(counts.indices[lane]));
             self.largest[lane] = counts.points[lane].max(self.largest[lane]);
         }
     }
