@@ -52,31 +52,6 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         }
     }
 
-    /// [`Writer::map`] with a fast path: if `length <= LEAST` and there is room, writes `LEAST` elements
-    /// unconditionally.
-    #[inline(always)]
-    pub(crate) fn map_least<S: Copy, const N: usize, const LEAST: usize>(
-        &mut self,
-        length: usize,
-        source: &[S],
-        element: impl Fn(S) -> T,
-    ) {
-        let room = self.out.get_mut(self.at..).unwrap_or_default();
-        if length <= LEAST
-            && let (Some(target), Some(block)) =
-                (room.first_chunk_mut::<LEAST>(), source.first_chunk::<LEAST>())
-        {
-            self.at += length;
-            for (target, block) in target.as_chunks_mut::<N>().0.iter_mut().zip(block.as_chunks().0)
-            {
-                *target = make(block, &element);
-                separate_blocks();
-            }
-            return;
-        }
-        self.map::<_, N>(length, source, element);
-    }
-
     /// Writes the next `length` elements, each block made from a block of `source`. Makes at least `LEAST`
     /// elements if there is room, so that most patches need no branch on their length.
     #[cfg(target_arch = "x86_64")]
@@ -89,18 +64,17 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
     ) {
         let room = self.out.get_mut(self.at..).unwrap_or_default();
         self.at += length;
-        let padded = length.next_multiple_of(N).max(LEAST);
+        let padded = length.next_multiple_of(LEAST);
         let (Some(whole), Some(source)) = (room.get_mut(..padded), source.get(..padded)) else {
             write_cut_blocks(room, source, make);
             return;
         };
-        let (least, more) = whole.as_chunks_mut::<N>().0.split_at_mut(LEAST / N);
-        let (source, more_source) = source.as_chunks::<N>().0.split_at(LEAST / N);
-        for k in 0..LEAST / N {
-            least[k] = make(&source[k]);
-        }
-        for (target, block) in more.iter_mut().zip(more_source) {
-            *target = make(block);
+        let groups = source.as_chunks::<LEAST>().0;
+        for (target, group) in whole.as_chunks_mut::<LEAST>().0.iter_mut().zip(groups) {
+            let blocks = group.as_chunks::<N>().0;
+            for (target, block) in target.as_chunks_mut::<N>().0.iter_mut().zip(blocks) {
+                *target = make(block);
+            }
             separate_blocks();
         }
     }

@@ -212,9 +212,20 @@ fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     for (lane, _) in lanes.clone() {
         starts[lane] = templates.find(packet.patch(lane), (settings, tables), M::kept);
     }
-    for (lane, _) in lanes.clone() {
-        let template = templates.get(starts[lane]);
-        points_of(packet.patch(lane), template, &mut out.points, compact_points);
+    // Apart, so that neither loop keeps the other's constants.
+    if packet.patch(0).integer() {
+        for (lane, _) in lanes.clone() {
+            let (patch, points) = (packet.patch(lane), templates.get(starts[lane]).points);
+            out.points.map::<_, 24>(patch.points() as usize, points, long);
+        }
+    } else {
+        for (lane, _) in lanes.clone() {
+            compact_points.emit(
+                packet.patch(lane),
+                templates.get(starts[lane]).points,
+                &mut out.points,
+            );
+        }
     }
     for (lane, range) in lanes {
         let base = numbering.base(range.first_point);
@@ -231,7 +242,7 @@ fn points_of<W: PointWriter>(
     compact_points: &mut impl CompactPoints<W>,
 ) {
     if patch.integer() {
-        out.map_least::<_, 8, 24>(patch.points() as usize, points, long);
+        out.map::<_, 24>(patch.points() as usize, points, long);
     } else {
         compact_points.emit(patch, points, out);
     }
@@ -246,7 +257,7 @@ fn indices_of<I: IndexFormat>(
     out: &mut Writer<'_, I>,
 ) {
     let base = I::wrapping_from(base);
-    out.map_least::<_, 16, 64>(patch.indices() as usize, indices, |index: u8| {
+    out.map::<_, 64>(patch.indices() as usize, indices, |index: u8| {
         base.wrapping_add(I::wrapping_from(index.into()))
     });
 }
@@ -280,7 +291,7 @@ fn emit_patch<W: PointWriter, I: IndexFormat>(
     } else {
         points::emit(patch, tables, &mut out.points);
     }
-    out.indices.map_least::<_, 16, 128>(patch.indices() as usize, template.indices, add);
+    out.indices.map::<_, 64>(patch.indices() as usize, template.indices, add);
 }
 
 #[cfg(all(test, feature = "std"))]

@@ -20,7 +20,7 @@ pub(crate) fn of_points<W: PointWriter>(work: &TapInput, mut out: W) {
         let source = &source[usize::from(first)..];
         match method {
             0 => out.map::<_, 8>(length, source, point),
-            1 => out.map_least::<_, 8, 24>(length, source, point),
+            1 => out.map::<_, 24>(length, source, point),
             #[cfg(target_arch = "x86_64")]
             2 => out.blocks::<_, 8, 32>(length, source, |block| block.map(point)),
             _ => out.put([point(source[0])]),
@@ -39,7 +39,7 @@ pub(crate) fn of_indices<I: IndexFormat>(work: &TapInput, indices: &mut [I]) {
         let source = &source[usize::from(first)..];
         match method {
             0 => out.map::<_, 32>(length, source, index),
-            1 => out.map_least::<_, 16, 64>(length, source, index),
+            1 => out.map::<_, 64>(length, source, index),
             2 => out.count::<16>(length, |n| index(source[0].wrapping_add(n))),
             _ => out.put([source[0], source[1], source[2]].map(index)),
         }

@@ -143,7 +143,7 @@ with_avx512! {
         let [a, b] = [locations(patch, 0), locations(patch, 2)];
         if patch.domain() == Domain::Triangle {
             let [c, d] = terms(b);
-            out.blocks::<_, POINTS_AT_ONCE, LEAST>(points, codes, |codes| {
+            out.blocks::<_, POINTS_AT_ONCE, LEAST>(points, codes, move |codes| {
                 let codes = extended(codes);
                 let location = _mm512_permutex2var_epi32(a, _mm512_srli_epi32::<LOCATION>(codes), b);
                 let term = _mm512_permutex2var_epi32(c, codes, d);
@@ -155,7 +155,7 @@ with_avx512! {
             let c = locations(patch, 4);
             let one = _mm512_set1_epi32(ONE.cast_signed());
             let inside = _mm512_set1_epi32(INSIDE);
-            out.blocks::<_, POINTS_AT_ONCE, LEAST>(points, codes, |codes| {
+            out.blocks::<_, POINTS_AT_ONCE, LEAST>(points, codes, move |codes| {
                 let codes = extended(codes);
                 let number = _mm512_srli_epi32::<LOCATION>(codes);
                 let outer = _mm512_permutex2var_epi32(a, number, b);
