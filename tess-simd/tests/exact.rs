@@ -74,6 +74,9 @@ fn more_compact_templates_than_there_is_room_for() {
     let mut all: Vec<_> =
         (0..6000).map(|_| PatchFactors::from_fn(Domain::Quad, |_| factor())).collect();
     all.extend_from_within(..3000);
+    // Twice every quad of factors 1 and 2: the minimum patch has the counts of another.
+    let small = |bits: u8| PatchFactors::from_fn(Domain::Quad, |i| f32::from(1 + (bits >> i & 1)));
+    all.extend((0..128).map(small));
     let patches = Patches::new(all);
     for level in levels() {
         for output in [OutputPrimitive::Point, OutputPrimitive::TriangleCw] {

@@ -10,7 +10,7 @@
 //! is one vector. *Lanes* have one number for each patch.
 //!
 //! ```text
-//! Column (fixed, points, and of Spacings: split, step, lag)     Lanes (minimum, compact, counts, topologies)
+//! Column (fixed, points, and of Spacings: split, step, lag)     Lanes (minimum, compact, counts, topologies, small)
 //!            lane 0   1      15                                            lane 0   1      15
 //! factor 0  [     0][ 1] .. [15]   quads: u = 0                           [     0][ 1] .. [15]
 //! factor 1  [    16][17] .. [31]          v = 0
@@ -77,6 +77,11 @@ pub(crate) const COMPACT_EDGE: usize = 16;
 /// The most points of the inside factor of a compact triangle.
 pub(crate) const COMPACT_TRIANGLE_INSIDE: usize = 13;
 
+/// Bits of the counts of a small topology.
+const SMALL_BITS: u32 = 12;
+/// Numbers of small topologies of both domains.
+pub(crate) const SMALL_TOPOLOGIES: usize = 2 << SMALL_BITS;
+
 /// Sixteen patches of one domain after factor processing, their output sizes known.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Packet {
@@ -88,6 +93,8 @@ pub(crate) struct Packet {
     spacings: Spacings,
     minimum: Lanes,
     topologies: Lanes<u64>,
+    /// See [`PacketPatch::small_topology`].
+    small: Lanes,
     /// See [`PacketPatch::is_compact`].
     compact: Lanes,
     pub(crate) counts: PacketCounts,
@@ -103,6 +110,7 @@ impl Packet {
         spacings: Spacings::NONE,
         minimum: [0; _],
         topologies: [0; _],
+        small: [0; _],
         compact: [0; _],
         counts: PacketCounts { points: [0; _], indices: [0; _] },
     };
@@ -151,6 +159,7 @@ impl Packet {
         edges[..domain.factors()].copy_from_slice(&points[..domain.factors()]);
         (self.config, self.domain) = (config, domain);
         set(&mut self.topologies, lane, topologies(&edges, minimum));
+        set(&mut self.small, lane, small_topologies(config, domain, &edges, minimum));
         set(&mut self.compact, lane, compact(domain, &edges));
         set(&mut self.minimum, lane, *minimum);
         set_rows(&mut self.fixed, lane, fixed);
@@ -239,6 +248,13 @@ impl PacketPatch<'_> {
         self.packet.topologies[self.lane]
     }
 
+    /// Below [`SMALL_TOPOLOGIES`], another number for each topology, if each factor of a quad has one of the first four counts
+    /// of its parity, of a triangle one of the first eight; others have larger numbers.
+    #[inline(always)]
+    pub(crate) const fn small_topology(self) -> usize {
+        self.packet.small[self.lane] as usize
+    }
+
     /// The point counts of its factors.
     #[inline(always)]
     pub(crate) const fn edges(self) -> EdgePoints {
@@ -292,6 +308,30 @@ fn topologies<const L: usize>(points: &[[u32; L]; MAX_FACTORS], minimum: &[u32; 
         topologies[lane] = (topologies[lane] << 1) | u64::from(minimum[lane]);
     }
     topologies
+}
+
+/// A count's place among those that a factor can have, two or three bits for each factor; behind them the domain, and
+/// then what makes the number too large. A minimum patch is 0, as no other patch is that has the count of its inside.
+#[inline(always)]
+fn small_topologies<const L: usize>(
+    config: Config,
+    domain: Domain,
+    points: &[[u32; L]; MAX_FACTORS],
+    minimum: &[u32; L],
+) -> [u32; L] {
+    let (bits, quad) = if domain == Domain::Quad { (2, 1 << SMALL_BITS) } else { (3, 0) };
+    let fractional = u32::from(!config.partitioning.has_integer_factors());
+    let mut small = [0; L];
+    for points in &points[..domain.factors()] {
+        for lane in 0..L {
+            let place = points[lane].wrapping_sub(2) >> fractional;
+            small[lane] = (small[lane] << bits) | place | ((place >> bits) << (SMALL_BITS + 1));
+        }
+    }
+    for lane in 0..L {
+        small[lane] = (small[lane] & minimum[lane].wrapping_sub(1)) | quad;
+    }
+    small
 }
 
 /// 1 where a patch is compact.

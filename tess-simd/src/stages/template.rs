@@ -12,12 +12,14 @@
 //! ```text
 //! sets (32, 256, 2048)  topology * 2^64 / golden ratio, upper 5, 8, 11 bits
 //!  +--------------------------------+--------------------------------------+
-//!  | topologies: 4 x u64, 0 = empty | starts: 4 x (point: u32, index: u32) |
+//!  | topologies: 4 x u64, 0 = empty | starts: 4 x (point: u16, index: u16) |
 //!  +--------------------------------+--------------|-------------|---------+
 //!                                                  v             |
 //! points (64 Ki of [u16; 2])  [ ... | patch's coordinates, or what CompactPoints keeps of codes | ... ]
 //!                                                                v
 //! indices (224 Ki of u8)      [ ... | indices from the patch's first point, in the order to write | ... ]
+//!
+//! small (8192 starts)         by the topology's small number: what sets of few points said last
 //! ```
 //!
 //! These are the compact ones; others have at most 256 sets, 24 Ki points and 96 Ki indices. Memory is taken as
@@ -65,16 +67,17 @@ use crate::data::format::OutputPoint;
 use crate::data::lanes::LANES;
 use crate::data::writer::Writer;
 use crate::stages::connect::{self, cache_order};
-use crate::stages::packet::{COMPACT_EDGE, PacketPatch};
+use crate::stages::packet::{COMPACT_EDGE, PacketPatch, SMALL_TOPOLOGIES};
 use crate::stages::points::{self, LocationTables, corner};
 use crate::stages::settings::Settings;
 use alloc::vec::Vec;
-use cache::Cache;
+use cache::{Cache, INDEX_STEP};
+use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, MAX_INDICES, MAX_POINTS, Patch, PatchFactors};
 
 /// The most points and indices of a compact patch: a quad's whose edges have [`COMPACT_EDGE`] points.
 const POINTS: usize = COMPACT_EDGE * COMPACT_EDGE;
-const INDICES: usize = 6 * (COMPACT_EDGE - 1) * (COMPACT_EDGE - 1);
+const INDICES: usize = (6 * (COMPACT_EDGE - 1) * (COMPACT_EDGE - 1)).next_multiple_of(INDEX_STEP);
 
 /// The most points of a patch whose template is kept from the first one on: a quad of factor 16 has this many.
 const ALWAYS_KEPT: usize = 17 * 17;
@@ -83,6 +86,8 @@ const ALWAYS_KEPT: usize = 17 * 17;
 #[derive(Clone, Debug)]
 pub(crate) struct Templates {
     compact: Cache<u8, CompactPoint, 2048, { 224 << 10 }, { 64 << 10 }>,
+    /// Where compact ones begin, by [`PacketPatch::small_topology`]; empty while there are few sets.
+    small: Vec<Start>,
     others: Cache<u16, DomainPoint, 256, { 96 << 10 }, { 24 << 10 }>,
     /// Topology of the last large patch that had no template.
     last_large: u64,
@@ -110,17 +115,19 @@ impl Templates {
     /// No templates, and no memory for any.
     pub(crate) const fn new() -> Self {
         let made = MadePatch { points: Vec::new(), indices: Vec::new() };
-        Self { compact: Cache::new(), others: Cache::new(), last_large: 0, made }
+        Self { compact: Cache::new(), small: Vec::new(), others: Cache::new(), last_large: 0, made }
     }
 
     /// Bytes of memory that they take on the heap.
     pub(crate) const fn bytes(&self) -> usize {
-        self.compact.bytes() + self.others.bytes() + self.made.bytes()
+        let small = self.small.capacity() * size_of::<Start>();
+        self.compact.bytes() + small + self.others.bytes() + self.made.bytes()
     }
 
     /// Takes all the memory that they may ever need.
     pub(crate) fn reserve(&mut self) {
         self.compact.reserve();
+        self.make_small();
         self.others.reserve();
         self.made.make_room(MAX_POINTS, MAX_INDICES);
     }
@@ -128,16 +135,34 @@ impl Templates {
     /// Makes room for the templates of a packet of compact patches; if there is none, all others are forgotten.
     #[inline(always)]
     pub(crate) fn make_room(&mut self) {
-        self.compact.make_room(LANES * POINTS, LANES * INDICES);
+        if self.compact.make_room(LANES * POINTS, LANES * INDICES) {
+            self.small.fill(Start::NONE);
+        }
+    }
+
+    fn make_small(&mut self) {
+        self.small.resize(SMALL_TOPOLOGIES, Start::NONE);
     }
 
     /// Where the template of a compact patch that is not culled begins. It is made if there is none.
     #[inline(always)]
     pub(crate) fn find(&mut self, patch: PacketPatch<'_>, with: Making<'_>, kept: Kept) -> Start {
-        match self.compact.find(patch.topology()) {
+        match self.small.get(patch.small_topology()) {
+            Some(&start) if start != Start::NONE => start,
+            _ => self.find_in_sets(patch, with, kept),
+        }
+    }
+
+    #[inline(always)]
+    fn find_in_sets(&mut self, patch: PacketPatch<'_>, with: Making<'_>, kept: Kept) -> Start {
+        let start = match self.compact.find(patch.topology()) {
             Some(start) => start,
             None => self.make_compact(patch, with, kept),
+        };
+        if let Some(small) = self.small.get_mut(patch.small_topology()) {
+            *small = start;
         }
+        start
     }
 
     /// The template of a compact patch that begins here, found since there was room made last.
@@ -198,7 +223,11 @@ impl Templates {
             }
             to.as_flattened_mut().iter_mut().for_each(|code| *code = kept(domain, *code));
         }
-        self.made.keep(&mut self.compact, settings, patch, patch.points())
+        let start = self.made.keep(&mut self.compact, settings, patch, patch.points());
+        if self.compact.has_many() {
+            self.make_small();
+        }
+        start
     }
 
     #[cold]
@@ -295,7 +324,7 @@ fn short(point: DomainPoint) -> CompactPoint {
 pub(crate) fn long<P: OutputPoint>(point: CompactPoint) -> P {
     let [u, v] = point.map(|coordinate| {
         let bits = u32::from(coordinate);
-        bits + ((bits + 1) >> 16)
+        if bits == 0xFFFF { ONE } else { bits }
     });
     P::from_bits(u, v)
 }

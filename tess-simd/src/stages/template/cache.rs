@@ -33,10 +33,19 @@ struct Set {
 }
 
 /// Where a template begins.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Start {
-    point: u32,
-    index: u32,
+    point: u16,
+    /// In steps of [`INDEX_STEP`].
+    index: u16,
+}
+
+/// Indices of templates begin at multiples of this, so that their places fit 16 bits.
+pub(super) const INDEX_STEP: usize = 4;
+
+impl Start {
+    /// No template begins here.
+    pub(super) const NONE: Self = Self { point: u16::MAX, index: u16::MAX };
 }
 
 /// One patch's template.
@@ -100,12 +109,19 @@ where
         self.points.reserve();
     }
 
-    /// Makes room for templates of these sizes; if there is none, all others are forgotten.
+    /// Makes room for templates of these sizes; if there is none, all others are forgotten. Returns whether they were.
     #[inline(always)]
-    pub(super) fn make_room(&mut self, points: usize, indices: usize) {
-        if !(self.indices.fits(indices) && self.points.fits(points)) {
+    pub(super) fn make_room(&mut self, points: usize, indices: usize) -> bool {
+        let full = !(self.indices.fits(indices) && self.points.fits(points));
+        if full {
             self.forget();
         }
+        full
+    }
+
+    /// Whether there are more sets than at first.
+    pub(super) const fn has_many(&self) -> bool {
+        self.sets.len() > FIRST_SETS
     }
 
     #[cold]
@@ -132,12 +148,17 @@ where
     /// The template that begins here, found since there was room made last.
     #[inline(always)]
     pub(super) fn get(&self, Start { point, index }: Start) -> Template<'_, I, P> {
-        Template { indices: self.indices.from(index), points: self.points.from(point) }
+        Template {
+            indices: self.indices.from(INDEX_STEP * usize::from(index)),
+            points: self.points.from(point.into()),
+        }
     }
 
     /// Makes the first free points and indices the template of a topology, which has none.
+    #[expect(clippy::cast_possible_truncation, reason = "at most 64 Ki places of either kind")]
     pub(super) fn add(&mut self, topology: u64, points: usize, indices: usize) -> Start {
-        let start = Start { point: self.points.take(points), index: self.indices.take(indices) };
+        let index = self.indices.take(indices.next_multiple_of(INDEX_STEP)) / INDEX_STEP;
+        let start = Start { point: self.points.take(points) as u16, index: index as u16 };
         self.enter(topology, start);
         start
     }
@@ -200,7 +221,7 @@ mod tests {
                 cache.make_sets();
             }
         }
-        assert_eq!((cache.points.used(), cache.indices.used()), (43, 186), "room that is used");
+        assert_eq!((cache.points.used(), cache.indices.used()), (43, 188), "room that is used");
         cache.forget();
         assert!(cache.find(topology).is_none(), "forgotten");
     }

@@ -59,17 +59,16 @@ impl<T: Copy + Default, const MOST: usize> TemplateRoom<T, MOST> {
     }
 
     /// Makes the first free elements part of the templates; returns the place of the first.
-    #[expect(clippy::cast_possible_truncation, reason = "places in the room")]
-    pub(super) const fn take(&mut self, elements: usize) -> u32 {
+    pub(super) const fn take(&mut self, elements: usize) -> usize {
         let first = self.used;
         self.used += elements;
-        first as u32
+        first
     }
 
     /// The elements from a place on.
     #[inline(always)]
-    pub(super) fn from(&self, place: u32) -> &[T] {
-        self.all.get(place as usize..).unwrap_or_default()
+    pub(super) fn from(&self, place: usize) -> &[T] {
+        self.all.get(place..).unwrap_or_default()
     }
 
     fn grow(&mut self, elements: usize) {
