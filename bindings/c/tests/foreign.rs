@@ -1,5 +1,5 @@
 //! Runs what is not Rust: the header in a C and a C++ compiler, the C example, the tessellator
-//! for Mesa, the Verilog benches of the placer and of the whole circuit, the UVM package.
+//! for Mesa, the Verilog benches of the circuit, the UVM package.
 //!
 //! Where a tool is missing, its tests are reported as ignored, with the tool's name; with the
 //! environment variable `CI` set they fail.
@@ -10,10 +10,9 @@ mod foreign {
     pub(crate) mod rtl;
     pub(crate) mod tools;
     pub(crate) mod uvm;
-    pub(crate) mod verilog;
 }
 
-use foreign::{c, mesa, rtl, tools, uvm, verilog};
+use foreign::{c, mesa, rtl, tools, uvm};
 use libtest_mimic::{Arguments, Failed, Trial};
 
 type Test = fn() -> Result<(), Failed>;
@@ -33,16 +32,14 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("rtl_equals_model", &["c++", "make", "verilator"], rtl::equals_model),
     ("rtl_faults_are_caught", &["c++", "make", "verilator"], rtl::faults_are_caught),
     ("rtl_stages_equal_model", &["c++", "make", "verilator"], rtl::stages_equal_model),
+    ("rtl_stages_faults_are_caught", &["c++", "make", "verilator"], rtl::stages_faults_are_caught),
     (
         "rtl_systemc_modules_are_equal",
         &["c++", "make", "verilator", "systemc"],
         rtl::systemc_modules_are_equal,
     ),
     ("rtl_stimuli_are_checked", &["c++", "make", "verilator"], rtl::stimuli_are_checked),
-    ("verilog_equals_model", &["c++", "make", "verilator"], verilog::equals_model),
-    ("verilog_faults_are_caught", &["c++", "make", "verilator"], verilog::faults_are_caught),
     ("uvm_compiles_and_runs", &["c++", "make", "verilator"], uvm::compiles_and_runs),
-    ("verilog_stimuli_are_checked", &["c++", "make", "verilator"], verilog::stimuli_are_checked),
 ];
 
 fn main() {

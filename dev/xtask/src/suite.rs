@@ -41,7 +41,7 @@ const LONG: &[&str] = &[
 const BEYOND: &[(&str, &[&str])] = &[
     ("tess-wgpu/tests/gl/main.rs", &[]),
     ("tess-wgpu/tests/window.rs", &[]),
-    ("bindings/c/tests/foreign.rs", &["rtl_", "verilog_", "uvm_"]),
+    ("bindings/c/tests/foreign.rs", &["rtl_", "uvm_"]),
 ];
 
 /// Which tests are run.

@@ -1,7 +1,8 @@
 // Checks single stages against the golden model over DPI-C, for every input of a range.
 //
 //   +first=N +factors=N   15.16 factors from N on, as many: context and the place of every point, of both parities
-//                         where the factor has them, in both split orders; with +contexts without the places
+//                         where the factor has them, in both split orders; with +contexts without the places;
+//                         with +placer of tess_placer, every signal of its stages; with +stride=N every Nth factor
 //   +bits=HEX +words=N    binary32 patterns from HEX on, as many: factor processing in every partitioning, of outer and
 //                         inside factors, with and without the picture frame
 // Exit: PASS with the numbers of comparisons, or $fatal.
@@ -23,6 +24,32 @@ module tb_stages;
             $display("MISMATCH stage=%s signal=%s input=0x%08x element=%0d observed=0x%05x expected=0x%05x",
                 stage, signal, given, element, observed, expected);
         if (mismatches == MAX_SHOWN) $fatal(1, "FAIL");
+    endfunction
+
+    // The signals of the three stages of a place, in the order in which each feeds the next.
+    localparam int unsigned SIGNALS = 12;
+    string STAGES[3] = '{"factor_context", "place_position", "place_blend"};
+    string NAMES[SIGNALS] = '{"fraction", "half_points", "points", "split", "inv_floor", "inv_ceil",
+        "flip", "position", "coarse", "fine", "half_location", "location"};
+    typedef bit [SIGNALS-1:0][31:0] signals_t;
+
+    function automatic bit [5:0][31:0] of_context(input context_t c);
+        return {c.inv_ceil, c.inv_floor, c.split, c.points, c.half_points, c.fraction};
+    endfunction
+
+    function automatic bit [5:0][31:0] of_place(input placement_t s);
+        return {s.location, s.half_location, s.fine, s.coarse, s.position, s.flip};
+    endfunction
+
+    // What follows from the first wrong signal is no news.
+    function automatic void check_signals(
+            input signals_t observed, input signals_t expected, input int unsigned given, input int unsigned element);
+        if (observed == expected) return;
+        for (int unsigned i = 0; i < SIGNALS; i++) begin
+            if (observed[i] == expected[i]) continue;
+            differs(STAGES[(i < 6) ? 0 : (i < 10) ? 1 : 2], NAMES[i], given, element, observed[i], expected[i]);
+            return;
+        end
     endfunction
 
     // ---- context and place ---------------------------------------------------------------------
@@ -48,29 +75,25 @@ module tb_stages;
         tess_place place (.clk, .advance(1'b1), .in_context(made), .in_p(p[lane]), .location(location[lane]));
     end
 
+    task automatic tick();
+        #1 clk = 1'b1;
+        #1 clk = 1'b0;
+    endtask
+
     task automatic check_context(input int unsigned fixed, input bit is_odd, input bit is_center);
         context_t c;
         factor = 23'(fixed);
         odd    = is_odd;
         center = is_center;
-        repeat (2) begin
-            #1 clk = 1'b1;
-            #1 clk = 1'b0;
-        end
-        #1;
         c = model_context(fixed, parity_e'(is_odd), split_order_e'(is_center));
-        if (32'(made.inv_floor) != c.inv_floor)
-            differs("factor_context", "inv_floor", fixed, 0, 32'(made.inv_floor), c.inv_floor);
-        if (32'(made.inv_ceil) != c.inv_ceil)
-            differs("factor_context", "inv_ceil", fixed, 0, 32'(made.inv_ceil), c.inv_ceil);
-        if (32'(made.fraction) != c.fraction)
-            differs("factor_context", "fraction", fixed, 0, 32'(made.fraction), c.fraction);
-        if (32'(made.half_points) != c.half_points)
-            differs("factor_context", "half_points", fixed, 0, 32'(made.half_points), c.half_points);
-        if (32'(made.split) != c.split)
-            differs("factor_context", "split", fixed, 0, 32'(made.split), c.split);
-        if (32'(made.points) != c.points)
-            differs("factor_context", "points", fixed, 0, 32'(made.points), c.points);
+        if ($test$plusargs("placer")) begin
+            check_placer(fixed, c);
+            return;
+        end
+        repeat (2) tick();
+        #1;
+        check_signals({192'd0, 32'(made.inv_ceil), 32'(made.inv_floor), 32'(made.split), 32'(made.points),
+            32'(made.half_points), 32'(made.fraction)}, {192'd0, of_context(c)}, fixed, 0);
         contexts_checked++;
         if (!$test$plusargs("contexts")) check_places(fixed, c.points);
     endtask
@@ -79,8 +102,7 @@ module tb_stages;
     task automatic check_places(input int unsigned fixed, input int unsigned points);
         for (int unsigned next = 0; next < points + CLOCKS * LANES; next += LANES) begin
             for (int unsigned lane = 0; lane < LANES; lane++) p[lane] = (next + lane < points) ? 7'(next + lane) : 7'd0;
-            #1 clk = 1'b1;
-            #1 clk = 1'b0;
+            tick();
             if (next + LANES >= CLOCKS * LANES) begin
                 for (int unsigned lane = 0; lane < LANES; lane++)
                     check_place(fixed, points, next + LANES - CLOCKS * LANES + lane, location[lane]);
@@ -96,6 +118,50 @@ module tb_stages;
         if (32'(observed) != s.location) differs("place", "location", fixed, k, 32'(observed), s.location);
         places_checked++;
     endfunction
+
+    // ---- tess_placer ---------------------------------------------------------------------------
+
+    logic     rst = 1'b1;
+    logic     placer_in = 1'b0, placer_out;
+    signals_t placed = '0;
+    tess_placer placer (
+        .clk, .rst,
+        .in_valid         (placer_in),
+        .in_factor        (factor),
+        .in_odd           (odd),
+        .in_center        (center),
+        .in_p             (p[0]),
+        .out_valid        (placer_out),
+        .out_fraction     (placed[0][15:0]),
+        .out_half_points  (placed[1][5:0]),
+        .out_points       (placed[2][6:0]),
+        .out_split        (placed[3][5:0]),
+        .out_inv_floor    (placed[4][16:0]),
+        .out_inv_ceil     (placed[5][16:0]),
+        .out_flip         (placed[6][0]),
+        .out_position     (placed[7][5:0]),
+        .out_coarse       (placed[8][16:0]),
+        .out_fine         (placed[9][16:0]),
+        .out_half_location(placed[10][16:0]),
+        .out_location     (placed[11][16:0])
+    );
+
+    // A point a clock, which is out three edges later; nothing comes before or behind.
+    task automatic check_placer(input int unsigned fixed, input context_t c);
+        for (int unsigned k = 0; k < c.points + 3; k++) begin
+            placement_t s;
+            placer_in = k < c.points;
+            p[0] = placer_in ? 7'(k) : 7'd0;
+            tick();
+            if (placer_out != (k >= 2 && k < c.points + 2))
+                differs("placer", "valid", fixed, k, 32'(placer_out), 32'(!placer_out));
+            if (k < 2 || k >= c.points + 2) continue;
+            s = model_place(fixed, parity_e'(odd), split_order_e'(center), k - 2);
+            check_signals(placed, {of_place(s), of_context(c)}, fixed, k - 2);
+            places_checked++;
+        end
+        contexts_checked++;
+    endtask
 
     // ---- factor processing ---------------------------------------------------------------------
 
@@ -151,17 +217,22 @@ module tb_stages;
 
     // ---- ranges --------------------------------------------------------------------------------
 
-    int unsigned first = 0, factors = 0, from = 0, words = 0;
+    int unsigned first = 0, factors = 0, stride = 1, from = 0, words = 0;
 
     initial begin
         void'($value$plusargs("first=%d", first));
         void'($value$plusargs("factors=%d", factors));
+        void'($value$plusargs("stride=%d", stride));
         void'($value$plusargs("bits=%h", from));
         void'($value$plusargs("words=%d", words));
-        if (factors != 0 && (first < 32'h1_0000 || first + factors - 1 > 32'h40_0000))
-            $fatal(1, "factors are 0x10000 to 0x400000, not 0x%05x to 0x%05x", first, first + factors - 1);
+        if (factors != 0 && (first < 32'h1_0000 || first + (factors - 1) * stride > 32'h40_0000))
+            $fatal(1, "factors are 0x10000 to 0x400000, not 0x%05x to 0x%05x", first, first + (factors - 1) * stride);
+        // What enters during a reset does not come out.
+        placer_in = 1'b1;
+        repeat (3) tick();
+        rst = 1'b0;
         // Even factors are 1 or 2 to 64, odd ones 1 to 63 (section 3).
-        for (int unsigned f = first; f < first + factors; f++) begin
+        for (int unsigned f = first; f < first + factors * stride; f += stride) begin
             for (int unsigned order = 0; order < 2; order++) begin
                 if (f == 32'h1_0000 || f >= 32'h2_0000) check_context(f, 1'b0, order == 1);
                 if (f <= 32'h3F_0000) check_context(f, 1'b1, order == 1);

@@ -120,7 +120,8 @@ fn clocks(said: &str) -> Result<u64, String> {
     number.ok_or_else(|| format!("no tally:\n{said}"))
 }
 
-/// Single stages equal the model: every context, the places of the factors about 1, 2, 3, 63 and 64, and 4096 patterns about 1.
+/// Single stages equal the model: every context, the places of the factors about 1, 2, 3, 63 and 64, and 4096 patterns about 1;
+/// `tess_placer` at each integer and half, their neighbours, and 2011 more factors.
 pub(crate) fn stages_equal_model() -> Result<(), Failed> {
     let folder = build_folder().join("rtl");
     run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--stages", "--build"]))?;
@@ -136,6 +137,41 @@ pub(crate) fn stages_equal_model() -> Result<(), Failed> {
     let all = ["+first=65536", "+factors=4128769", "+contexts"];
     compare(&all, "16252934 contexts, 0 places, 0 processed factors, 0 mismatches")?;
     compare(&["+bits=3f7ff800", "+words=4096"], ", 0 mismatches")?;
+    for (first, stride, factors, tally) in [
+        (0x1_0000, 0x8000, 127, "502 contexts, 17128 places"),
+        (0x1_0001, 0x8000, 126, "496 contexts, 17112 places"),
+        (0x1_7FFF, 0x8000, 126, "496 contexts, 17112 places"),
+        (0x1_0000, 2053, 2011, "7920 contexts, 273104 places"),
+    ] {
+        let [first, stride, factors] = [("first", first), ("stride", stride), ("factors", factors)]
+            .map(|(n, v)| format!("+{n}={v}"));
+        let tally = format!("{tally}, 0 processed factors, 0 mismatches");
+        compare(&["+placer", &first, &stride, &factors], &tally)?;
+    }
+    Ok(())
+}
+
+/// Faults of `tess_placer`'s three stages are named, and nothing that follows from them.
+pub(crate) fn stages_faults_are_caught() -> Result<(), Failed> {
+    let folder = build_folder().join("rtl");
+    run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--faults", "--stages", "--build"]))?;
+    let list = circuit::faults(&repository())?;
+    for (fault, report) in [
+        ("a half is cut off, not rounded up", "stage=factor_context signal=fraction "),
+        ("mirroring forgets the parity of the edge", "stage=place_position signal=position "),
+        ("the blend is cut off, not rounded", "stage=place_blend signal=half_location "),
+    ] {
+        let (number, _) = list.iter().find(|(_, one)| one.name == fault).ok_or("no such fault")?;
+        let mut bench = Command::new(folder.join("faults/bench/stages/Vtb_stages"));
+        bench.args(["+placer", "+first=65537", "+stride=32768", "+factors=126"]);
+        let output = output(bench.arg(format!("+fault={number}")))?;
+        let said = text(&output.stdout);
+        let mut reports = said.lines().filter_map(|line| line.strip_prefix("MISMATCH ")).peekable();
+        let is_named = reports.peek().is_some() && reports.all(|line| line.starts_with(report));
+        if output.status.success() || !is_named {
+            return Err(format!("fault {fault} was not reported as {report}:\n{said}").into());
+        }
+    }
     Ok(())
 }
 
