@@ -72,7 +72,7 @@ usage: cargo xtask <command>
           write the design to FOLDER with every fault of rtl/dv/circuit.faults behind a simulation's `+fault=NUMBER`, or
           with one; print their numbers
   rtl --names
-          write anew the names of signals, stages and modules that the bench prints, and the lists of sources
+          write anew the lists of sources for Bender and FuseSoC
   rtl --long | --prove | --synth | --place
           compare level 2, 10 million random patches and every input of single stages, which takes hours and goes on
           where it stopped; prove handshakes and placement; print what the circuit costs

@@ -108,8 +108,12 @@ module tb_tess;
         return text;
     endfunction
 
-    // Stages, signals and modules by number.
+    // Numbers of signals, and what they are called: rtl/dv/run makes it from rtl/stages.tsv.
     `include "tess_names.svh"
+    typedef enum { OPTION, STAGE, SIGNAL, MODULE } column_e;
+    function automatic string name_of(input int unsigned signal, input column_e column);
+        return SIGNALS[4 * signal + column];
+    endfunction
 
     // What differs in this clock. Printed at one place, as Verilator copies a function to each of its calls.
     typedef struct packed {
@@ -135,8 +139,8 @@ module tb_tess;
             text = {text, (i == 0) ? " --outer " : (i == outer) ? " --inner " : ",", $sformatf("0x%08x", d.s.x[i])};
         text = {text, " --partitioning ", PARTITIONINGS[d.s.partitioning], " --output ", OUTPUTS[d.s.out],
             " --split ", SPLITS[d.s.split]};
-        if (OPTIONS[d.signal] != "") text = {text, " --", OPTIONS[d.signal], $sformatf(" %0d", d.element)};
-        return {text, " --observed ", SIGNALS[d.signal], $sformatf("=0x%0x", d.observed)};
+        if (name_of(d.signal, OPTION) != "patch") text = {text, " --", name_of(d.signal, OPTION), $sformatf(" %0d", d.element)};
+        return {text, " --observed ", name_of(d.signal, SIGNAL), $sformatf("=0x%0x", d.observed)};
     endfunction
 
     function automatic void show();
@@ -145,9 +149,9 @@ module tb_tess;
             mismatches++;
             if (mismatches <= MAX_SHOWN) begin
                 $display("MISMATCH stage=%s signal=%s element=%0d observed=0x%05x expected=0x%05x",
-                    STAGES[d.signal], SIGNALS[d.signal], d.element, d.observed, d.expected);
+                    name_of(d.signal, STAGE), name_of(d.signal, SIGNAL), d.element, d.observed, d.expected);
                 $display("    case %s", line_of(d.s));
-                $display("    module %s; %s", MODULES[d.signal], explain(d));
+                $display("    module %s; %s", name_of(d.signal, MODULE), explain(d));
             end
         end
     endfunction

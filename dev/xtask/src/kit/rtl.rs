@@ -59,10 +59,10 @@ pub(crate) fn place() -> Result<(), String> {
     place::run()
 }
 
-/// Writes the names that the bench prints anew.
+/// Writes the lists of sources anew.
 ///
 /// # Errors
-/// The file cannot be written.
+/// One cannot be written.
 pub(crate) fn write_names() -> Result<(), String> {
     names::write()
 }

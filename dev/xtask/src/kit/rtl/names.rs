@@ -1,39 +1,8 @@
-//! Files that are written from others: the names that the bench in Verilator prints, from `rtl/stages.tsv`; the lists of
-//! the design's files for Bender and `FuseSoC`, from `rtl/tess.f`.
+//! The lists of the design's files for Bender and `FuseSoC`, from `rtl/tess.f`; tests of the signals in `rtl/stages.tsv`.
 
 use super::sources;
 use crate::command::in_file;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
-
-const HEAD: &str = "\
-// Written by `cargo xtask rtl --names` from rtl/stages.tsv. Do not edit.
-// The bench includes it: the number of each signal, then names by number. OPTIONS chooses in `tess explain` what
-// the signal describes.
-";
-
-/// The signals that benches and `tess explain --observed` compare, in the order in which each feeds the next.
-const STAGES: &str = include_str!("../../../../../rtl/stages.tsv");
-
-/// A signal of the circuit.
-pub(crate) struct Signal {
-    /// The option of `tess explain` that chooses what it describes, `patch` without one.
-    option: &'static str,
-    /// The stage, as benches name it.
-    pub(crate) stage: &'static str,
-    /// Its name.
-    pub(crate) name: &'static str,
-    /// The module that makes it, in a file of that name.
-    module: &'static str,
-}
-
-/// All signals.
-pub(crate) fn signals() -> impl Iterator<Item = Signal> {
-    STAGES.lines().filter(|line| !line.starts_with('#')).filter_map(|row| {
-        let [option, stage, name, module] = row.split('\t').collect::<Vec<_>>().try_into().ok()?;
-        Some(Signal { option, stage, name, module })
-    })
-}
 
 /// Writes the files anew.
 ///
@@ -47,7 +16,7 @@ pub(crate) fn write() -> Result<(), String> {
 }
 
 /// Each file, and its text.
-fn files() -> Result<[(PathBuf, String); 3], String> {
+fn files() -> Result<[(PathBuf, String); 2], String> {
     let read = |name: &str| {
         let file = sources().join(name);
         let text = std::fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
@@ -55,8 +24,7 @@ fn files() -> Result<[(PathBuf, String); 3], String> {
     };
     let (_, list) = read("tess.f")?;
     let listed = |name: &str| read(name).map(|(file, text)| (file, with_list(&text, &list)));
-    let names = (sources().join("dv/tb/tess_names.svh"), text());
-    Ok([names, listed("Bender.yml")?, listed("tess.core")?])
+    Ok([listed("Bender.yml")?, listed("tess.core")?])
 }
 
 /// The text with these sources in place of those that it lists.
@@ -76,33 +44,33 @@ fn with_list(text: &str, list: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The names.
-fn text() -> String {
-    let signals: Vec<Signal> = signals().collect();
-    let mut text = HEAD.to_owned();
-    // Writing to a String does not fail.
-    for (number, Signal { stage, name, .. }) in signals.iter().enumerate() {
-        let constant = format!("{stage}_{name}").to_uppercase();
-        _ = writeln!(text, "localparam int unsigned {constant} = {number};");
-    }
-    let mut array = |title: &str, name: &dyn Fn(&Signal) -> &str| {
-        let names: Vec<String> =
-            signals.iter().map(|one| format!("    \"{}\"", name(one))).collect();
-        _ = writeln!(text, "string {title}[{}] = '{{\n{}\n}};", names.len(), names.join(",\n"));
-    };
-    array("STAGES", &|signal| signal.stage);
-    array("SIGNALS", &|signal| signal.name);
-    array("MODULES", &|signal| signal.module);
-    array("OPTIONS", &|signal| if signal.option == "patch" { "" } else { signal.option });
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::command::workspace;
     use crate::mutants::circuit;
     use crate::mutants::listed::ListedFault;
+
+    /// The signals that benches and `tess explain --observed` compare, in the order in which each feeds the next.
+    const STAGES: &str = include_str!("../../../../../rtl/stages.tsv");
+
+    /// A signal of the circuit.
+    struct Signal {
+        /// The stage, as benches name it.
+        stage: &'static str,
+        /// Its name.
+        name: &'static str,
+        /// The module that makes it, in a file of that name.
+        module: &'static str,
+    }
+
+    /// All signals.
+    fn signals() -> impl Iterator<Item = Signal> {
+        STAGES.lines().filter(|line| !line.starts_with('#')).filter_map(|row| {
+            let [_, stage, name, module] = row.split('\t').collect::<Vec<_>>().try_into().ok()?;
+            Some(Signal { stage, name, module })
+        })
+    }
 
     #[test]
     fn the_files_are_up_to_date() {
