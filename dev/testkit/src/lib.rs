@@ -1,5 +1,6 @@
 //! Tools of the project's own tests beside `tess-verify`: backends with planted faults, which every
-//! comparison must notice, lists of faults in sources, the invariants of spec section 12, and options crossed by pairs.
+//! comparison must notice, lists of faults in sources, the invariants of spec section 12, options
+//! crossed by pairs, and the verdict of the circuit's bench.
 
 pub mod circuit;
 pub mod faults;
@@ -7,3 +8,4 @@ pub mod invariants;
 pub mod listed;
 pub mod pairs;
 pub mod shader_faults;
+pub mod verdict;

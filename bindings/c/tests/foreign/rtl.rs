@@ -9,6 +9,7 @@ use std::sync::OnceLock;
 use std::time::Instant;
 use tess_testkit::circuit;
 use tess_testkit::listed::ListedFault;
+use tess_testkit::verdict::Verdict;
 use tess_verify::generate::{GenLevel, Selection};
 
 /// Random patches that find every fault, and those by whose clocks the slow ones are found.
@@ -32,18 +33,8 @@ fn build() -> Result<PathBuf, String> {
     let folder = build_folder().join("rtl");
     let mut script = script()?;
     let said = run(script.env("TESS_VERILOG_BUILD", &folder).args(["+random=100", "+resets=10"]))?;
-    verdict(&said, 100)?;
+    Verdict::read(&said, 100)?;
     Ok(folder.join("Vtb_tess"))
-}
-
-/// Whether the bench said that it compared at least this many patches, and none differs.
-fn verdict(said: &str, patches: u64) -> Result<(), String> {
-    let tally = said.lines().find(|line| line.ends_with(" clocks, 0 mismatches"));
-    let compared = tally.and_then(|line| line.split(' ').next()?.parse::<u64>().ok());
-    if said.lines().any(|line| line == "PASS") && compared.is_some_and(|count| count >= patches) {
-        return Ok(());
-    }
-    Err(format!("not said that {patches} patches are equal:\n{said}"))
 }
 
 /// Level 1, then random patches, with random gaps and back-pressure.
@@ -60,7 +51,8 @@ pub(crate) fn equals_model() -> Result<(), Failed> {
     let stimuli = format!("+stimuli={}", file.display());
     let mut bench = Command::new(bench()?);
     let said = run(bench.args([&stimuli, "+random=20000", "+gaps", "+resets=800", "+covered"]))?;
-    Ok(verdict(&said, count)?)
+    Verdict::read(&said, count)?;
+    Ok(())
 }
 
 /// Each planted fault makes the bench fail, naming the stage, the signal, both values and the patch; or it costs clocks.
@@ -73,15 +65,14 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
         bench.arg(format!("+fault={fault}")).args(arguments);
         bench
     };
-    verdict(&run(&mut bench(0, &ALL))?, 20_000)?;
-    let clocks = clocks(&run(&mut bench(0, &TIMED))?)?;
+    Verdict::read(&run(&mut bench(0, &ALL))?, 20_000)?;
+    let clocks = Verdict::read(&run(&mut bench(0, &TIMED))?, 500)?.clocks;
     for (number, fault) in circuit::faults(&repository())? {
         let began = Instant::now();
         let ListedFault { name, tests: seen_by, filters: words, .. } = &fault;
         let (is_seen, said) = if seen_by == "clocks" {
             let said = run(&mut bench(number, &TIMED))?;
-            verdict(&said, 500)?;
-            (self::clocks(&said)? > clocks, said)
+            (Verdict::read(&said, 500)?.clocks > clocks, said)
         } else {
             let output = output(&mut bench(number, &ALL))?;
             let said = text(&output.stdout);
@@ -111,13 +102,6 @@ fn names(said: &str, seen_by: &str, words: &[String]) -> Option<bool> {
         || [" observed=0x", " expected=0x"].iter().all(|word| first.contains(word))
             && said.contains("    case ");
     Some(is_whole && first.starts_with(&format!("{kind} stage={stage} signal={signal} ")))
-}
-
-/// The clocks of a tally.
-fn clocks(said: &str) -> Result<u64, String> {
-    let tally = said.lines().find_map(|line| line.strip_suffix(" clocks, 0 mismatches"));
-    let number = tally.and_then(|tally| tally.rsplit(' ').next()?.parse().ok());
-    number.ok_or_else(|| format!("no tally:\n{said}"))
 }
 
 /// Single stages equal the model: every context, the places of the factors about 1, 2, 3, 63 and 64, and 4096 patterns about 1;

@@ -1,8 +1,9 @@
 //! How many clocks the workloads of `tess bench` take, without back-pressure.
 
-use super::bench::{Bench, Verdict};
+use super::bench::Bench;
 use super::sources;
 use crate::command::in_file;
+use tess_testkit::verdict::Verdict;
 use tess_verify::Case;
 use tess_verify::generate::{Calls, Workload};
 
@@ -20,7 +21,7 @@ const LATENCY: u64 = 30;
 pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     let document = sources().with_file_name("docs/rtl.md");
     let document = std::fs::read_to_string(&document).map_err(|e| in_file(&document, &e))?;
-    let (_, said) = bench.compare_aloud(&["+random=1000", "+alone"])?;
+    let (_, said) = bench.compare(&["+random=1000", "+alone"], 1000)?;
     let latency = line(&said, "latency: ")?;
     println!("\nclocks, one patch alone: {latency}");
     let latencies: Vec<u64> = latency.split(' ').filter_map(|word| word.parse().ok()).collect();
@@ -40,8 +41,9 @@ pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     let batches = Workload::all().into_iter().filter(|workload| workload.calls == Calls::Batch);
     for workload in batches {
         let file = workload.name.replace('/', "-");
-        let stimuli = bench.stimuli(&file, &beginning(&workload))?;
-        let (verdict, said) = bench.compare_aloud(&[&stimuli])?;
+        let cases = beginning(&workload);
+        let stimuli = bench.stimuli(&file, &cases)?;
+        let (verdict, said) = bench.compare(&[&stimuli], cases.len())?;
         let between = line(&said, "between patches: at most ")?.replace(" clocks", "");
         let row = row(&workload.name, verdict, &between);
         println!("{row}");

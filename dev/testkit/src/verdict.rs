@@ -1,0 +1,60 @@
+//! The verdict of the circuit's bench, read from what it prints.
+
+use std::fmt;
+
+/// The numbers of what a run compared and found equal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "they are numbers of what their names say")]
+pub struct Verdict {
+    pub patches: u64,
+    pub points: u64,
+    pub primitives: u64,
+    pub clocks: u64,
+}
+
+impl Verdict {
+    /// The tally in what a bench prints, with `PASS` behind it.
+    ///
+    /// # Errors
+    /// Something differs, or fewer than so many `patches` were compared.
+    pub fn read(said: &str, patches: u64) -> Result<Self, String> {
+        let tally = said.lines().find_map(|line| line.strip_suffix(" clocks, 0 mismatches"));
+        let number = |word: &str| word.split(' ').next()?.parse::<u64>().ok();
+        let numbers: Vec<u64> = tally.unwrap_or_default().split(", ").filter_map(number).collect();
+        match numbers[..] {
+            [compared, points, primitives, clocks]
+                if compared >= patches && said.lines().any(|line| line == "PASS") =>
+            {
+                Ok(Self { patches: compared, points, primitives, clocks })
+            }
+            _ => Err(format!("not said that {patches} patches are equal:\n{said}")),
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { patches, points, primitives, clocks } = self;
+        write!(
+            f,
+            "{patches} patches, {points} points, {primitives} primitives equal, in {clocks} clocks"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_verdict_needs_the_tally_and_pass() {
+        let tally = "7 patches, 60 points, 50 primitives, 90 clocks, 0 mismatches";
+        let expected = Verdict { patches: 7, points: 60, primitives: 50, clocks: 90 };
+        let said = format!("{tally}\nPASS\n");
+        assert_eq!(Verdict::read(&said, 7), Ok(expected), "equal");
+        assert!(Verdict::read(&said, 8).is_err(), "fewer patches");
+        assert!(Verdict::read(tally, 7).is_err(), "without PASS");
+        let different = said.replace(", 0 mism", ", 3 mism");
+        assert!(Verdict::read(&different, 7).is_err(), "mismatches");
+    }
+}
