@@ -5,19 +5,26 @@
 // The words of all shapes, one behind another.
 @group(TESS_GROUP) @binding(3) var<storage, read> tess_words: array<u32>;
 
+// The values of all entities, their number in front of each one's.
+@group(TESS_GROUP) @binding(4) var<storage, read> tess_values: array<u32>;
+
 // A patch of an entity.
 struct TessPlace {
     instance: u32,
     // From 0 on in each entity.
     patch_number: u32,
     first_word: u32,
+    first_value: u32,
+    values: u32,
 }
 
 // The patch that the number of a hull or domain function means.
 fn tess_place(number: u32) -> TessPlace {
     let instance = tess_owners[number];
     let first = tess_instances[instance].first_patch;
-    return TessPlace(instance, number - first, tess_instances[instance].first_word);
+    let first_word = tess_instances[instance].first_word;
+    let values = tess_instances[instance].first_value;
+    return TessPlace(instance, number - first, first_word, values + 1u, tess_values[values]);
 }
 
 // A word of the shape.
@@ -31,6 +38,14 @@ fn tess_float(at: TessPlace, word: u32) -> f32 {
 
 fn tess_vec3(at: TessPlace, word: u32) -> vec3<f32> {
     return vec3<f32>(tess_float(at, word), tess_float(at, word + 1u), tess_float(at, word + 2u));
+}
+
+// A value of the entity in this frame; 0 if it has fewer.
+fn tess_value(at: TessPlace, n: u32) -> f32 {
+    if n >= at.values {
+        return 0.0;
+    }
+    return bitcast<f32>(tess_values[at.first_value + n]);
 }
 
 fn tess_to_world(at: TessPlace, local: vec3<f32>) -> vec3<f32> {

@@ -28,9 +28,9 @@ struct TessInstance {
     rule: vec4<f32>,
     first_patch: u32,
     first_word: u32,
+    first_value: u32,
     // 1 if shadows fall on it.
     receives_shadows: u32,
-    reserved: u32,
 }
 
 // In world space.

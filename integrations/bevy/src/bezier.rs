@@ -103,7 +103,7 @@ impl CpuShape for BezierPatches {
         PatchFactors::Quad(quad_factors(edges))
     }
 
-    fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {
+    fn vertices(&self, patch: u32, _: &Eye, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {
         let net = self.0[patch as usize].map(|row| row.map(glam::Vec3::from));
         let patch = SurfacePatch::new(Surface::Bezier(BezierPatch::polynomial(net)));
         vertices.extend(points.iter().map(|&uv| {
@@ -127,6 +127,8 @@ pub(crate) fn quad_factors(edges: [f32; 4]) -> QuadFactors {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::LevelOfDetail;
+    use crate::eye::{Casting, tests::eye};
 
     fn net() -> Net {
         let mut net = Net::default();
@@ -148,11 +150,12 @@ mod tests {
             (0..=64_u8).map(|i| of(f32::from(i) / 64.0)).collect()
         };
         let (mut one, mut other) = (Vec::new(), Vec::new());
-        patches.vertices(0, &along(|t| [1.0, t]), &mut one);
-        patches.vertices(1, &along(|t| [t, 0.0]), &mut other);
+        let eye = eye(LevelOfDetail::default(), &Casting::default());
+        patches.vertices(0, &eye, &along(|t| [1.0, t]), &mut one);
+        patches.vertices(1, &eye, &along(|t| [t, 0.0]), &mut other);
         let positions = |all: &[ShapeVertex]| all.iter().map(|v| v.position).collect::<Vec<_>>();
         assert_eq!(positions(&one), positions(&other), "the shared edge");
-        patches.vertices(1, &along(|t| [t, 1.0 / 65536.0]), &mut one);
+        patches.vertices(1, &eye, &along(|t| [t, 1.0 / 65536.0]), &mut one);
         assert_ne!(positions(&one[65..]), positions(&other), "the next points would be seen");
     }
 

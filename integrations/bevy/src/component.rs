@@ -62,6 +62,11 @@ impl Tessellated {
     }
 }
 
+/// Numbers of an entity that change from frame to frame: the time, joint matrices. The surface reads them with `tess_value`,
+/// its Rust form with [`Eye::value`](crate::Eye::value). Only those that change are uploaded; keep their number.
+#[derive(Clone, Component, Debug, Default, PartialEq)]
+pub struct TessValues(pub Vec<f32>);
+
 /// How surfaces are tessellated and drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Resource)]
 pub struct TessSettings {

@@ -1,10 +1,10 @@
 //! The CPU in place of the GPU: surfaces become ordinary meshes, by the same domain points.
 
-use crate::component::{TessSettings, TessStats, Tessellated};
+use crate::component::{TessSettings, TessStats, TessValues, Tessellated};
 use crate::eye::{Casting, Eye, View};
 use crate::is_on_cpu;
 use crate::look::Look;
-use crate::shape::{CpuShape, ShapeVertex};
+use crate::shape::ShapeVertex;
 use bevy::asset::{Assets, Handle, RenderAssetUsages};
 use bevy::camera::primitives::Aabb;
 use bevy::camera::{Camera, Camera3d};
@@ -34,12 +34,12 @@ pub(crate) struct Tessellation {
 }
 
 impl Tessellators {
-    /// Tessellates the patches with these factors.
+    /// Tessellates the patches with these factors; `vertices_of` appends a patch's vertices at domain points.
     pub(crate) fn run(
         &mut self,
         config: Config,
         factors: &[PatchFactors],
-        shape: &dyn CpuShape,
+        mut vertices_of: impl FnMut(u32, &[[f32; 2]], &mut Vec<ShapeVertex>),
     ) -> Result<Tessellation, tess_simd::Error> {
         let tessellator = self.all.entry(config).or_insert_with(|| Tessellator::new(config));
         let numbering = Numbering::PerBatch { base_vertex: 0 };
@@ -49,7 +49,7 @@ impl Tessellators {
             if let (Some((points, _)), Ok(number)) =
                 (self.output.patch(patch), u32::try_from(patch))
             {
-                shape.vertices(number, points, &mut vertices);
+                vertices_of(number, points, &mut vertices);
             }
         }
         Ok(Tessellation { vertices, indices: self.output.indices().to_vec() })
@@ -80,14 +80,20 @@ pub(crate) fn mesh(of: Tessellation, topology: PrimitiveTopology) -> Mesh {
 /// Source of an entity's mesh. When it changes, the mesh is replaced.
 #[derive(Clone, Component, Debug)]
 pub(crate) struct Fallback {
-    eye: Eye,
+    eye: Eye<'static>,
     look: Look,
     wireframe: bool,
     triangles: u64,
     mesh: Handle<Mesh>,
 }
 
-type Surface<'a> = (Entity, Ref<'a, Tessellated>, &'a GlobalTransform, Option<&'a mut Fallback>);
+type Surface<'a> = (
+    Entity,
+    Ref<'a, Tessellated>,
+    Option<Ref<'a, TessValues>>,
+    &'a GlobalTransform,
+    Option<&'a mut Fallback>,
+);
 
 /// Makes the meshes if the CPU is to tessellate, and removes them if not.
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are what it uses")]
@@ -114,18 +120,22 @@ pub(crate) fn tessellate(
     }
     let Some(view) = view_of(&cameras, &casting) else { return };
     let mut triangles = 0;
-    for (entity, surface, transform, mut fallback) in &mut surfaces {
+    for (entity, surface, values, transform, mut fallback) in &mut surfaces {
         let rule = surface.detail;
-        let eye = Eye { view, world_from_local: transform.affine(), rule };
+        let eye = Eye { view, world_from_local: transform.affine(), rule, values: &[] };
         if is_unseen(&surface, &eye) {
             continue;
         }
         let is_same = |old: &Fallback| old.eye == eye && old.wireframe == settings.wireframe;
-        if let Some(old) = fallback.as_deref().filter(|old| is_same(old) && !surface.is_changed()) {
+        let is_changed =
+            surface.is_changed() || values.as_ref().is_some_and(|values| values.is_changed());
+        if let Some(old) = fallback.as_deref().filter(|old| is_same(old) && !is_changed) {
             triangles += old.triangles;
             continue;
         }
-        let Some(tessellation) = tessellate_one(&surface, &eye, &mut tessellators) else {
+        let values = values.as_ref().map_or(&[][..], |values| &values.0);
+        let seen = Eye { values, ..eye };
+        let Some(tessellation) = tessellate_one(&surface, &seen, &mut tessellators) else {
             continue;
         };
         let count = tessellation.indices.len() as u64 / 3;
@@ -189,7 +199,9 @@ fn tessellate_one(
     let factors: Vec<_> =
         (0..surface.shape.patches()).map(|patch| shape.factors(patch, eye)).collect();
     tessellators
-        .run(surface.config(), &factors, shape)
+        .run(surface.config(), &factors, |patch, points, vertices| {
+            shape.vertices(patch, eye, points, vertices);
+        })
         .inspect_err(|problem| warn_once!("a surface cannot be tessellated: {problem}"))
         .ok()
 }

@@ -72,13 +72,20 @@ impl View {
 
 /// A camera, and the entity that it looks at.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eye {
+pub struct Eye<'a> {
     pub(crate) view: View,
     pub(crate) world_from_local: Affine3A,
     pub(crate) rule: LevelOfDetail,
+    pub(crate) values: &'a [f32],
 }
 
-impl Eye {
+impl Eye<'_> {
+    /// A value of the entity in this frame; 0 if it has fewer.
+    #[must_use]
+    pub fn value(&self, n: usize) -> f32 {
+        self.values.get(n).copied().unwrap_or(0.0)
+    }
+
     /// A place of the entity in world space.
     #[must_use]
     pub fn to_world(&self, local: Vec3) -> Vec3 {
@@ -118,13 +125,13 @@ fn of_surface(v: Vec3) -> glam::Vec3 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use bevy::camera::{CameraProjection, PerspectiveProjection};
     use bevy::math::Quat;
 
     /// Looks along -z from (0, 0, 10), 90 degrees high, 400 pixels.
-    fn eye(rule: LevelOfDetail, casting: &Casting) -> Eye {
+    pub(crate) fn eye(rule: LevelOfDetail, casting: &Casting) -> Eye<'static> {
         let camera = GlobalTransform::from(Affine3A::from_rotation_translation(
             Quat::IDENTITY,
             Vec3::new(0.0, 0.0, 10.0),
@@ -133,7 +140,7 @@ mod tests {
         let projection = PerspectiveProjection { fov, aspect_ratio: 1.0, ..Default::default() };
         let clip_from_view = projection.get_clip_from_view();
         let view = View::new(&camera, clip_from_view, 400, casting);
-        Eye { view, world_from_local: Affine3A::IDENTITY, rule }
+        Eye { view, world_from_local: Affine3A::IDENTITY, rule, values: &[] }
     }
 
     #[test]

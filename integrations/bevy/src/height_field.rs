@@ -238,7 +238,7 @@ impl CpuShape for HeightField {
         PatchFactors::Quad(quad_factors(edges))
     }
 
-    fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {
+    fn vertices(&self, patch: u32, _: &Eye, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {
         vertices.extend(points.iter().map(|&uv| {
             let place = self.place_of(patch, uv.into());
             let high = self.height(place);
@@ -256,6 +256,8 @@ impl CpuShape for HeightField {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::LevelOfDetail;
+    use crate::eye::{Casting, tests::eye};
 
     fn map() -> HeightField {
         let heights = (0..35_u16).map(|i| f32::from(i * 37 % 35) / 35.0).collect();
@@ -268,7 +270,8 @@ mod tests {
     fn edge(map: &HeightField, patch: u32, of: impl Fn(f32) -> [f32; 2]) -> Vec<ShapeVertex> {
         let points: Vec<_> = (0..=64_u8).map(|i| of(f32::from(i) / 64.0)).collect();
         let mut vertices = Vec::new();
-        map.vertices(patch, &points, &mut vertices);
+        let eye = eye(LevelOfDetail::default(), &Casting::default());
+        map.vertices(patch, &eye, &points, &mut vertices);
         vertices
     }
 

@@ -13,7 +13,7 @@ mod render;
 mod shape;
 
 pub use bezier::{BezierError, BezierPatches, Net};
-pub use component::{Backend, TessSettings, TessStats, Tessellated};
+pub use component::{Backend, TessSettings, TessStats, TessValues, Tessellated};
 pub use detail::LevelOfDetail;
 pub use eye::Eye;
 pub use height_field::{GroundColors, HeightField, HeightFieldError};

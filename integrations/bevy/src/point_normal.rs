@@ -184,7 +184,7 @@ impl CpuShape for PointNormalMesh {
         PatchFactors::Triangle(self.factors_of(patch, eye))
     }
 
-    fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {
+    fn vertices(&self, patch: u32, _: &Eye, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {
         let samples = self.points_of(patch, points);
         vertices.extend(points.iter().zip(samples).map(|(&uv, [position, normal])| ShapeVertex {
             position: position.to_array(),

@@ -4,6 +4,7 @@ mod content;
 mod draw;
 mod extract;
 mod layout;
+mod mirror;
 mod pipelines;
 mod queue;
 mod stages;

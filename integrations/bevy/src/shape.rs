@@ -25,7 +25,7 @@ pub trait Shape: Debug + Send + Sync + 'static {
     /// The number of patches.
     fn patches(&self) -> u32;
 
-    /// A box in local space that holds the whole surface.
+    /// A box in local space that holds the whole surface, whatever its values.
     fn bounds(&self) -> Aabb;
 
     /// WGSL with `fn hull(number: u32) -> QuadFactors` (or `TriFactors`) and
@@ -39,7 +39,7 @@ pub trait Shape: Debug + Send + Sync + 'static {
     }
 
     /// The words that `surface` reads with `tess_uint` and `tess_float`. They are uploaded once; a shape
-    /// that changes is another shape.
+    /// that changes is another shape, or has [`TessValues`](crate::TessValues).
     fn words(&self) -> Vec<u32>;
 
     /// The Rust form of `hull` and `domain`, for devices without compute. Without it the shape is not
@@ -55,7 +55,7 @@ pub trait CpuShape {
     fn factors(&self, patch: u32, eye: &Eye) -> PatchFactors;
 
     /// `domain` in Rust, in local space: appends a vertex for each of these domain points of a patch.
-    fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>);
+    fn vertices(&self, patch: u32, eye: &Eye, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>);
 }
 
 /// A vertex in local space.

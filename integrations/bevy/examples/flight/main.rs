@@ -4,6 +4,7 @@ mod args;
 mod hud;
 mod scene;
 mod screenshot;
+mod water;
 mod wool;
 
 #[allow(dead_code, reason = "the model is not written to a file here")]
@@ -48,7 +49,7 @@ fn main() -> ExitCode {
     }
     app.insert_resource(args);
     app.add_plugins(TessPlugin);
-    app.add_systems(Startup, scene::set_up).add_systems(Update, scene::fly);
+    app.add_systems(Startup, scene::set_up).add_systems(Update, (scene::fly, scene::animate));
     match app.run() {
         AppExit::Success => ExitCode::SUCCESS,
         AppExit::Error(_) => ExitCode::FAILURE,

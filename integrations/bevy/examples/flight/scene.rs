@@ -1,15 +1,17 @@
 //! Terrain, characters, a teapot, stones, light and the camera's flight.
 
 use crate::args::Args;
-use crate::wool::Wool;
+use crate::water::Water;
+use crate::wool::{self, Wool};
 use crate::{gltf, hills};
 use bevy::core_pipeline::tonemapping::Tonemapping;
+use bevy::light::NotShadowCaster;
 use bevy::math::ops;
 use bevy::pbr::{DistanceFog, FogFalloff};
 use bevy::prelude::*;
 use bevy_tess::{
     BezierPatches, GroundColors, HeightField, LevelOfDetail, Look, PointNormalMesh, Shape,
-    Tessellated,
+    TessValues, Tessellated,
 };
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -19,6 +21,8 @@ use tess_surface::{BezierPatch, teapot};
 const TEXELS: u32 = 512;
 /// The terrain's extent.
 const SIZE: Vec3 = Vec3::new(64.0, 9.0, 64.0);
+/// The height of the water.
+const WATER: f32 = 2.6;
 const CHARACTERS: u16 = 50;
 const STONES: u16 = 12;
 
@@ -32,7 +36,8 @@ pub(crate) fn set_up(
     let ground = ground()?;
     for number in 0..CHARACTERS {
         let at = ground.surface_at(place(number));
-        commands.spawn((character(number)?.with_detail(factors), standing(number, at)));
+        let nods = (Moving::Head(f32::from(number)), TessValues::default());
+        commands.spawn((character(number)?.with_detail(factors), standing(number, at), nods));
     }
     commands.spawn((teapot()?.with_detail(factors), at_the_flight(&ground)));
     let stone = meshes.add(Cuboid::new(0.8, 5.0, 0.8));
@@ -44,6 +49,11 @@ pub(crate) fn set_up(
     }
     let look = Look { perceptual_roughness: 0.9, reflectance: 0.2, ..default() };
     commands.spawn(Tessellated::new(ground).with_look(look).with_detail(factors));
+    let look =
+        Look { base_color: Color::srgb(0.1, 0.3, 0.4), perceptual_roughness: 0.3, ..default() };
+    let water = Tessellated::new(Water(SIZE.x)).with_look(look).with_detail(factors);
+    let waves = (Moving::Water, TessValues::default(), NotShadowCaster);
+    commands.spawn((water, waves, Transform::from_xyz(0.0, WATER, 0.0)));
     let sun = DirectionalLight { illuminance: 9000.0, shadow_maps_enabled: true, ..default() };
     commands.spawn((sun, Transform::from_xyz(0.6, 0.6, 0.5).looking_at(Vec3::ZERO, Vec3::Y)));
     let sky = Color::srgb(0.66, 0.76, 0.88);
@@ -139,11 +149,38 @@ pub(crate) fn fly(
     args: Res<Args>,
     mut cameras: Query<&mut Transform, With<Camera3d>>,
 ) {
-    let seconds = match args.screenshot {
+    for mut camera in &mut cameras {
+        camera.set_if_neq(flight(&args, seconds(&args, &time)));
+    }
+}
+
+/// The moment; a screenshot's stands still.
+fn seconds(args: &Args, time: &Time) -> f32 {
+    match args.screenshot {
         Some(_) => args.seconds,
         None => args.seconds + time.elapsed_secs(),
-    };
-    for mut camera in &mut cameras {
-        camera.set_if_neq(flight(&args, seconds));
+    }
+}
+
+/// What moves by values of each frame.
+#[derive(Clone, Copy, Component, Debug)]
+pub(crate) enum Moving {
+    Water,
+    /// So many seconds ahead of the others.
+    Head(f32),
+}
+
+/// Moves the water and the heads.
+pub(crate) fn animate(
+    time: Res<Time>,
+    args: Res<Args>,
+    mut surfaces: Query<(&Moving, &mut TessValues)>,
+) {
+    let seconds = seconds(&args, &time);
+    for (moving, mut values) in &mut surfaces {
+        values.set_if_neq(TessValues(match moving {
+            Moving::Water => vec![seconds],
+            Moving::Head(ahead) => wool::nod(seconds + ahead),
+        }));
     }
 }

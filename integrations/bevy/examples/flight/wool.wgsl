@@ -1,4 +1,4 @@
-// A rounded mesh, displaced along its normals: wool.
+// A rounded mesh, displaced along its normals and moved by a joint: wool. The values are the joint's matrix, three rows.
 
 const STEP = 0.001;
 
@@ -6,6 +6,17 @@ const STEP = 0.001;
 fn wool(at: vec3<f32>) -> f32 {
     let p = 27.0 * at;
     return 0.014 * (sin(p.x) * sin(p.y + 0.7 * sin(p.z)) + 0.6 * sin(1.7 * p.z + p.x) * cos(1.9 * p.y));
+}
+
+// The head moves with the joint, the body stays; w is 0 for directions. The weight depends on the place at rest alone, too.
+fn skinned(at: TessPlace, rest: vec3<f32>, v: vec4<f32>) -> vec3<f32> {
+    var moved: vec3<f32>;
+    for (var row = 0u; row < 3u; row++) {
+        moved[row] = dot(v, vec4<f32>(
+            tess_value(at, 4u * row), tess_value(at, 4u * row + 1u),
+            tess_value(at, 4u * row + 2u), tess_value(at, 4u * row + 3u)));
+    }
+    return mix(v.xyz, moved, smoothstep(1.5, 2.1, rest.z));
 }
 
 fn hull(number: u32) -> TriFactors {
@@ -24,6 +35,7 @@ fn domain(number: u32, uv: vec2<f32>) -> Vertex {
     let brown = vec3<f32>(0.55, 0.24, 0.09);
     let cream = vec3<f32>(0.89, 0.69, 0.45);
     let color = mix(brown, cream, smoothstep(1.9, 2.3, point.position.z));
-    return tess_vertex_of(
-        at, point.position + high * point.normal, normalize(bent), uv, vec4<f32>(color, 1.0));
+    let position = skinned(at, point.position, vec4<f32>(point.position + high * point.normal, 1.0));
+    let normal = normalize(skinned(at, point.position, vec4<f32>(bent, 0.0)));
+    return tess_vertex_of(at, position, normal, uv, vec4<f32>(color, 1.0));
 }

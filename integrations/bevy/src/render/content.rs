@@ -2,6 +2,7 @@
 
 use super::extract::Item;
 use super::layout::{self, GpuInstance, GpuView};
+use super::mirror::Mirror;
 use crate::eye::View;
 use crate::shape::Shape;
 use bevy::platform::collections::{HashMap, HashSet};
@@ -10,6 +11,7 @@ use bevy::render::render_resource::{
 };
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy::render::sync_world::MainEntity;
+use std::iter;
 use std::sync::Arc;
 
 /// The entities of a program, in the order of their groups, and what their shaders read.
@@ -20,7 +22,8 @@ pub(crate) struct Content {
     firsts: Vec<[u32; 2]>,
     pub(crate) patches: u32,
     view: Buffer,
-    instances: Buffer,
+    instances: Mirror,
+    values: Mirror,
     pub(crate) bind_group: BindGroup,
 }
 
@@ -59,6 +62,15 @@ impl Packed {
     }
 }
 
+/// The values of each frame: their number, then themselves, of each entity.
+fn packed_values(items: &[&Item]) -> Vec<u32> {
+    let of = |item: &&Item| {
+        let count = u32::try_from(item.values.len()).unwrap_or(u32::MAX);
+        iter::once(count).chain(item.values.iter().map(|value| value.to_bits())).collect::<Vec<_>>()
+    };
+    items.iter().flat_map(of).collect()
+}
+
 /// A buffer with these bytes; an error if it exceeds one binding. A binding is never empty.
 fn upload(
     device: &RenderDevice,
@@ -89,35 +101,44 @@ impl Content {
         let usage = BufferUsages::STORAGE;
         let owners = upload(device, "owners of patches", bytemuck::cast_slice(&owners), usage)?;
         let words = upload(device, "words of shapes", bytemuck::cast_slice(&words), usage)?;
-        let empty = vec![0; size_of::<GpuInstance>() * items.len()];
-        let instances = upload(device, "instances", &empty, usage | BufferUsages::COPY_DST)?;
+        let mirror = |label, words: Vec<u32>| {
+            let usage = usage | BufferUsages::COPY_DST;
+            let buffer = upload(device, label, bytemuck::cast_slice(&words), usage)?;
+            Ok::<_, String>(Mirror::new(buffer, words))
+        };
+        let instances = mirror("instances", vec![0; size_of::<GpuInstance>() / 4 * items.len()])?;
+        let values = mirror("values", packed_values(items))?;
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let view = upload(device, "view", &[0; size_of::<GpuView>()], usage)?;
-        let buffers = [(0, &view), (1, &instances), (2, &owners), (3, &words)];
-        let entries = buffers.map(|(binding, buffer)| BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
+        let mut binding = 0..;
+        let entries = [&view, &instances.buffer, &owners, &words, &values.buffer].map(|buffer| {
+            let binding = binding.next().unwrap_or(0);
+            BindGroupEntry { binding, resource: buffer.as_entire_binding() }
         });
         let layout = cache.get_bind_group_layout(&layout::bind_group_layout());
         let bind_group = device.create_bind_group("bevy_tess", &layout, &entries);
         let groups = items.iter().map(|item| item.entity).zip(0..).collect();
-        Ok(Self { groups, firsts, patches, view, instances, bind_group })
+        Ok(Self { groups, firsts, patches, view, instances, values, bind_group })
     }
 
     /// Writes what changes from frame to frame.
     pub(crate) fn update(
-        &self,
+        &mut self,
         items: &[&Item],
         view: View,
         visible: &HashSet<MainEntity>,
         queue: &RenderQueue,
     ) {
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&GpuView::from(view)));
-        let instance = |(item, &firsts): (&&Item, &[u32; 2])| {
+        let mut first_value = 0;
+        let instance = |(item, &[patch, word]): (&&Item, &[u32; 2])| {
+            let firsts = [patch, word, first_value];
+            first_value += 1 + item.values.len() as u32;
             GpuInstance::new(item, firsts, visible.contains(&item.entity))
         };
         let instances: Vec<_> = items.iter().zip(&self.firsts).map(instance).collect();
-        queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&instances));
+        self.instances.update(bytemuck::cast_slice(&instances).to_vec(), queue);
+        self.values.update(packed_values(items), queue);
     }
 
     pub(crate) fn first_patches(&self) -> Vec<u32> {

@@ -1,6 +1,6 @@
 //! The render world's copy of a frame's surfaces.
 
-use crate::component::{TessSettings, Tessellated};
+use crate::component::{TessSettings, TessValues, Tessellated};
 use crate::detail::LevelOfDetail;
 use crate::eye::Casting;
 use crate::is_on_cpu;
@@ -26,6 +26,7 @@ pub(crate) struct Item {
     pub(crate) shape: Arc<dyn Shape>,
     pub(crate) rule: LevelOfDetail,
     pub(crate) look: Look,
+    pub(crate) values: Vec<f32>,
     pub(crate) world_from_local: Affine3A,
     pub(crate) previous_from_world: Affine3A,
     pub(crate) receives_shadows: bool,
@@ -45,6 +46,7 @@ type Surface<'a> = (
     &'a Tessellated,
     &'a GlobalTransform,
     Option<&'a PreviousGlobalTransform>,
+    Option<&'a TessValues>,
     Has<NotShadowReceiver>,
 );
 
@@ -65,7 +67,7 @@ pub(crate) fn extract(
         return;
     }
     extracted.items.extend(surfaces.iter().filter_map(|surface| {
-        let (entity, tessellated, transform, previous, not_receiver) = surface;
+        let (entity, tessellated, transform, previous, values, not_receiver) = surface;
         let world_from_local = transform.affine();
         let previous = previous.map_or(world_from_local, |previous| previous.0);
         Some(Item {
@@ -74,6 +76,7 @@ pub(crate) fn extract(
             shape: Arc::clone(&tessellated.shape),
             rule: tessellated.detail,
             look: tessellated.look,
+            values: values.map_or_else(Vec::new, |values| values.0.clone()),
             world_from_local,
             previous_from_world: previous * world_from_local.inverse(),
             receives_shadows: !not_receiver,

@@ -48,13 +48,14 @@ pub(crate) struct GpuInstance {
     rule: [f32; 4],
     first_patch: u32,
     first_word: u32,
+    first_value: u32,
     receives_shadows: u32,
-    reserved: u32,
 }
 
 impl GpuInstance {
-    /// An entity whose patches and words begin there.
-    pub(crate) fn new(item: &Item, [first_patch, first_word]: [u32; 2], is_visible: bool) -> Self {
+    /// An entity whose patches, words and values begin there.
+    pub(crate) fn new(item: &Item, firsts: [u32; 3], is_visible: bool) -> Self {
+        let [first_patch, first_word, first_value] = firsts;
         let linear = Mat3::from(item.world_from_local.matrix3);
         let look = &item.look;
         let unlit = if look.unlit { 1.0 } else { 0.0 };
@@ -69,8 +70,8 @@ impl GpuInstance {
             rule: if is_visible { item.rule.words() } else { LevelOfDetail::HIDDEN },
             first_patch,
             first_word,
+            first_value,
             receives_shadows: item.receives_shadows.into(),
-            reserved: 0,
         }
     }
 }
@@ -92,7 +93,8 @@ pub(crate) fn bind_group_layout() -> BindGroupLayoutDescriptor {
     };
     let surface = ShaderStages::COMPUTE | ShaderStages::VERTEX;
     let everywhere = surface | ShaderStages::FRAGMENT;
-    let entries =
-        [entry(0, everywhere), entry(1, everywhere), entry(2, surface), entry(3, surface)];
+    let entries = [everywhere, everywhere, surface, surface, surface];
+    let mut binding = 0..;
+    let entries = entries.map(|visibility| entry(binding.next().unwrap_or(0), visibility));
     BindGroupLayoutDescriptor::new("bevy_tess", &entries)
 }

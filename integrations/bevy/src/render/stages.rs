@@ -56,8 +56,8 @@ impl Stages {
 /// A stage, and what its shaders read.
 #[derive(Debug, Default)]
 pub(crate) struct Prepared {
-    /// The entities, in the order of their groups.
-    entities: Vec<(MainEntity, Arc<dyn Shape>)>,
+    /// The entities, in the order of their groups, with their shapes and numbers of values.
+    entities: Vec<(MainEntity, Arc<dyn Shape>, usize)>,
     content: Option<Content>,
     stage: Option<(TessellationStage, u32)>,
     drawn: Option<Drawn>,
@@ -105,7 +105,7 @@ pub(crate) fn prepare(
             let prepared = of_view.entry(*number).or_default();
             prepared.is_used = true;
             prepared.refresh(items, &device, &cache);
-            let Some(content) = &prepared.content else { continue };
+            let Some(content) = &mut prepared.content else { continue };
             content.update(items, view, &visible, &queue);
             let key = &items[0].program.key;
             if let Err(problem) = prepared.tessellate(key, &device, &cache, &mut encoder) {
@@ -121,13 +121,16 @@ pub(crate) fn prepare(
 impl Prepared {
     /// Takes other entities than the frame before.
     fn refresh(&mut self, items: &[&Item], device: &RenderDevice, cache: &PipelineCache) {
-        let is_same = |(own, item): (&(MainEntity, Arc<dyn Shape>), &&Item)| {
-            own.0 == item.entity && Arc::ptr_eq(&own.1, &item.shape)
+        let is_same = |((entity, shape, values), item): (&(_, _, _), &&Item)| {
+            *entity == item.entity
+                && Arc::ptr_eq(shape, &item.shape)
+                && *values == item.values.len()
         };
         if self.entities.len() == items.len() && self.entities.iter().zip(items).all(is_same) {
             return;
         }
-        self.entities = items.iter().map(|item| (item.entity, Arc::clone(&item.shape))).collect();
+        let own = |item: &&Item| (item.entity, Arc::clone(&item.shape), item.values.len());
+        self.entities = items.iter().map(own).collect();
         let content = Content::new(items, device, cache);
         self.has_failed = content.is_err();
         self.content =

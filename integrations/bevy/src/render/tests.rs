@@ -2,11 +2,12 @@
 //! wrong with them does not end the program.
 
 mod passes;
+mod values;
 
 use super::stages::Stages;
 use crate::cpu::Tessellators;
-use crate::shape::{CpuShape, Shape, ShapeVertex};
-use crate::{Eye, HeightField, LevelOfDetail, TessPlugin, Tessellated};
+use crate::shape::Shape;
+use crate::{HeightField, LevelOfDetail, TessPlugin, Tessellated};
 use bevy::app::PluginsState;
 use bevy::asset::RenderAssetUsages;
 use bevy::camera::RenderTarget;
@@ -211,26 +212,15 @@ fn points_of(app: &App, stage: &TessellationStage, count: usize) -> Vec<(u32, [f
     words.into_iter().map(unpack).collect()
 }
 
-/// A shape whose Rust form keeps the domain points.
-#[derive(Debug)]
-struct Seen(HeightField);
-
-impl CpuShape for Seen {
-    fn factors(&self, patch: u32, eye: &Eye) -> PatchFactors {
-        self.0.factors(patch, eye)
-    }
-
-    fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {
-        let vertex = |&uv: &[f32; 2]| ShapeVertex { uv, position: [patch as f32; 3], ..default() };
-        vertices.extend(points.iter().map(vertex));
-    }
-}
-
 /// Patch, u and v of the points that the CPU makes of a uniform factor.
 fn expected(map: &HeightField, config: Config, factor: f32) -> Vec<(u32, [f32; 2])> {
     let factors = vec![PatchFactors::uniform(Domain::Quad, factor); map.patches() as usize];
-    let made = Tessellators::default().run(config, &factors, &Seen(map.clone())).expect("it fits");
-    made.vertices.iter().map(|vertex| (vertex.position[0] as u32, vertex.uv)).collect()
+    let mut made = Vec::new();
+    let keep = |patch, points: &[[f32; 2]], _: &mut _| {
+        made.extend(points.iter().map(|&uv| (patch, uv)));
+    };
+    Tessellators::default().run(config, &factors, keep).expect("it fits");
+    made
 }
 
 #[test]
