@@ -11,7 +11,7 @@ mod kernels;
 mod levels;
 mod stages;
 mod threads;
-#[cfg(all(test, feature = "std"))]
+#[cfg(test)]
 mod tour;
 
 pub use cpu::level::{Level, LevelUnavailable};

@@ -7,6 +7,7 @@ mod one;
 pub(crate) mod part;
 #[cfg(feature = "rayon")]
 mod pool;
+pub(crate) mod sizes;
 pub(crate) mod slices;
 
 #[cfg(not(feature = "rayon"))]

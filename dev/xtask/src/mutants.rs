@@ -48,12 +48,13 @@ const SUBJECTS: &[Subject] = &[
                 files: &[],
             },
             Pass {
-                tests: "-C=--features=rayon -C=--lib -C=--test=buffers -C=--test=threads",
+                tests: "-C=--features=rayon -C=--test=inside -C=--test=batches",
                 files: &[
                     "cpu/level",
                     "interface/tessellator",
                     "threads/part",
                     "threads/pool",
+                    "threads/sizes",
                     "threads/slices",
                 ],
             },

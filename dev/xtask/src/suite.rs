@@ -6,7 +6,7 @@
 
 use crate::command::{self, cargo, workspace};
 use crate::levels;
-use crate::packages::{self, Package, Target};
+use crate::packages::{self, Target};
 use crate::python;
 use crate::tally::Job;
 use serde::Deserialize;
@@ -107,7 +107,7 @@ pub(crate) fn jobs(extent: Extent, part: &Part<'_>) -> Result<Vec<Job>, String> 
     let root = workspace();
     let selected = match (extent, &part.paths[..]) {
         // Not the examples either, of which each links a window system.
-        (Extent::Comparisons, []) => arguments(packages::all()?.iter().flat_map(comparisons)),
+        (Extent::Comparisons, []) => vec!["--tests".to_owned()],
         (_, paths) => selection(paths)?,
     };
     let messages = command::output(build.arg(MESSAGES).args(selected))?;
@@ -191,22 +191,9 @@ fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
             ));
         }
     }
-    Ok(arguments(chosen))
-}
-
-/// Arguments of cargo that select these targets.
-fn arguments<'a>(targets: impl IntoIterator<Item = &'a Target>) -> Vec<String> {
     // Cargo takes `--lib` once.
-    let selections: BTreeSet<_> = targets.into_iter().map(Target::selection).collect();
-    selections.into_iter().flatten().collect()
-}
-
-/// The targets of a package that have tests of [`Extent::Comparisons`].
-fn comparisons(package: &Package) -> impl Iterator<Item = &Target> {
-    let is_apart = APART.contains(&package.name.as_str());
-    package.targets.iter().filter(move |target| {
-        target.test && !is_apart && tests_beyond(&target.src_path) != Some(&[])
-    })
+    let selections: BTreeSet<_> = chosen.into_iter().map(Target::selection).collect();
+    Ok(selections.into_iter().flatten().collect())
 }
 
 /// The tests of a program that need more than [`Extent::Comparisons`] has, from [`BEYOND`].

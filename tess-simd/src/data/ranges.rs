@@ -46,10 +46,4 @@ impl<'a> Ranges<'a> {
     pub(crate) fn split_at(mut self, patches: usize) -> (Self, Self) {
         (Self(self.next(patches)), self)
     }
-
-    /// How many there are.
-    #[cfg(all(test, feature = "rayon"))]
-    pub(crate) fn len(&self) -> usize {
-        self.0.as_ref().map_or(0, |all| all.len())
-    }
 }

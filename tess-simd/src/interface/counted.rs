@@ -17,7 +17,8 @@ use crate::stages::packet::Packet;
 use crate::stages::settings::Settings;
 use crate::threads::Workspaces;
 use crate::threads::part::{Job, Part};
-use crate::threads::slices::{Share, Slicing};
+use crate::threads::sizes::Slicing;
+use crate::threads::slices::Share;
 
 /// A counted batch. It can be written any number of times.
 ///

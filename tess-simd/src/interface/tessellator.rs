@@ -16,7 +16,8 @@ use crate::stages::settings::Settings;
 #[cfg(feature = "rayon")]
 use crate::threads::MAX_THREADS;
 use crate::threads::Workspaces;
-use crate::threads::slices::{CountShare, Slicing};
+use crate::threads::sizes::Slicing;
+use crate::threads::slices::CountShare;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use tess_core::{Config, Order};

@@ -293,30 +293,3 @@ fn emit_patch<W: PointWriter, I: IndexFormat>(
     }
     out.indices.map::<_, 64>(patch.indices() as usize, template.indices, add);
 }
-
-#[cfg(all(test, feature = "std"))]
-mod tests {
-    use crate::tour::{CONFIG, QUAD};
-    use crate::{Numbering, Output, PatchRange, Tessellator};
-    use tess_core::QuadFactors;
-
-    /// The numbers at the head of this file.
-    #[test]
-    fn the_worked_packet() {
-        let culled = QuadFactors { u0: 0.0, ..QUAD };
-        let mut output = Output::<[f32; 2], u32>::new();
-        let numbering = Numbering::PerBatch { base_vertex: 100 };
-        let result =
-            Tessellator::new(CONFIG).tessellate(&[QUAD, culled, QUAD], numbering, &mut output);
-        assert!(result.is_ok(), "{result:?}");
-        let range = |first_point, points, first_index, indices| PatchRange {
-            first_point,
-            points,
-            first_index,
-            indices,
-        };
-        let expected = [range(0, 43, 0, 186), range(43, 0, 186, 0), range(43, 43, 186, 186)];
-        assert_eq!(output.ranges(), expected, "ranges");
-        assert_eq!((output.indices()[0], output.indices()[186]), (100, 143), "bases");
-    }
-}

@@ -149,7 +149,7 @@ pub(crate) fn to_fixed(x: f32) -> u32 {
     (x * 65536.0 + TWO_POW_23).to_bits() & MANTISSA
 }
 
-#[cfg(all(test, feature = "std"))]
+#[cfg(test)]
 #[expect(
     clippy::float_arithmetic,
     clippy::cast_possible_truncation,

@@ -348,7 +348,7 @@ fn compact<const L: usize>(domain: Domain, points: &[[u32; L]; MAX_FACTORS]) -> 
     compact
 }
 
-#[cfg(all(test, feature = "std"))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::data::lanes::LANES;

@@ -329,7 +329,7 @@ pub(crate) fn long<P: OutputPoint>(point: CompactPoint) -> P {
     P::from_bits(u, v)
 }
 
-#[cfg(all(test, feature = "std"))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::tour;

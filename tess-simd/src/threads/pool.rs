@@ -10,6 +10,7 @@ use crate::data::format::IndexFormat;
 use crate::data::point_writer::PointRoom;
 use crate::stages::counts::PartCounts;
 use crate::threads::part::{self, Job, Workspace};
+use crate::threads::sizes::worth_waking;
 use crate::threads::slices::{CountShare, Share};
 use alloc::vec::Vec;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,10 +23,6 @@ pub(crate) const MAX_THREADS: usize = 256;
 
 /// The longest that a thread waits for the others. Then it may sleep.
 const TOGETHER: Duration = Duration::from_micros(100);
-
-/// Output for each thread that is woken, at least. A thread writes this much in about 8 microseconds and takes 4
-/// to wake, so that two threads are never slower than one.
-const BYTES_PER_THREAD: u64 = 256 << 10;
 
 /// Patches that are counted in a few microseconds.
 const SOON_COUNTED: usize = 1024;
@@ -152,12 +149,6 @@ impl Workspaces {
     }
 }
 
-/// How many of `threads` threads write an output of this size: at least one.
-fn worth_waking(bytes: u64, threads: usize) -> usize {
-    let most = usize::try_from(bytes / BYTES_PER_THREAD).unwrap_or(usize::MAX);
-    most.clamp(1, threads)
-}
-
 /// Runs `work` on up to `threads` idle threads.
 fn on_threads(threads: usize, work: &(impl Fn() + Sync)) {
     if threads > 1 {
@@ -197,20 +188,5 @@ impl Clone for Workspaces {
             Mutex::new(workspace.clone())
         };
         Self(self.0.iter().map(copy).collect())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A second thread from 512 KiB on, all of them from 256 KiB for each on.
-    #[test]
-    fn threads_follow_the_size() {
-        let threads = |kib: u64, most| worth_waking(kib << 10, most);
-        assert_eq!([threads(0, 2), threads(511, 2), threads(512, 2)], [1, 1, 2], "two threads");
-        assert_eq!([threads(1024, 16), threads(4095, 16)], [4, 15], "some of sixteen");
-        assert_eq!([threads(4096, 16), threads(65_536, 16)], [16, 16], "all of sixteen");
-        assert_eq!(worth_waking(u64::MAX, 1), 1, "no more than there are");
     }
 }

@@ -212,7 +212,7 @@ impl TriangleWalker for TriangleCodes<'_> {
     }
 }
 
-#[cfg(all(test, feature = "std"))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::tour;

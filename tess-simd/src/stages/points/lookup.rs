@@ -203,7 +203,7 @@ fn point<P: OutputPoint>(coordinates: [u32; 2]) -> P {
     P::from_coordinates(coordinates)
 }
 
-#[cfg(all(test, feature = "std"))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::data::writer::Writer;

@@ -202,7 +202,7 @@ const fn number(topology: u64) -> u64 {
     (topology ^ (topology >> 24)).wrapping_mul(0x9E37_79B9_7F4A_7C15)
 }
 
-#[cfg(all(test, feature = "std"))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::tour;

@@ -32,7 +32,7 @@ impl<T: Copy + Default, const MOST: usize> TemplateRoom<T, MOST> {
     }
 
     /// Elements that are used by templates.
-    #[cfg(all(test, feature = "std"))]
+    #[cfg(test)]
     pub(super) const fn used(&self) -> usize {
         self.used
     }

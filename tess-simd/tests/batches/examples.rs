@@ -1,10 +1,10 @@
 //! Runs the examples, which assert what they show.
 
-#[path = "../examples/own_buffers.rs"]
+#[path = "../../examples/own_buffers.rs"]
 mod own_buffers;
 
 #[cfg(feature = "rayon")]
-#[path = "../examples/threads.rs"]
+#[path = "../../examples/threads.rs"]
 mod threads;
 
 #[test]

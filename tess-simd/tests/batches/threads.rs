@@ -1,11 +1,6 @@
 //! Batches on several threads: the same output as on one, whatever their number.
 
-#![cfg(feature = "rayon")]
-
-#[path = "common/patches.rs"]
-mod patches;
-
-use patches::{Patches, compare, configs};
+use crate::patches::{Patches, compare, configs};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, PatchFactors};
@@ -125,7 +120,7 @@ fn too_many_threads() {
 fn too_large_a_pool() {
     let program = std::env::current_exe().expect("the path of this test");
     let output = std::process::Command::new(program)
-        .args(["--exact", "in_a_pool_of_any_size", "--nocapture"])
+        .args(["--exact", "threads::in_a_pool_of_any_size", "--nocapture"])
         .env("RAYON_NUM_THREADS", "100000")
         .output()
         .expect("this test runs again");

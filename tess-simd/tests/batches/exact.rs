@@ -1,12 +1,7 @@
 //! Whole batches, bit for bit the core's: every configuration, level, format and numbering.
 
-#[path = "common/levels.rs"]
-mod levels;
-#[path = "common/patches.rs"]
-mod patches;
-
-use levels::levels;
-use patches::{Patches, compare, configs, difference};
+use crate::levels::levels;
+use crate::patches::{Patches, compare, configs, difference};
 use tess_core::{
     Config, Domain, DomainPoint, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
     SplitOrder, Tessellation, TriangleFactors,

@@ -1,0 +1,21 @@
+//! The unit tests, with the files that they are of: the library would compile every kernel at every CPU level once more,
+//! which takes a minute.
+
+#![allow(
+    unused,
+    unreachable_pub,
+    unfulfilled_lint_expectations,
+    reason = "the library uses and exports what the tests do not"
+)]
+
+extern crate alloc;
+
+mod cpu;
+mod data;
+#[path = "../tests/inside/document.rs"]
+mod document;
+mod stages;
+mod threads {
+    mod sizes;
+}
+mod tour;

@@ -1,0 +1,13 @@
+//! Whole batches: bit for bit, on several threads, in memory of every size. One program, since each compiles the
+//! kernels anew for every pair of formats that it names.
+
+mod buffers;
+mod exact;
+mod examples;
+mod groups;
+#[path = "../common/levels.rs"]
+mod levels;
+#[path = "../common/patches.rs"]
+mod patches;
+#[cfg(feature = "rayon")]
+mod threads;
