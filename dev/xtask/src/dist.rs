@@ -44,13 +44,14 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     }
     let is_wanted = |part: &&(&str, _)| names.is_empty() || names.contains(&part.0);
     let parts: Vec<_> = PARTS.iter().filter(is_wanted).collect();
-    let release = pack(&parts, "dist")?;
+    let release = pack(&parts, "dist-new")?;
     if tries {
         let again = pack(&parts, "dist-again")?;
         same(&release.sums()?, &again.sums()?)?;
         fs::remove_dir_all(&again.out).map_err(|error| in_file(&again.out, &error))?;
         parts.iter().try_for_each(|(name, _)| try_it(&release, name))?;
     }
+    let release = release.publish(&target().join("dist"), names.is_empty())?;
     println!("\n{}:\n{}", release.out.display(), release.sums()?);
     Ok(())
 }
@@ -168,6 +169,17 @@ mod tests {
         assert_eq!(same(&first, &sums("second", "text", 1)), Ok(()), "sorted, dated, owned alike");
         let other = same(&first, &sums("other", "test", 0)).expect_err("another text");
         assert!(other.contains("notes.tar.gz"), "{other}");
+        let published = target().join(format!("tmp/dist-{}", std::process::id()));
+        let files = |names: &[&str], whole| {
+            let release = Release::new(&published.with_extension("new")).expect("a folder");
+            names.iter().for_each(|name| fs::write(release.out.join(name), name).expect("written"));
+            let sums = release.publish(&published, whole).and_then(|it| it.sums()).expect("moved");
+            sums.lines().map(|line| line[66..].to_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(files(&["old", "part"], true), ["old", "part"], "a first release");
+        assert_eq!(files(&["part", "that"], false), ["old", "part", "that"], "parts");
+        assert_eq!(files(&["that"], true), ["that"], "a whole release");
+        fs::remove_dir_all(&published).expect("it was made here");
         assert!(same("", &first).is_err() && same(&first, "").is_err(), "a file more");
     }
 }

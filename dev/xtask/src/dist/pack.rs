@@ -55,10 +55,26 @@ impl Release {
         fs::copy(file, to).map(drop).map_err(|error| in_file(file, &error))
     }
 
+    /// Moves its files to a folder, over what is there unless the release is `whole`: then nothing else stays.
+    pub(super) fn publish(self, to: &Path, whole: bool) -> Result<Self, String> {
+        if whole || !to.exists() {
+            empty(to)?;
+        }
+        for name in self.names()? {
+            let moved = fs::rename(self.out.join(&name), to.join(name));
+            moved.map_err(|error| in_file(to, &error))?;
+        }
+        fs::remove_dir_all(&self.out).map_err(|error| in_file(&self.out, &error))?;
+        let release = Self { out: to.to_owned(), ..self };
+        release.write_sums()?;
+        Ok(release)
+    }
+
     fn names(&self) -> Result<Vec<String>, String> {
         let entries = fs::read_dir(&self.out).map_err(|error| in_file(&self.out, &error))?;
         let mut names: Vec<_> =
             entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+        names.retain(|name| name != SUMS);
         names.sort();
         Ok(names)
     }
