@@ -37,15 +37,16 @@ pub(crate) fn cargo_home() -> Result<PathBuf, String> {
 }
 
 /// Flags of the compiler behind `first`, separated as cargo wants them, that take this machine's folders out of messages
-/// of panics in dependencies, so that what is built has the same bytes everywhere.
+/// of panics, so that what is built has the same bytes everywhere.
 ///
 /// # Errors
 /// There is no home directory.
 pub(crate) fn flags_without_folders(first: &str) -> Result<String, String> {
-    let mut flags = vec![first.to_owned()];
+    let without = |folder: &Path| format!("--remap-path-prefix={}/=", folder.display());
+    let mut flags = vec![first.to_owned(), without(&workspace())];
     for registry in fs::read_dir(cargo_home()?.join("registry/src")).into_iter().flatten().flatten()
     {
-        flags.push(format!("--remap-path-prefix={}/=", registry.path().display()));
+        flags.push(without(&registry.path()));
     }
     Ok(flags.join("\u{1f}"))
 }

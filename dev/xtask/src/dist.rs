@@ -97,12 +97,9 @@ fn crates(release: &Release) -> Result<(), String> {
 
 /// The Python package, built and as sources.
 fn wheel(release: &Release) -> Result<(), String> {
-    python::release(&release.epoch, |file| release.take(file))?;
-    let manifest = "bindings/python/Cargo.toml";
-    bill::write(
-        release,
-        &bill::Of { name: "python", manifest, packages: &["tess-python".to_owned()] },
-    )
+    let (name, manifest) = ("python", "bindings/python/Cargo.toml");
+    bill::write(release, &bill::Of { name, manifest, packages: &["tess-python".to_owned()] })?;
+    python::release(&release.epoch, &release.out.join(bill::file(name)), |file| release.take(file))
 }
 
 /// `tess_uvm` with its covergroups, and the DPI-C interface where its file lists expect it.

@@ -51,13 +51,14 @@ fn tests(program: &Path) -> Result<Command, String> {
     Ok(tests)
 }
 
-/// Builds the wheel and the archive of sources of a release made at this time, and gives each to `take`. The wheel's name
-/// says the oldest glibc that maturin found it to run with.
+/// Builds the wheel, with this bill of materials, and the archive of sources of a release made at this time, and gives
+/// each to `take`. The wheel's name says the oldest glibc that maturin found it to run with.
 ///
 /// # Errors
 /// A build fails, or `take` does.
 pub(crate) fn release(
     epoch: &str,
+    bill: &Path,
     take: impl Fn(&Path) -> Result<(), String>,
 ) -> Result<(), String> {
     setup::provide(&[PYTHON])?;
@@ -65,8 +66,11 @@ pub(crate) fn release(
     let environment = Environment::fresh()?;
     environment.install(TOOLS)?;
     let flags = command::flags_without_folders("-Cdebuginfo=0")?;
-    for arguments in [&["-m", "maturin", "build", "--release"][..], &["-m", "maturin", "sdist"]] {
-        let mut maturin = environment.python(arguments);
+    for what in ["build", "sdist"] {
+        let mut maturin = environment.python(&["-m", "maturin", what]);
+        if what == "build" {
+            maturin.args(["--release", "--sbom-include"]).arg(bill);
+        }
         maturin.env("SOURCE_DATE_EPOCH", epoch).env("CARGO_ENCODED_RUSTFLAGS", &flags);
         take(&Environment::build(&mut maturin)?)?;
     }

@@ -37,8 +37,12 @@ pub(super) fn write(release: &Release, of: &Of<'_>) -> Result<(), String> {
     let put = |file: String, text: &str| {
         fs::write(release.out.join(&file), text).map_err(|error| format!("{file}: {error}"))
     };
-    put(format!("{}.cdx.json", of.name), &text)?;
+    put(file(of.name), &text)?;
     put(licences_file(of.name), &licences)
+}
+
+pub(super) fn file(name: &str) -> String {
+    format!("{name}.cdx.json")
 }
 
 pub(super) fn licences_file(name: &str) -> String {

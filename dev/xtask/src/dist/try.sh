@@ -53,6 +53,7 @@ python)
         venv/bin/pip install -q "$archive"
         program='import tess_model; p = tess_model.Patch("tri", outer=[5, 5, 5], inner=5); print(len(p.points), len(p.indices))'
         equal "$(venv/bin/python -c "$program")" '27 37'
+        equal "$(grep -rlF "$ROOT/" venv/lib/*/site-packages/tess_model* || echo unnamed)" unnamed
     done
     venv/bin/pip install -q auditwheel 'cyclonedx-python-lib[json-validation]'
     tag=$(basename "$OUT"/tess_model-*-abi3-*.whl .whl | sed 's/.*-abi3-//; s/\..*//')
