@@ -9,21 +9,14 @@ const ALL: [&str; 3] = ["baseline", "avx2", "avx512"];
 /// The levels that this processor has, found without asking `tess-simd`, which might be wrong.
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn required() -> Vec<&'static str> {
-    let has_avx512 = is_x86_feature_detected!("avx512f")
-        && is_x86_feature_detected!("avx512bw")
-        && is_x86_feature_detected!("avx512cd")
-        && is_x86_feature_detected!("avx512dq")
-        && is_x86_feature_detected!("avx512vl")
-        && is_x86_feature_detected!("avx512bitalg")
-        && is_x86_feature_detected!("avx512ifma")
-        && is_x86_feature_detected!("avx512vbmi")
-        && is_x86_feature_detected!("avx512vbmi2")
-        && is_x86_feature_detected!("avx512vnni")
-        && is_x86_feature_detected!("avx512vpopcntdq")
-        && is_x86_feature_detected!("gfni")
-        && is_x86_feature_detected!("vaes")
-        && is_x86_feature_detected!("vpclmulqdq");
-    let there = [true, is_x86_feature_detected!("avx2"), has_avx512];
+    macro_rules! has {
+        ($($feature:tt)*) => { $(is_x86_feature_detected!($feature))&&* };
+    }
+    let has_avx512 = has!(
+        "avx512f" "avx512bw" "avx512cd" "avx512dq" "avx512vl" "avx512bitalg" "avx512ifma" "avx512vbmi" "avx512vbmi2"
+        "avx512vnni" "avx512vpopcntdq" "gfni" "vaes" "vpclmulqdq"
+    );
+    let there = [true, has!("avx2"), has_avx512];
     ALL.into_iter().zip(there).filter_map(|(name, is_there)| is_there.then_some(name)).collect()
 }
 
