@@ -46,7 +46,7 @@ fn tests(program: &Path) -> Result<Command, String> {
     let wheel = environment.wheel()?;
     environment.install(&[&format!("{}[test,cocotb]", wheel.display())])?;
     environment.check_types()?;
-    let mut tests = environment.python(&["-m", "pytest", "-q", "-p", "no:cacheprovider"]);
+    let mut tests = environment.python("pytest -q -p no:cacheprovider");
     tests.env("TESS_PROGRAM", program).env("TESS_COCOTB_BUILD", target().join("cocotb"));
     Ok(tests)
 }
@@ -67,7 +67,7 @@ pub(crate) fn release(
     environment.install(TOOLS)?;
     let flags = command::flags_without_folders("-Cdebuginfo=0")?;
     for what in ["build", "sdist"] {
-        let mut maturin = environment.python(&["-m", "maturin", what]);
+        let mut maturin = environment.python(&format!("maturin {what}"));
         if what == "build" {
             maturin.args(["--release", "--sbom-include"]).arg(bill);
         }
@@ -101,7 +101,7 @@ pub(crate) fn of_tree(root: &Path, target: &Path, file: &str) -> Result<Job, Str
     let own = sources.join("python/tess_model");
     command::quiet_output(Command::new("cp").arg("-rL").args([own.join("."), built.clone()]))?;
     copy(&target.join("debug/libtess_native.so"), &built.join("_native.abi3.so"))?;
-    let mut tests = environment.python(&["-m", "pytest", "-q", "-x", "-p", "no:cacheprovider"]);
+    let mut tests = environment.python("pytest -q -x -p no:cacheprovider");
     tests.arg(root.join(file)).current_dir(&sources).env("PYTHONPATH", target.join("package"));
     Ok(Job { name: file.to_owned(), command: tests })
 }
@@ -138,25 +138,25 @@ impl Environment {
         Ok(Self(folder))
     }
 
-    /// Its interpreter, in the folder of the package.
-    fn python(&self, arguments: &[&str]) -> Command {
+    /// A module with these arguments, split at spaces, in the folder of the package.
+    fn python(&self, words: &str) -> Command {
         let folder = if cfg!(windows) { "Scripts" } else { "bin" };
         let mut python = Command::new(self.0.join(folder).join("python"));
-        python.args(arguments).current_dir(package()).env_remove("PYTHONPATH");
+        python.arg("-m").args(words.split(' ')).current_dir(package()).env_remove("PYTHONPATH");
         python
     }
 
     /// Installs packages from the index that pip is set to.
     fn install(&self, packages: &[&str]) -> Result<(), String> {
-        let arguments = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
-        command::run(self.python(&arguments).args(packages)).map_err(|error| {
+        let mut pip = self.python("pip install --quiet --disable-pip-version-check");
+        command::run(pip.args(packages)).map_err(|error| {
             format!("{error}. The tests of the Python package need {}", packages.join(", "))
         })
     }
 
     /// Builds the wheel.
     fn wheel(&self) -> Result<PathBuf, String> {
-        Self::build(&mut self.python(&["-m", "maturin", "build", "--release"]))
+        Self::build(&mut self.python("maturin build --release"))
     }
 
     /// Runs a build of maturin, whose file is the only one in its folder.
@@ -176,20 +176,10 @@ impl Environment {
 
     /// The stubs are those of the module, and the tests and examples keep to them.
     fn check_types(&self) -> Result<(), String> {
-        command::run(&mut self.python(&[
-            "-m",
-            "mypy.stubtest",
-            "--mypy-config-file",
-            "pyproject.toml",
-            "tess_model",
-        ]))?;
-        command::run(&mut self.python(&[
-            "-m",
-            "mypy",
-            "tests",
-            "python/tess_model/examples",
-            "benches",
-            "../../rtl/dv/cocotb",
-        ]))
+        command::run(
+            &mut self.python("mypy.stubtest --mypy-config-file pyproject.toml tess_model"),
+        )?;
+        let typed = "mypy tests python/tess_model/examples benches ../../rtl/dv/cocotb";
+        command::run(&mut self.python(typed))
     }
 }
