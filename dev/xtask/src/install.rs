@@ -192,7 +192,7 @@ impl Files {
         }
         for file in ["tess-config.cmake", "tess-config-version.cmake"] {
             let path = bindings.join("cmake").join(file);
-            let text = fs::read_to_string(&path).map_err(|error| in_file(&path, &error))?;
+            let text = command::read(&path)?;
             self.write(&format!("lib/cmake/tess/{file}"), &text.replace("@VERSION@", VERSION))?;
         }
         if self.system == System::Windows {

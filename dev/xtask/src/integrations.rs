@@ -55,7 +55,7 @@ impl Integration {
         command::lock_versions(&workspace(), folder)?;
         let folder = workspace().join(folder);
         let path = folder.join("rust-toolchain.toml");
-        let text = std::fs::read_to_string(&path).map_err(|error| in_file(&path, &error))?;
+        let text = command::read(&path)?;
         let channel =
             text.lines().find_map(|line| line.strip_prefix("channel = \"")?.strip_suffix('"'));
         let channel =

@@ -7,7 +7,7 @@
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! scripts in Python          script (checks of texts; records of measurements, tables and charts)
 //! for users                  install (header, libraries, tess.pc), dist (a release's archives)
-//! with the kit compiled in   kit/rtl (the circuit: bench, stages, faults, proofs, cost)
+//! with the kit compiled in   rtl (the circuit: bench, stages, faults, proofs, cost)
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
 //! ```
 //!
@@ -24,8 +24,6 @@ mod features;
 mod fuzz;
 mod install;
 mod integrations;
-#[cfg(feature = "kit")]
-mod kit;
 mod levels;
 mod mesa;
 mod mutants;
@@ -33,6 +31,8 @@ mod packages;
 mod ports;
 mod publish;
 mod python;
+#[cfg(feature = "kit")]
+mod rtl;
 mod script;
 mod setup;
 mod suite;
@@ -178,7 +178,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
 /// Runs a command that needs the kit, in a process that has it.
 fn with_kit(words: &[&str]) -> Option<Result<(), String>> {
     #[cfg(feature = "kit")]
-    return kit::run(words);
+    return rtl::run(words);
     #[cfg(not(feature = "kit"))]
     Some(command::run(command::cargo("run --quiet --package xtask --features kit --").args(words)))
 }

@@ -10,9 +10,8 @@ mod fault;
 pub(crate) mod listed;
 mod planted;
 
-use crate::command::{cargo, shown, workspace};
+use crate::command::{cargo, in_file, read, shown, workspace};
 use std::fs;
-use std::path::Path;
 
 /// A crate and the tests that must see its faults, the fastest pass first. Each pass tries what the
 /// one before it missed.
@@ -135,7 +134,7 @@ pub(crate) fn run(package: &str, rest: &[&str]) -> Result<(), String> {
     let subject = SUBJECTS.iter().find(|subject| subject.package == package);
     let subject = subject.ok_or_else(|| format!("no faults are planted in `{package}`"))?;
     let output = workspace().join("target/mutants").join(package);
-    fs::create_dir_all(&output).map_err(|error| format!("{}: {error}", output.display()))?;
+    fs::create_dir_all(&output).map_err(|error| in_file(&output, &error))?;
     let mut missed = Missed::default();
     for (number, pass) in subject.passes.iter().enumerate() {
         let mut mutants = cargo(&format!("mutants --package {package} {} --output", pass.tests));
@@ -176,10 +175,6 @@ impl Missed {
             missed.lines().filter(|line| !self.0.iter().any(|old| old == line)).collect();
         self.0.extend(new.into_iter().map(str::to_owned));
     }
-}
-
-fn read(path: &Path) -> Result<String, String> {
-    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// The missed faults that are not among these, whichever lines they are on; each of these excuses one.

@@ -86,9 +86,9 @@ fn entries(folder: &Path, prefix: &str) -> Vec<PathBuf> {
 }
 
 fn remove_all(folders: &[PathBuf]) -> Result<(), String> {
-    folders.iter().try_for_each(|folder| {
-        fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
-    })
+    folders
+        .iter()
+        .try_for_each(|folder| fs::remove_dir_all(folder).map_err(|error| in_file(folder, &error)))
 }
 
 /// Checks dependencies against `deny.toml`: licences, banned and duplicate crates, sources.
@@ -147,7 +147,7 @@ pub(crate) const LICENCES: &[&str] = &["LICENSE-APACHE", "LICENSE-MIT"];
 fn lacking() -> Result<Vec<String>, String> {
     let mut lacking = Vec::new();
     for package in packages::published()? {
-        let read = |name| read(&package.folder().join(name));
+        let read = |name| command::read(&package.folder().join(name));
         let manifest = read("Cargo.toml")?;
         let has = |key: &&str| manifest.lines().any(|line| line.starts_with(key));
         let mut add = |what: String| lacking.push(format!("{}: {what}", package.name));
@@ -157,10 +157,6 @@ fn lacking() -> Result<Vec<String>, String> {
         }
     }
     Ok(lacking)
-}
-
-fn read(path: &Path) -> Result<String, String> {
-    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 #[cfg(test)]

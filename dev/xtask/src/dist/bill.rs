@@ -104,7 +104,7 @@ fn licence(package: &Value) -> Result<String, String> {
         _ = writeln!(all, "(its archive has no text of it)");
     }
     for path in names.iter().map(|name| folder.join(name)).filter(|path| path.is_file()) {
-        let text = fs::read_to_string(&path).map_err(|error| in_file(&path, &error))?;
+        let text = command::read(&path)?;
         _ = writeln!(all, "\n{}", text.trim_end());
     }
     Ok(all + "\n")

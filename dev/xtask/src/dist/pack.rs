@@ -86,7 +86,7 @@ impl Release {
     }
 
     pub(super) fn sums(&self) -> Result<String, String> {
-        fs::read_to_string(self.out.join(SUMS)).map_err(|error| in_file(&self.out, &error))
+        command::read(&self.out.join(SUMS))
     }
 }
 

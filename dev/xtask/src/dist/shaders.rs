@@ -73,7 +73,7 @@ pub(super) fn pack_npm(release: &Release) -> Result<(), String> {
         copy_tracked(&format!("bindings/webgpu/{file}"), &stage.join(file))?;
     }
     let description = workspace().join("bindings/webgpu/package.json");
-    let text = fs::read_to_string(&description).map_err(|error| in_file(&description, &error))?;
+    let text = command::read(&description)?;
     fs::write(stage.join("package.json"), text.replace("@VERSION@", VERSION))
         .map_err(|error| in_file(&stage, &error))?;
     let shaders = stage.join("shaders");

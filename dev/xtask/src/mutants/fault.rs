@@ -1,7 +1,7 @@
 //! The lists of faults that are planted by hand: `dev/xtask/faults/*.faults`.
 
 use super::listed::{ListedFault, parse};
-use crate::command::in_file;
+use crate::command::{self, in_file};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub(super) fn read(folder: &Path) -> Result<Vec<ListedFault>, String> {
     files.sort();
     let mut faults: Vec<ListedFault> = Vec::new();
     for file in files {
-        let text = fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
+        let text = command::read(&file)?;
         for fault in parse(&text).map_err(|error| in_file(&file, &error))? {
             if faults.iter().any(|other| other.name == fault.name) {
                 return Err(in_file(&file, &format!("two faults are called `{}`", fault.name)));

@@ -152,15 +152,14 @@ fn copy(fault: Option<&str>) -> Result<(), String> {
     let formal = sources().join("dv/formal");
     for entry in fs::read_dir(&formal).map_err(|error| in_file(&formal, &error))? {
         let file = entry.map_err(|error| in_file(&formal, &error))?.path();
-        let text = fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
+        let text = command::read(&file)?;
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let (to, text) = match name.strip_prefix("inside_").and_then(|rest| rest.strip_suffix("h"))
         {
             None => (folder().join(&name), text),
             Some(module) => {
                 let module = folder().join(format!("tess_{module}"));
-                let design =
-                    fs::read_to_string(&module).map_err(|error| in_file(&module, &error))?;
+                let design = command::read(&module)?;
                 (module, design.replace("\nendmodule", &format!("\n{text}endmodule")))
             }
         };
@@ -178,7 +177,7 @@ impl Proof {
     fn write(&self, fault: Option<&str>) -> Result<(), String> {
         copy(fault)?;
         let list = folder().join("tess.f");
-        let list = fs::read_to_string(&list).map_err(|error| in_file(&list, &error))?;
+        let list = command::read(&list)?;
         let design: Vec<&str> = list.lines().filter(|line| line.ends_with(".sv")).collect();
         let free: String = self.free.iter().map(|name| format!("cutpoint t:*{name}; ")).collect();
         // Outputs that no property looks at go, and the multipliers behind them.

@@ -48,7 +48,7 @@ fn sum(cells: &Cells, kinds: &[&str]) -> u64 {
 /// The cells of each module, and of the `design`.
 fn statistics(folder: &Path, name: &str) -> Result<BTreeMap<String, Cells>, String> {
     let file = folder.join(format!("{name}.txt"));
-    let text = std::fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
+    let text = command::read(&file)?;
     let modules = read(&text);
     if modules.is_empty() {
         return Err(in_file(&file, &"no statistics of Yosys"));

@@ -17,54 +17,27 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use tess_verify::Case;
 
+/// Runs the command; `None` if there is no such command.
+pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
+    Some(match *words {
+        ["rtl"] => compare(),
+        ["rtl", "--long"] => Bench::built().and_then(|bench| long::run(&bench)),
+        ["rtl", "--prove"] => proofs::run(),
+        ["rtl", "--synth"] => cost::run(),
+        ["rtl", "--place"] => place::run(),
+        ["rtl", "--names"] => names::write(),
+        _ => return None,
+    })
+}
+
 /// Compares the circuit with the model and plants its faults, as the tests of the C interface do; then clocks.
 ///
 /// # Errors
 /// A tool is missing, the lint warns, an element differs, or a planted fault is not found.
-pub(crate) fn run() -> Result<(), String> {
+fn compare() -> Result<(), String> {
     setup::provide(&[setup::VERILATOR, setup::SYSTEMC])?;
     test::run(&["bindings/c/tests/foreign.rs", "rtl_"])?;
     clocks::run(&Bench::built()?)
-}
-
-/// Compares for hours, and goes on where an earlier run has stopped.
-///
-/// # Errors
-/// As for [`run`].
-pub(crate) fn long() -> Result<(), String> {
-    long::run(&Bench::built()?)
-}
-
-/// Proves the handshakes and the placement.
-///
-/// # Errors
-/// A tool is missing, a proof fails, or one holds although a fault is planted.
-pub(crate) fn prove() -> Result<(), String> {
-    proofs::run()
-}
-
-/// Synthesizes the circuit and prints what it costs.
-///
-/// # Errors
-/// A tool is missing or fails.
-pub(crate) fn synthesize() -> Result<(), String> {
-    cost::run()
-}
-
-/// Places and routes the circuit, and prints the clock that it reaches.
-///
-/// # Errors
-/// A tool cannot be had or fails, or the clock is not reached.
-pub(crate) fn place() -> Result<(), String> {
-    place::run()
-}
-
-/// Writes the lists of sources anew.
-///
-/// # Errors
-/// One cannot be written.
-pub(crate) fn write_names() -> Result<(), String> {
-    names::write()
 }
 
 /// The folder of the circuit.

@@ -2,7 +2,7 @@
 
 use super::bench::Bench;
 use super::sources;
-use crate::command::in_file;
+use crate::command;
 use tess_testkit::verdict::Verdict;
 use tess_verify::Case;
 use tess_verify::generate::{Calls, Workload};
@@ -20,7 +20,7 @@ const LATENCY: u64 = 30;
 /// A patch differs from the model, or a clock from the document.
 pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     let document = sources().with_file_name("docs/rtl.md");
-    let document = std::fs::read_to_string(&document).map_err(|e| in_file(&document, &e))?;
+    let document = command::read(&document)?;
     let (_, said) = bench.compare(&["+random=1000", "+alone"], 1000)?;
     let latency = line(&said, "latency: ")?;
     println!("\nclocks, one patch alone: {latency}");

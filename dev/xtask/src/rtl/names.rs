@@ -1,7 +1,7 @@
 //! The lists of the design's files for Bender and `FuseSoC`, from `rtl/tess.f`; tests of the signals in `rtl/stages.tsv`.
 
 use super::sources;
-use crate::command::in_file;
+use crate::command::{self, in_file};
 use std::path::{Path, PathBuf};
 
 /// Writes the files anew.
@@ -17,13 +17,12 @@ pub(crate) fn write() -> Result<(), String> {
 
 /// Each file, and its text.
 fn files() -> Result<[(PathBuf, String); 2], String> {
-    let read = |name: &str| {
+    let list = command::read(&sources().join("tess.f"))?;
+    let listed = |name: &str| {
         let file = sources().join(name);
-        let text = std::fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
-        Ok::<_, String>((file, text))
+        let text = command::read(&file)?;
+        Ok::<_, String>((file, with_list(&text, &list)))
     };
-    let (_, list) = read("tess.f")?;
-    let listed = |name: &str| read(name).map(|(file, text)| (file, with_list(&text, &list)));
     Ok([listed("Bender.yml")?, listed("tess.core")?])
 }
 
@@ -52,7 +51,7 @@ mod tests {
     use crate::mutants::listed::ListedFault;
 
     /// The signals that benches and `tess explain --observed` compare, in the order in which each feeds the next.
-    const STAGES: &str = include_str!("../../../../../rtl/stages.tsv");
+    const STAGES: &str = include_str!("../../../../rtl/stages.tsv");
 
     /// A signal of the circuit.
     struct Signal {
