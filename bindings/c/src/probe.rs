@@ -237,45 +237,28 @@ impl From<tess_core::Primitive> for TessPrimitive {
 
 impl From<PointOrigin> for TessPointOrigin {
     fn from(origin: PointOrigin) -> Self {
-        let none = Self::default();
-        match origin {
-            PointOrigin::Corner { corner } => {
-                Self { kind: TESS_POINT_ORIGIN_CORNER, p: corner, ..none }
-            }
-            PointOrigin::Line { line, p } => Self { kind: TESS_POINT_ORIGIN_LINE, line, p, ..none },
-            PointOrigin::OuterEdge { edge, p } => {
-                Self { kind: TESS_POINT_ORIGIN_OUTER_EDGE, edge, p, ..none }
-            }
-            PointOrigin::Ring { ring, edge, p } => {
-                Self { kind: TESS_POINT_ORIGIN_RING, ring, edge, p, ..none }
-            }
-            PointOrigin::Centre { p } => Self { kind: TESS_POINT_ORIGIN_CENTRE, p, ..none },
-        }
+        let (kind, line, ring, edge, p) = match origin {
+            PointOrigin::Corner { corner } => (TESS_POINT_ORIGIN_CORNER, 0, 0, 0, corner),
+            PointOrigin::Line { line, p } => (TESS_POINT_ORIGIN_LINE, line, 0, 0, p),
+            PointOrigin::OuterEdge { edge, p } => (TESS_POINT_ORIGIN_OUTER_EDGE, 0, 0, edge, p),
+            PointOrigin::Ring { ring, edge, p } => (TESS_POINT_ORIGIN_RING, 0, ring, edge, p),
+            PointOrigin::Centre { p } => (TESS_POINT_ORIGIN_CENTRE, 0, 0, 0, p),
+        };
+        Self { kind, line, ring, edge, p }
     }
 }
 
 impl From<PrimitiveOrigin> for TessPrimitiveOrigin {
     fn from(origin: PrimitiveOrigin) -> Self {
-        let none = Self::default();
-        match origin {
-            PrimitiveOrigin::Sequence { step } => {
-                Self { kind: TESS_PRIMITIVE_ORIGIN_SEQUENCE, step, ..none }
-            }
-            PrimitiveOrigin::Line { line, segment } => {
-                Self { kind: TESS_PRIMITIVE_ORIGIN_LINE, line, step: segment, ..none }
-            }
-            PrimitiveOrigin::Minimum { step } => {
-                Self { kind: TESS_PRIMITIVE_ORIGIN_MINIMUM, step, ..none }
-            }
-            PrimitiveOrigin::Transition { edge, step } => {
-                Self { kind: TESS_PRIMITIVE_ORIGIN_TRANSITION, edge, step, ..none }
-            }
-            PrimitiveOrigin::Ring { ring, edge, step } => {
-                Self { kind: TESS_PRIMITIVE_ORIGIN_RING, ring, edge, step, ..none }
-            }
-            PrimitiveOrigin::Centre { step } => {
-                Self { kind: TESS_PRIMITIVE_ORIGIN_CENTRE, step, ..none }
-            }
-        }
+        use PrimitiveOrigin as Of;
+        let (kind, line, ring, edge, step) = match origin {
+            Of::Sequence { step } => (TESS_PRIMITIVE_ORIGIN_SEQUENCE, 0, 0, 0, step),
+            Of::Line { line, segment } => (TESS_PRIMITIVE_ORIGIN_LINE, line, 0, 0, segment),
+            Of::Minimum { step } => (TESS_PRIMITIVE_ORIGIN_MINIMUM, 0, 0, 0, step),
+            Of::Transition { edge, step } => (TESS_PRIMITIVE_ORIGIN_TRANSITION, 0, 0, edge, step),
+            Of::Ring { ring, edge, step } => (TESS_PRIMITIVE_ORIGIN_RING, 0, ring, edge, step),
+            Of::Centre { step } => (TESS_PRIMITIVE_ORIGIN_CENTRE, 0, 0, 0, step),
+        };
+        Self { kind, line, ring, edge, step }
     }
 }
