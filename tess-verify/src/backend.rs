@@ -22,11 +22,7 @@ pub trait Backend: Send {
     ///
     /// # Errors
     /// [`BackendError`] if the implementation could not run; never for any factor.
-    fn tessellate(
-        &mut self,
-        config: Config,
-        patches: &[PatchFactors],
-    ) -> Result<Vec<Tessellation>, BackendError>;
+    fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation>;
 
     /// Factor processing (spec section 3) alone: for each value `x` the fixed-point u = 0 factor of
     /// the triangle patch (x, 3, 3; 3), zero if it is culled, and the inside factor of (3, 3, 3; x).
@@ -39,7 +35,7 @@ pub trait Backend: Send {
         &mut self,
         partitioning: Partitioning,
         values: &[f32],
-    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
+    ) -> Answers<[FixedFactor; 2]> {
         let _ = (partitioning, values);
         Err(whole_patches_alone(self.name()))
     }
@@ -53,7 +49,7 @@ pub trait Backend: Send {
         split: SplitOrder,
         parity: Parity,
         factors: &[FixedFactor],
-    ) -> Result<Vec<FactorContext>, BackendError> {
+    ) -> Answers<FactorContext> {
         let _ = (split, parity, factors);
         Err(whole_patches_alone(self.name()))
     }
@@ -62,7 +58,7 @@ pub trait Backend: Send {
     ///
     /// # Errors
     /// As for [`Backend::tessellate`].
-    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
+    fn locations(&mut self, contexts: &[FactorContext]) -> Answers<u32> {
         let _ = contexts;
         Err(whole_patches_alone(self.name()))
     }
@@ -71,6 +67,9 @@ pub trait Backend: Send {
 fn whole_patches_alone(name: &str) -> BackendError {
     BackendError::new(format!("{name} gives whole patches alone, no stages"))
 }
+
+/// What an implementation answers to a batch: one for each element, in their order; or why it could not run.
+pub type Answers<T> = Result<Vec<T>, BackendError>;
 
 /// An implementation could not run: no adapter, no such CPU level, a device lost.
 #[derive(Debug, thiserror::Error)]
@@ -121,7 +120,7 @@ pub(crate) fn all_answered<T>(
     what: &str,
     answers: Vec<T>,
     asked: usize,
-) -> Result<Vec<T>, BackendError> {
+) -> Answers<T> {
     if answers.len() == asked {
         return Ok(answers);
     }
@@ -144,11 +143,7 @@ mod tests {
             String::new()
         }
 
-        fn tessellate(
-            &mut self,
-            _: Config,
-            _: &[PatchFactors],
-        ) -> Result<Vec<Tessellation>, BackendError> {
+        fn tessellate(&mut self, _: Config, _: &[PatchFactors]) -> Answers<Tessellation> {
             Ok(Vec::new())
         }
     }

@@ -28,7 +28,7 @@ pub use strength::{Conversion, Denormals, Elements, ListOrder, Strength, flushed
 pub use verify::{Subject, SubjectRow, verify};
 pub use ways::Way;
 
-use crate::backend::{Backend, BackendError};
+use crate::backend::{Answers, Backend, BackendError};
 use crate::case::Case;
 use crate::vectors::{CsvRow, Header, Kind, Record, Values, VectorError, VectorFile};
 use asked::Expected;
@@ -282,11 +282,7 @@ fn run<R: BufRead>(
 }
 
 /// The findings of each record, in order.
-fn check_unit(
-    how: &How,
-    backend: &mut dyn Backend,
-    records: &[Record],
-) -> Result<Vec<Found>, BackendError> {
+fn check_unit(how: &How, backend: &mut dyn Backend, records: &[Record]) -> Answers<Found> {
     let [Record::Row(CsvRow { values, .. })] = records else {
         return patches::single(how, backend, records);
     };

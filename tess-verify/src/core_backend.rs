@@ -1,6 +1,6 @@
 //! The golden model as a backend.
 
-use crate::backend::{Backend, BackendError};
+use crate::backend::{Answers, Backend};
 use tess_core::factors::process;
 use tess_core::{
     Config, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, Patch, PatchFactors,
@@ -20,11 +20,7 @@ impl Backend for CoreBackend {
         "portable".into()
     }
 
-    fn tessellate(
-        &mut self,
-        config: Config,
-        patches: &[PatchFactors],
-    ) -> Result<Vec<Tessellation>, BackendError> {
+    fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation> {
         Ok(patches.iter().map(|&factors| Patch::new(config, factors).tessellate()).collect())
     }
 
@@ -32,7 +28,7 @@ impl Backend for CoreBackend {
         &mut self,
         partitioning: Partitioning,
         values: &[f32],
-    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
+    ) -> Answers<[FixedFactor; 2]> {
         Ok(values.iter().map(|&value| outer_and_inside(partitioning, value)).collect())
     }
 
@@ -41,11 +37,11 @@ impl Backend for CoreBackend {
         split: SplitOrder,
         parity: Parity,
         factors: &[FixedFactor],
-    ) -> Result<Vec<FactorContext>, BackendError> {
+    ) -> Answers<FactorContext> {
         Ok(factors.iter().map(|&factor| FactorContext::new(factor, parity, split)).collect())
     }
 
-    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
+    fn locations(&mut self, contexts: &[FactorContext]) -> Answers<u32> {
         let mut locations = Vec::with_capacity(contexts.iter().map(|c| c.points as usize).sum());
         for context in contexts {
             locations.extend((0..context.points).map(|p| place(context, p).to_bits()));

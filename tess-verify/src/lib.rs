@@ -12,7 +12,7 @@ pub mod rules;
 pub mod show;
 pub mod vectors;
 
-pub use backend::{Backend, BackendError};
+pub use backend::{Answers, Backend, BackendError};
 pub use case::{Case, CaseError, factor};
 pub use core_backend::CoreBackend;
 pub use names::{Named, UnknownName};

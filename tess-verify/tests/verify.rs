@@ -4,7 +4,7 @@ use tess_core::{Config, PatchFactors, Tessellation};
 use tess_verify::check::{Known, SecondFormulation, Subject, SubjectRow, Tested, check, verify};
 use tess_verify::generate::Shard;
 use tess_verify::vectors::{Listing, VectorFile};
-use tess_verify::{Backend, BackendError, CoreBackend};
+use tess_verify::{Answers, Backend, BackendError, CoreBackend};
 
 fn run(backends: Vec<Box<dyn Backend>>, subject: Subject, shard: Shard) -> SubjectRow {
     let mut workers: Vec<_> = backends.into_iter().map(|backend| vec![backend]).collect();
@@ -64,11 +64,7 @@ impl Backend for Stateful {
         String::new()
     }
 
-    fn tessellate(
-        &mut self,
-        config: Config,
-        patches: &[PatchFactors],
-    ) -> Result<Vec<Tessellation>, BackendError> {
+    fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation> {
         let mut outputs = CoreBackend.tessellate(config, patches)?;
         for output in &mut outputs {
             self.asked += 1;

@@ -2,7 +2,7 @@
 
 use tess_core::{Config, PatchFactors, Tessellation};
 use tess_verify::check::{SecondFormulation, Strength, check_case};
-use tess_verify::{Backend, BackendError, Case};
+use tess_verify::{Answers, Backend, Case};
 
 /// A device: the model by random access, which may have a fault.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,11 +20,7 @@ impl Backend for Device {
         "in this process".to_owned()
     }
 
-    fn tessellate(
-        &mut self,
-        config: Config,
-        patches: &[PatchFactors],
-    ) -> Result<Vec<Tessellation>, BackendError> {
+    fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation> {
         let cut = |factor| if self.truncates { cut_off(factor) } else { factor };
         let seen: Vec<_> = patches.iter().map(|patch| patch.map(cut)).collect();
         SecondFormulation.tessellate(config, &seen)

@@ -2,7 +2,7 @@
 
 use super::sequences;
 use super::{Found, How, Tested, device, stages};
-use crate::backend::{Backend, BackendError, all_answered};
+use crate::backend::{Answers, Backend, BackendError, all_answered};
 use crate::case::Case;
 use crate::check::compare::{self, Element, Mismatch, SpecStage};
 use crate::check::strength::Strength;
@@ -13,11 +13,7 @@ use tess_core::prepare::prepare;
 use tess_core::{Config, Domain, PatchFactors, Tessellation};
 
 /// Checks listings, patches and preparations.
-pub(super) fn single(
-    how: &How,
-    backend: &mut dyn Backend,
-    records: &[Record],
-) -> Result<Vec<Found>, BackendError> {
+pub(super) fn single(how: &How, backend: &mut dyn Backend, records: &[Record]) -> Answers<Found> {
     match how.tested {
         Tested::Backend => {}
         Tested::Listings(strength) => return Ok(listings(records, strength)),
@@ -68,10 +64,7 @@ fn compare_one(
 }
 
 /// Tessellates cases of any configurations, those that have one in common in one batch.
-pub(crate) fn tessellate(
-    backend: &mut dyn Backend,
-    cases: &[Case],
-) -> Result<Vec<Tessellation>, BackendError> {
+pub(crate) fn tessellate(backend: &mut dyn Backend, cases: &[Case]) -> Answers<Tessellation> {
     let mut groups: Vec<((Config, Domain), Vec<usize>)> = Vec::new();
     for (i, case) in cases.iter().enumerate() {
         let key = (case.config, case.domain());
@@ -94,7 +87,7 @@ fn batch(
     backend: &mut dyn Backend,
     config: Config,
     factors: &[PatchFactors],
-) -> Result<Vec<Tessellation>, BackendError> {
+) -> Answers<Tessellation> {
     let answers = backend.tessellate(config, factors)?;
     all_answered(backend, "patches", answers, factors.len())
 }

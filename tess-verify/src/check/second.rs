@@ -1,7 +1,7 @@
 //! The model a second time, by other ways to the same numbers: what the model itself is verified
 //! with.
 
-use crate::backend::{Backend, BackendError};
+use crate::backend::{Answers, Backend, BackendError};
 use crate::generate::from_fixed;
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{
@@ -23,11 +23,7 @@ impl Backend for SecondFormulation {
         "random access; factors and locations in binary64".into()
     }
 
-    fn tessellate(
-        &mut self,
-        config: Config,
-        patches: &[PatchFactors],
-    ) -> Result<Vec<Tessellation>, BackendError> {
+    fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation> {
         let by_number = |&factors: &PatchFactors| {
             let patch = Patch::new(config, factors);
             let indices = |primitive: Primitive| primitive.indices().to_vec();
@@ -41,7 +37,7 @@ impl Backend for SecondFormulation {
         &mut self,
         partitioning: Partitioning,
         values: &[f32],
-    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
+    ) -> Answers<[FixedFactor; 2]> {
         let pair = |&x: &f32| {
             let outer = if x > 0.0 { fixed(partitioning, low(partitioning), x) } else { 0 };
             [outer, fixed(partitioning, low_inside(partitioning), x)].map(FixedFactor::from_bits)
@@ -54,7 +50,7 @@ impl Backend for SecondFormulation {
         split: SplitOrder,
         parity: Parity,
         factors: &[FixedFactor],
-    ) -> Result<Vec<FactorContext>, BackendError> {
+    ) -> Answers<FactorContext> {
         let partitioning = match parity {
             Parity::Even => Partitioning::FractionalEven,
             Parity::Odd => Partitioning::FractionalOdd,
@@ -71,7 +67,7 @@ impl Backend for SecondFormulation {
         factors.iter().map(context).collect()
     }
 
-    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
+    fn locations(&mut self, contexts: &[FactorContext]) -> Answers<u32> {
         let of_one = |context: &FactorContext| {
             let context = *context;
             (0..context.points).map(move |p| location(&context, p))

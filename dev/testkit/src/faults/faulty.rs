@@ -7,7 +7,7 @@ use tess_core::{
     Config, DomainPoint, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors,
     SplitOrder, Tessellation,
 };
-use tess_verify::{Backend, BackendError};
+use tess_verify::{Answers, Backend};
 
 /// A backend that commits one [`Fault`] in one kind of answer.
 ///
@@ -70,11 +70,7 @@ impl<B: Backend> Backend for Faulty<B> {
         format!("{}, with a planted fault: {:?}", self.inner.device(), self.fault)
     }
 
-    fn tessellate(
-        &mut self,
-        config: Config,
-        patches: &[PatchFactors],
-    ) -> Result<Vec<Tessellation>, BackendError> {
+    fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation> {
         let mut outputs = self.inner.tessellate(config, patches)?;
         let fault = self.fault;
         if !self.committed.load(Ordering::Relaxed) && self.strikes(&Fault::OF_PATCHES) {
@@ -90,7 +86,7 @@ impl<B: Backend> Backend for Faulty<B> {
         &mut self,
         partitioning: Partitioning,
         values: &[f32],
-    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
+    ) -> Answers<[FixedFactor; 2]> {
         let mut factors = self.inner.fixed_factors(partitioning, values)?;
         let which = usize::from(self.fault == Fault::InsideFactor);
         if self.strikes(&Fault::OF_FACTORS) {
@@ -108,7 +104,7 @@ impl<B: Backend> Backend for Faulty<B> {
         split: SplitOrder,
         parity: Parity,
         factors: &[FixedFactor],
-    ) -> Result<Vec<FactorContext>, BackendError> {
+    ) -> Answers<FactorContext> {
         let mut contexts = self.inner.contexts(split, parity, factors)?;
         let fault = self.fault;
         if self.strikes(&Fault::OF_CONTEXTS) {
@@ -120,7 +116,7 @@ impl<B: Backend> Backend for Faulty<B> {
         Ok(contexts)
     }
 
-    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
+    fn locations(&mut self, contexts: &[FactorContext]) -> Answers<u32> {
         let mut locations = self.inner.locations(contexts)?;
         if self.strikes(&Fault::OF_LOCATIONS) {
             match self.fault {

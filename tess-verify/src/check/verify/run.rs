@@ -2,7 +2,7 @@
 
 use super::units::VALUES;
 use super::{Subject, Unit, Units};
-use crate::backend::{Backend, BackendError, all_answered};
+use crate::backend::{Answers, Backend, BackendError, all_answered};
 use crate::case::Case;
 use crate::check::Known;
 use crate::check::compare::{self, Mismatch, SpecStage};
@@ -51,7 +51,7 @@ pub fn verify(
     shard: Shard,
     known: &Known,
     progress: &(dyn Fn(u64, u64) + Sync),
-) -> Result<Vec<SubjectRow>, BackendError> {
+) -> Answers<SubjectRow> {
     if workers.first().is_none_or(Vec::is_empty) {
         return Err(BackendError::new("no backend to verify"));
     }

@@ -9,7 +9,7 @@ use tess_core::{
 use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
 use tess_gpu::{Numbering, Setup, Tap};
 use tess_verify::generate::IndexWidth;
-use tess_verify::{Backend, BackendError};
+use tess_verify::{Answers, Backend, BackendError};
 use tess_wgpu::{Gpu, Output, Tessellator};
 
 /// `tess-gpu` on the first adapter that there is, with WebGPU's default limits.
@@ -34,7 +34,7 @@ impl GpuBackend {
         partitioning: Partitioning,
         split: SplitOrder,
         input: &[u32],
-    ) -> Result<Vec<u32>, BackendError> {
+    ) -> Answers<u32> {
         let config = Config { split, ..Config::new(partitioning, OutputPrimitive::Point) };
         let setup = Setup::new(Domain::Triangle, config);
         self.tessellator.tap(&self.gpu, tap, setup, input).map_err(BackendError::new)
@@ -59,11 +59,7 @@ impl Backend for GpuBackend {
         self.gpu.name()
     }
 
-    fn tessellate(
-        &mut self,
-        config: Config,
-        patches: &[PatchFactors],
-    ) -> Result<Vec<Tessellation>, BackendError> {
+    fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation> {
         let Some(first) = patches.first() else { return Ok(Vec::new()) };
         let setup = setup_of(first.domain(), config, self.index_type);
         let output = self.tessellator.tessellate(&self.gpu, setup, patches);
@@ -74,7 +70,7 @@ impl Backend for GpuBackend {
         &mut self,
         partitioning: Partitioning,
         values: &[f32],
-    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
+    ) -> Answers<[FixedFactor; 2]> {
         let patch = |x: &f32| [x.to_bits(), 3f32.to_bits(), 3f32.to_bits(), x.to_bits()];
         let input: Vec<u32> = values.iter().flat_map(patch).collect();
         let words = self.tap(Tap::Factors, partitioning, SplitOrder::Ruler, &input)?;
@@ -86,14 +82,14 @@ impl Backend for GpuBackend {
         split: SplitOrder,
         parity: Parity,
         factors: &[FixedFactor],
-    ) -> Result<Vec<FactorContext>, BackendError> {
+    ) -> Answers<FactorContext> {
         let pair = |factor: &FixedFactor| [factor.to_bits(), parity.odd()];
         let input: Vec<u32> = factors.iter().flat_map(pair).collect();
         let words = self.tap(Tap::Contexts, Partitioning::Integer, split, &input)?;
         Ok(words.as_chunks().0.iter().copied().map(unpack_context).collect())
     }
 
-    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
+    fn locations(&mut self, contexts: &[FactorContext]) -> Answers<u32> {
         let input: Vec<u32> = contexts.iter().flat_map(pack_context).collect();
         let words = self.tap(Tap::Locations, Partitioning::Integer, SplitOrder::Ruler, &input)?;
         let all = words.as_chunks::<65>().0.iter().zip(contexts);
@@ -104,10 +100,7 @@ impl Backend for GpuBackend {
 }
 
 /// The patches of a batch, one after another, as the specification numbers them.
-pub(crate) fn split_by_patch(
-    output: &Output,
-    setup: Setup,
-) -> Result<Vec<Tessellation>, BackendError> {
+pub(crate) fn split_by_patch(output: &Output, setup: Setup) -> Answers<Tessellation> {
     let each = setup.indices_per_primitive() as usize;
     let end = [output.points.len(), output.indices.len() / each];
     let begins = output.begins.iter().map(|begin| begin.map(|element| element as usize));

@@ -7,7 +7,7 @@ use tess_core::{
     SplitOrder, Tessellation,
 };
 use tess_simd::{IndexFormat, Level, LevelUnavailable, Numbering, Output, Tessellator};
-use tess_verify::{Backend, BackendError};
+use tess_verify::{Answers, Backend, BackendError};
 
 /// `tess-simd` at one CPU level, with indices of 16 or 32 bits.
 #[derive(Debug)]
@@ -35,11 +35,7 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
         self.level.to_string()
     }
 
-    fn tessellate(
-        &mut self,
-        config: Config,
-        patches: &[PatchFactors],
-    ) -> Result<Vec<Tessellation>, BackendError> {
+    fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation> {
         let Self { level, tessellators, output } = self;
         let tessellator = match tessellators.entry(config) {
             Entry::Occupied(known) => known.into_mut(),
@@ -66,7 +62,7 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
         &mut self,
         partitioning: Partitioning,
         values: &[f32],
-    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
+    ) -> Answers<[FixedFactor; 2]> {
         tess_simd::fixed_factors(self.level, partitioning, values).map_err(BackendError::new)
     }
 
@@ -75,11 +71,11 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
         split: SplitOrder,
         parity: Parity,
         factors: &[FixedFactor],
-    ) -> Result<Vec<FactorContext>, BackendError> {
+    ) -> Answers<FactorContext> {
         tess_simd::contexts(self.level, split, parity, factors).map_err(BackendError::new)
     }
 
-    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
+    fn locations(&mut self, contexts: &[FactorContext]) -> Answers<u32> {
         tess_simd::locations(self.level, contexts).map_err(BackendError::new)
     }
 }
