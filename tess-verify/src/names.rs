@@ -44,6 +44,22 @@ pub struct UnknownName {
     pub known: Vec<&'static str>,
 }
 
+/// An enum whose values stand each beside its name.
+macro_rules! named {
+    ($(#[$of_type:meta])* $visible:vis enum $type:ident: $what:literal {
+        $($(#[$of_value:meta])* $value:ident = $name:literal,)*
+    }) => {
+        $(#[$of_type])*
+        $visible enum $type { $($(#[$of_value])* $value,)* }
+
+        impl $crate::names::Named for $type {
+            const WHAT: &'static str = $what;
+            const NAMES: &'static [(&'static str, Self)] = &[$(($name, Self::$value)),*];
+        }
+    };
+}
+pub(crate) use named;
+
 impl Named for Domain {
     const WHAT: &'static str = "domain";
     const NAMES: &'static [(&'static str, Self)] =

@@ -2,25 +2,21 @@
 
 use super::standard::{Rule, Specification};
 use crate::case::Case;
-use crate::names::Named;
+use crate::names::{Named, named};
 use std::fmt;
 
-/// What became of a rule.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Verdict {
-    /// Every patch or pair that it judged is as it demands.
-    Held,
-    /// Some are not.
-    Broken,
-    /// No patch or pair could show a fault.
-    NotExercised,
-}
-
-impl Named for Verdict {
-    const WHAT: &'static str = "verdict";
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("held", Self::Held), ("broken", Self::Broken), ("not exercised", Self::NotExercised)];
+named! {
+    /// What became of a rule.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum Verdict: "verdict" {
+        /// Every patch or pair that it judged is as it demands.
+        Held = "held",
+        /// Some are not.
+        Broken = "broken",
+        /// No patch or pair could show a fault.
+        NotExercised = "not exercised",
+    }
 }
 
 /// The smallest example of a broken rule.

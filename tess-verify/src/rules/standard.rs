@@ -1,89 +1,63 @@
 //! The rules, and where each standard states them.
 
-use crate::names::Named;
+use crate::names::{Named, named};
 
-/// A standard whose tessellator this is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Specification {
-    /// Vulkan.
-    Vulkan,
-    /// OpenGL.
-    OpenGl,
-    /// Direct3D 11.
-    D3d11,
+named! {
+    /// A standard whose tessellator this is.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum Specification: "specification" {
+        /// Vulkan.
+        Vulkan = "vulkan",
+        /// OpenGL.
+        OpenGl = "opengl",
+        /// Direct3D 11.
+        D3d11 = "d3d11",
+    }
 }
 
-/// What a standard demands of output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Rule {
-    /// Equal levels and state give equal primitives in equal order.
-    Same,
-    /// The vertices of an outer edge depend on the edge's own level and the spacing.
-    EdgeLevel,
-    /// The vertices of an outer edge are mirrored about its middle.
-    Symmetric,
-    /// Equal levels give equal vertices on every outer edge.
-    EveryEdge,
-    /// The winding does not change the set of triangles.
-    Winding,
-    /// Triangles without a vertex on the outline depend on the inner levels and the spacing.
-    Interior,
-    /// Triangles at an outer edge depend on its level, the inner levels and the spacing.
-    Transition,
-    /// Vertices exist and lie in the domain.
-    Range,
-    /// A patch has no primitive if and only if an outer level is not above 0, or NaN.
-    Discard,
-    /// An edge has as many segments as its level asks for.
-    Segments,
-    /// Segments are equally long but for two, which lie symmetrically.
-    Spacing,
-    /// The two shorter segments do not shrink as the level grows.
-    Monotone,
-    /// Triangles cover the domain once: every edge within is shared, and the outline is walked once.
-    Cover,
-    /// No triangle turns the other way.
-    Orientation,
-    /// Isolines are equally spaced, none lies at v = 1, and each covers its line once.
-    Isolines,
-    /// Points are drawn once each.
-    PointsOnce,
-    /// Points are the vertices that lines or triangles of the same levels have.
-    PointsSame,
-    /// There are as many primitives as the levels ask for, degenerate ones included.
-    Counts,
-}
-
-impl Named for Specification {
-    const WHAT: &'static str = "specification";
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("vulkan", Self::Vulkan), ("opengl", Self::OpenGl), ("d3d11", Self::D3d11)];
-}
-
-impl Named for Rule {
-    const WHAT: &'static str = "rule";
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("same", Self::Same),
-        ("edge-level", Self::EdgeLevel),
-        ("symmetric", Self::Symmetric),
-        ("every-edge", Self::EveryEdge),
-        ("winding", Self::Winding),
-        ("interior", Self::Interior),
-        ("transition", Self::Transition),
-        ("range", Self::Range),
-        ("discard", Self::Discard),
-        ("segments", Self::Segments),
-        ("spacing", Self::Spacing),
-        ("monotone", Self::Monotone),
-        ("cover", Self::Cover),
-        ("orientation", Self::Orientation),
-        ("isolines", Self::Isolines),
-        ("points-once", Self::PointsOnce),
-        ("points-same", Self::PointsSame),
-        ("counts", Self::Counts),
-    ];
+named! {
+    /// What a standard demands of output.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[non_exhaustive]
+    pub enum Rule: "rule" {
+        /// Equal levels and state give equal primitives in equal order.
+        Same = "same",
+        /// The vertices of an outer edge depend on the edge's own level and the spacing.
+        EdgeLevel = "edge-level",
+        /// The vertices of an outer edge are mirrored about its middle.
+        Symmetric = "symmetric",
+        /// Equal levels give equal vertices on every outer edge.
+        EveryEdge = "every-edge",
+        /// The winding does not change the set of triangles.
+        Winding = "winding",
+        /// Triangles without a vertex on the outline depend on the inner levels and the spacing.
+        Interior = "interior",
+        /// Triangles at an outer edge depend on its level, the inner levels and the spacing.
+        Transition = "transition",
+        /// Vertices exist and lie in the domain.
+        Range = "range",
+        /// A patch has no primitive if and only if an outer level is not above 0, or NaN.
+        Discard = "discard",
+        /// An edge has as many segments as its level asks for.
+        Segments = "segments",
+        /// Segments are equally long but for two, which lie symmetrically.
+        Spacing = "spacing",
+        /// The two shorter segments do not shrink as the level grows.
+        Monotone = "monotone",
+        /// Triangles cover the domain once: every edge within is shared, and the outline is walked once.
+        Cover = "cover",
+        /// No triangle turns the other way.
+        Orientation = "orientation",
+        /// Isolines are equally spaced, none lies at v = 1, and each covers its line once.
+        Isolines = "isolines",
+        /// Points are drawn once each.
+        PointsOnce = "points-once",
+        /// Points are the vertices that lines or triangles of the same levels have.
+        PointsSame = "points-same",
+        /// There are as many primitives as the levels ask for, degenerate ones included.
+        Counts = "counts",
+    }
 }
 
 /// Where Vulkan, OpenGL and Direct3D 11 state each rule, in the order of [`Rule`]; empty where a standard has no such
@@ -94,25 +68,20 @@ const SOURCES: [[&str; 3]; Rule::NAMES.len()] = {
     const GL: &str = "11.2.2 Tessellation Primitive Generation";
     const SPACING: &str = "22.3 Tessellator Spacing";
     const POINTS: &str = "22.9 Tessellation Point Mode";
-    const RULES: [&str; 8] = [
-        "Tessellation Invariance, rule 1",
-        "Tessellation Invariance, rule 2",
-        "Tessellation Invariance, rule 3",
-        "Tessellation Invariance, rule 4",
-        "Tessellation Invariance, rule 5",
-        "Tessellation Invariance, rule 6",
-        "Tessellation Invariance, rule 7",
-        "Tessellation Invariance, rule 8",
-    ];
+    macro_rules! rule {
+        ($number:literal) => {
+            concat!("Tessellation Invariance, rule ", $number)
+        };
+    }
     [
-        [RULES[0], RULES[0], "13 What the public specification leaves open: order"],
-        [RULES[1], RULES[1], "12.5 Crack-free"],
-        [RULES[2], RULES[2], "12.2 Symmetry"],
-        [RULES[3], RULES[3], "12.5 Crack-free"],
-        [RULES[4], RULES[4], "12.7 Winding"],
-        [RULES[5], RULES[5], ""],
-        [RULES[6], RULES[6], ""],
-        [RULES[7], RULES[7], "12.1 Range"],
+        [rule!(1), rule!(1), "13 What the public specification leaves open: order"],
+        [rule!(2), rule!(2), "12.5 Crack-free"],
+        [rule!(3), rule!(3), "12.2 Symmetry"],
+        [rule!(4), rule!(4), "12.5 Crack-free"],
+        [rule!(5), rule!(5), "12.7 Winding"],
+        [rule!(6), rule!(6), ""],
+        [rule!(7), rule!(7), ""],
+        [rule!(8), rule!(8), "12.1 Range"],
         ["22.2 Tessellator Patch Discard", GL, "3 Factor processing: cull"],
         [SPACING, GL, ""],
         [SPACING, GL, ""],

@@ -6,7 +6,7 @@ use super::listing::Listing;
 use super::row::decimal;
 use super::words::{self, too_many};
 use crate::case::Case;
-use crate::names::Named;
+use crate::names::{Named, named};
 use crate::quote::quoted;
 use crate::vectors::coordinate::{fixed, from_decimal};
 use std::fmt;
@@ -101,21 +101,17 @@ impl fmt::Display for Coordinates {
     }
 }
 
-/// How coordinates are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Notation {
-    /// 16.16 numbers of 5 to 8 hex digits: 10000 is 1.
-    Hex,
-    /// 16.16 numbers, decimal: 65536 is 1.
-    Decimal,
-    /// Numbers from 0 to 1, or `0x` and the bits of a binary32.
-    Float,
-}
-
-impl Named for Notation {
-    const WHAT: &'static str = "notation";
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("hex", Self::Hex), ("decimal", Self::Decimal), ("float", Self::Float)];
+named! {
+    /// How coordinates are written.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    enum Notation: "notation" {
+        /// 16.16 numbers of 5 to 8 hex digits: 10000 is 1.
+        Hex = "hex",
+        /// 16.16 numbers, decimal: 65536 is 1.
+        Decimal = "decimal",
+        /// Numbers from 0 to 1, or `0x` and the bits of a binary32.
+        Float = "float",
+    }
 }
 
 impl Notation {

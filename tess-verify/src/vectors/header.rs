@@ -3,41 +3,30 @@
 use super::error::VectorError;
 use super::lines::Line;
 use super::row::decimal;
-use crate::names::Named;
+use crate::names::{Named, named};
 use crate::quote::quoted;
 use std::fmt;
 
-/// What the records of a vector file are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Kind {
-    /// Whole outputs.
-    Listings,
-    /// Single patches: counts and digests.
-    Patches,
-    /// Rows of 64 patches of a systematic sweep, one chained digest.
-    Sweep,
-    /// Rows of up to 100 patches with equal factors, one chained digest.
-    Uniform,
-    /// All fractions of a factor's integer part: digests of contexts and locations.
-    Locations,
-    /// All binary32 of a binade: digests of processed factors.
-    Factors,
-    /// Factor preparation.
-    Preparation,
-}
-
-impl Named for Kind {
-    const WHAT: &'static str = "kind";
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("listings", Self::Listings),
-        ("patches", Self::Patches),
-        ("sweep", Self::Sweep),
-        ("uniform", Self::Uniform),
-        ("locations", Self::Locations),
-        ("factors", Self::Factors),
-        ("preparation", Self::Preparation),
-    ];
+named! {
+    /// What the records of a vector file are.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[non_exhaustive]
+    pub enum Kind: "kind" {
+        /// Whole outputs.
+        Listings = "listings",
+        /// Single patches: counts and digests.
+        Patches = "patches",
+        /// Rows of 64 patches of a systematic sweep, one chained digest.
+        Sweep = "sweep",
+        /// Rows of up to 100 patches with equal factors, one chained digest.
+        Uniform = "uniform",
+        /// All fractions of a factor's integer part: digests of contexts and locations.
+        Locations = "locations",
+        /// All binary32 of a binade: digests of processed factors.
+        Factors = "factors",
+        /// Factor preparation.
+        Preparation = "preparation",
+    }
 }
 
 impl Kind {

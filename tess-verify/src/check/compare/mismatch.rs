@@ -1,45 +1,38 @@
 //! A difference: the element, both values, and the stage of the specification that it points to.
 
+use crate::names::{Named, named};
 use std::fmt;
 use tess_core::FixedFactor;
 
-/// A stage on a patch's way, as far as a difference can be traced back; in the order of that way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
-pub enum SpecStage {
-    /// Factor preparation (spec section 9).
-    Preparation,
-    /// Factor processing (spec section 3).
-    Factors,
-    /// Factor contexts (spec section 4).
-    Context,
-    /// Numbers of points and indices (spec section 12.6).
-    Counts,
-    /// Placing of points (spec sections 5 and 6).
-    Location,
-    /// The right points in another order (spec section 6).
-    PointOrder,
-    /// Connectivity (spec sections 7 and 8).
-    Stitch,
-    /// Another case was answered than was asked.
-    Answer,
-    /// A digest over whole patches differs, every element of which is the model's.
-    Unknown,
+named! {
+    /// A stage on a patch's way, as far as a difference can be traced back; in the order of that way.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    #[non_exhaustive]
+    pub enum SpecStage: "stage" {
+        /// Factor preparation (spec section 9).
+        Preparation = "preparation",
+        /// Factor processing (spec section 3).
+        Factors = "factors",
+        /// Factor contexts (spec section 4).
+        Context = "context",
+        /// Numbers of points and indices (spec section 12.6).
+        Counts = "counts",
+        /// Placing of points (spec sections 5 and 6).
+        Location = "location",
+        /// The right points in another order (spec section 6).
+        PointOrder = "point order",
+        /// Connectivity (spec sections 7 and 8).
+        Stitch = "stitch",
+        /// Another case was answered than was asked.
+        Answer = "answer",
+        /// A digest over whole patches differs, every element of which is the model's.
+        Unknown = "unknown, every element is the model's",
+    }
 }
 
 impl fmt::Display for SpecStage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Preparation => "preparation",
-            Self::Factors => "factors",
-            Self::Context => "context",
-            Self::Counts => "counts",
-            Self::Location => "location",
-            Self::PointOrder => "point order",
-            Self::Stitch => "stitch",
-            Self::Answer => "answer",
-            Self::Unknown => "unknown, every element is the model's",
-        })
+        f.write_str(self.name())
     }
 }
 
