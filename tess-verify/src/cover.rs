@@ -16,7 +16,6 @@ use crate::case::Case;
 pub use exclusions::{Exclusions, UnknownBin};
 use std::collections::BTreeMap;
 use std::fmt;
-use std::io;
 use tess_core::{FactorContext, SplitOrder};
 
 /// How often each bin was hit. A bin is a path such as `middle/oddxeven`; the part before the
@@ -113,21 +112,6 @@ impl Coverage {
         self.hits.get(bin).copied()
     }
 
-    /// The coverage as UCIS XML, which the tools of verification read. Equal coverage gives equal
-    /// bytes.
-    #[must_use]
-    pub fn to_ucis(&self) -> String {
-        ucis::write(self)
-    }
-
-    /// Reads what [`Coverage::to_ucis`] gave. A file that is longer is not read to its end.
-    ///
-    /// # Errors
-    /// What the reader says; [`io::ErrorKind::InvalidData`] for any other text, and for files of a version with other bins, with the line.
-    pub fn read_ucis(reader: impl io::Read) -> io::Result<Self> {
-        ucis::read_bounded(reader)
-    }
-
     /// The bins that were never hit, in alphabetical order.
     pub fn missed(&self) -> impl Iterator<Item = &str> {
         self.hits.iter().filter(|(_, hits)| **hits == 0).map(|(bin, _)| bin.as_str())
@@ -176,19 +160,6 @@ impl Coverage {
             group.hit += usize::from(hits > 0 && !is_excluded);
         }
         groups.into_values().collect()
-    }
-
-    /// The report as text: a line for each group by stage, with sums, then every bin that was missed and
-    /// is not excluded.
-    #[must_use]
-    pub fn report(&self, exclusions: &Exclusions) -> String {
-        report::text(self, exclusions)
-    }
-
-    /// The report as one HTML file, which says that the hits are those of `sources`.
-    #[must_use]
-    pub fn to_html(&self, exclusions: &Exclusions, sources: &[String]) -> String {
-        html::document(self, exclusions, sources)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::quote::quoted;
 use tess_core::prepare::{QuadAxes, Reduction};
-use tess_core::{Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
+use tess_core::{Domain, OutputPrimitive, Parity, Partitioning, Patch, ProcessedPatch, SplitOrder};
 
 /// A choice whose values have names.
 pub trait Named: Copy + PartialEq + 'static {
@@ -42,6 +42,15 @@ pub struct UnknownName {
     pub name: String,
     /// The names there are.
     pub known: Vec<&'static str>,
+}
+
+/// The way that a patch takes: `culled`, `minimum` or `regular`.
+pub(crate) const fn way_of(patch: &Patch) -> &'static str {
+    match patch.processed() {
+        ProcessedPatch::Culled => "culled",
+        ProcessedPatch::Minimum(_) => "minimum",
+        ProcessedPatch::Regular(_) => "regular",
+    }
 }
 
 /// An enum whose values stand each beside its name.

@@ -19,31 +19,31 @@ tr.sum { font-weight: 600; background: #f6f8fa }
 ul { columns: 26rem; font: 13px/1.5 ui-monospace, monospace; list-style: none; padding: 0 }
 ";
 
-/// The document; `sources` are the names of the files that were added up.
-pub(super) fn document(coverage: &Coverage, exclusions: &Exclusions, sources: &[String]) -> String {
-    let all = sum(&coverage.groups_without(exclusions));
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Coverage of the \
-         tessellator</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<h1>Coverage of the tessellator</h1>\n"
-    );
-    let left = all.bins - all.excluded;
-    // Writing to a String does not fail.
-    _ = writeln!(
-        page,
-        "<p>{} of {left} bins were hit: {} %. {} more are excluded.</p>",
-        all.hit,
-        percent(&all),
-        all.excluded
-    );
-    let names: Vec<String> = sources.iter().map(|name| escape(name)).collect();
-    if !names.is_empty() {
-        _ = writeln!(page, "<p>Hits of {}.</p>", names.join(", "));
+impl Coverage {
+    /// The report as one HTML file, which says that the hits are those of `sources`.
+    #[must_use]
+    pub fn to_html(&self, exclusions: &Exclusions, sources: &[String]) -> String {
+        let all = sum(&self.groups_without(exclusions));
+        let mut page = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Coverage of the \
+             tessellator</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<h1>Coverage of the tessellator</h1>\n"
+        );
+        let (hit, left, percent) = (all.hit, all.bins - all.excluded, percent(&all));
+        let excluded = all.excluded;
+        // Writing to a String does not fail.
+        _ = writeln!(
+            page,
+            "<p>{hit} of {left} bins were hit: {percent} %. {excluded} more are excluded.</p>"
+        );
+        let names: Vec<String> = sources.iter().map(|name| escape(name)).collect();
+        if !names.is_empty() {
+            _ = writeln!(page, "<p>Hits of {}.</p>", names.join(", "));
+        }
+        wrong(&mut page, self, exclusions);
+        table(&mut page, self, exclusions, &all);
+        holes(&mut page, self, exclusions);
+        page + "</body>\n</html>\n"
     }
-    wrong(&mut page, coverage, exclusions);
-    table(&mut page, coverage, exclusions, &all);
-    holes(&mut page, coverage, exclusions);
-    page.push_str("</body>\n</html>\n");
-    page
 }
 
 fn wrong(page: &mut String, coverage: &Coverage, exclusions: &Exclusions) {

@@ -2,7 +2,7 @@
 
 use super::boundary;
 use crate::case::Case;
-use crate::names::Named;
+use crate::names::{Named, way_of};
 use tess_core::{
     Domain, FactorContext, Parity, Partitioning, PatchFactors, ProcessedFactor, ProcessedPatch,
     SplitOrder, place,
@@ -31,12 +31,7 @@ pub(super) fn observe(case: &Case, mut hit: impl FnMut(String)) {
 
 /// What a patch may leave behind for the next: its domain, and which way it takes.
 pub(super) fn kind(case: &Case) -> String {
-    let way = match case.patch().processed() {
-        ProcessedPatch::Culled => "culled",
-        ProcessedPatch::Minimum(_) => "minimum",
-        ProcessedPatch::Regular(_) => "regular",
-    };
-    format!("{}_{way}", case.domain().name())
+    format!("{}_{}", case.domain().name(), way_of(&case.patch()))
 }
 
 fn culled(case: &Case, hit: &mut impl FnMut(String)) {

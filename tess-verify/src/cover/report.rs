@@ -59,30 +59,36 @@ pub(super) fn percent(group: &BinGroup) -> String {
     }
 }
 
-/// The report.
-pub(super) fn text(coverage: &Coverage, exclusions: &Exclusions) -> String {
-    let mut text = format!(
-        "{:<14} {:<14} {:>5} {:>5} {:>8} {:>7}\n",
-        "stage", "group", "bins", "hit", "excluded", "percent"
-    );
-    // Writing to a String does not fail.
-    let mut row = |stage: &str, group: &BinGroup| {
-        let BinGroup { name, bins, hit, excluded, .. } = group;
-        let percent = percent(group);
-        _ = writeln!(text, "{stage:<14} {name:<14} {bins:>5} {hit:>5} {excluded:>8} {percent:>7}");
-    };
-    for (groups, sum, _) in by_stage(coverage, exclusions) {
-        groups.iter().for_each(|group| row(group.stage, group));
-        if groups.len() > 1 {
-            row(sum.stage, &sum);
+impl Coverage {
+    /// The report as text: a line for each group by stage, with sums, then every bin that was missed and
+    /// is not excluded.
+    #[must_use]
+    pub fn report(&self, exclusions: &Exclusions) -> String {
+        let mut text = format!(
+            "{:<14} {:<14} {:>5} {:>5} {:>8} {:>7}\n",
+            "stage", "group", "bins", "hit", "excluded", "percent"
+        );
+        // Writing to a String does not fail.
+        let mut row = |stage: &str, group: &BinGroup| {
+            let BinGroup { name, bins, hit, excluded, .. } = group;
+            let percent = percent(group);
+            _ = writeln!(
+                text,
+                "{stage:<14} {name:<14} {bins:>5} {hit:>5} {excluded:>8} {percent:>7}"
+            );
+        };
+        for (groups, sum, _) in by_stage(self, exclusions) {
+            groups.iter().for_each(|group| row(group.stage, group));
+            if groups.len() > 1 {
+                row(sum.stage, &sum);
+            }
         }
+        row("all", &sum(&self.groups_without(exclusions)));
+        self.hit_though_excluded(exclusions)
+            .for_each(|bin| _ = writeln!(text, "excluded, but hit {bin}"));
+        self.holes(exclusions).for_each(|bin| _ = writeln!(text, "missed {bin}"));
+        text
     }
-    row("all", &sum(&coverage.groups_without(exclusions)));
-    coverage
-        .hit_though_excluded(exclusions)
-        .for_each(|bin| _ = writeln!(text, "excluded, but hit {bin}"));
-    coverage.holes(exclusions).for_each(|bin| _ = writeln!(text, "missed {bin}"));
-    text
 }
 
 #[cfg(test)]

@@ -26,45 +26,51 @@ const TAIL: &str = "</cgInstance>\n</covergroupCoverage>\n</instanceCoverages>\n
 /// What stands before the hits of a bin.
 const HITS: &str = "<contents coverageCount=\"";
 
-/// The file.
-pub(super) fn write(coverage: &Coverage) -> String {
-    let mut text = format!("{HEAD}\n");
-    let mut of_group = "";
-    let mut number = 0;
-    // Writing to a String does not fail.
-    for (bin, hits) in coverage.bins() {
-        let (group, name) = bin.split_once('/').unwrap_or((bin, bin));
-        if group != of_group {
-            let end = if of_group.is_empty() { "" } else { "</coverpoint>\n" };
-            _ = writeln!(text, "{end}<coverpoint name=\"{group}\" key=\"0\">\n<options/>");
-            (of_group, number) = (group, 0);
+impl Coverage {
+    /// The coverage as UCIS XML, which the tools of verification read. Equal coverage gives equal
+    /// bytes.
+    #[must_use]
+    pub fn to_ucis(&self) -> String {
+        let mut text = format!("{HEAD}\n");
+        let mut of_group = "";
+        let mut number = 0;
+        // Writing to a String does not fail.
+        for (bin, hits) in self.bins() {
+            let (group, name) = bin.split_once('/').unwrap_or((bin, bin));
+            if group != of_group {
+                let end = if of_group.is_empty() { "" } else { "</coverpoint>\n" };
+                _ = writeln!(text, "{end}<coverpoint name=\"{group}\" key=\"0\">\n<options/>");
+                (of_group, number) = (group, 0);
+            }
+            _ = writeln!(
+                text,
+                r#"<coverpointBin name="{name}" type="bins" key="0"><range from="{number}" to="{number}">{HITS}{hits}"/></range></coverpointBin>"#
+            );
+            number += 1;
         }
-        _ = writeln!(
-            text,
-            r#"<coverpointBin name="{name}" type="bins" key="0"><range from="{number}" to="{number}">{HITS}{hits}"/></range></coverpointBin>"#
-        );
-        number += 1;
+        text + "</coverpoint>\n" + TAIL + "\n"
     }
-    text + "</coverpoint>\n" + TAIL + "\n"
+
+    /// Reads what [`Coverage::to_ucis`] gave. A file that is longer is not read to its end.
+    ///
+    /// # Errors
+    /// What the reader says; [`io::ErrorKind::InvalidData`] for any other text, and for files of a version with other bins, with the line.
+    pub fn read_ucis(reader: impl Read) -> io::Result<Self> {
+        let mut bytes = Vec::new();
+        reader.take(MOST_BYTES).read_to_end(&mut bytes)?;
+        let text = String::from_utf8_lossy(&bytes);
+        read(&text).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
+    }
 }
 
-/// More bytes than any file has.
+/// More bytes than any file has: a longer one is wrong in them.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// Reads a file that [`write`] wrote. Of a longer one, which is wrong in its first [`MOST_BYTES`], the
-/// rest is left.
-pub(super) fn read_bounded(reader: impl Read) -> io::Result<Coverage> {
-    let mut bytes = Vec::new();
-    reader.take(MOST_BYTES).read_to_end(&mut bytes)?;
-    let text = String::from_utf8_lossy(&bytes);
-    read(&text).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
-}
-
-/// Reads a file that [`write`] wrote: as a file without hits, but for the numbers.
+/// Reads such a file: as a file without hits, but for the numbers.
 fn read(text: &str) -> Result<Coverage, String> {
     const NONE: &str = "no coverage file of tess with the bins of this version";
     let mut coverage = Coverage::default();
-    let (empty, none) = (write(&coverage), coverage.clone());
+    let (empty, none) = (coverage.to_ucis(), coverage.clone());
     let (mut bins, mut found) = (none.bins(), text.lines());
     let mut line = 0;
     for expected in empty.lines() {
@@ -116,19 +122,20 @@ mod tests {
         let mut full = Coverage::default();
         let bins: Vec<String> = full.bins().map(|(bin, _)| bin.to_owned()).collect();
         bins.iter().for_each(|bin| assert!(full.add(bin, u64::MAX), "{bin}"));
-        let text = write(&full);
+        let text = full.to_ucis();
         assert!((text.len() as u64) < MOST_BYTES, "{} bytes", text.len());
-        assert_eq!(read_bounded(text.as_bytes()).expect("it is right"), full);
-        let endless = read_bounded(text.as_bytes().chain(io::repeat(b'x'))).expect_err("too long");
+        assert_eq!(Coverage::read_ucis(text.as_bytes()).expect("it is right"), full);
+        let endless =
+            Coverage::read_ucis(text.as_bytes().chain(io::repeat(b'x'))).expect_err("too long");
         assert!(endless.to_string().contains("expected the end of the file"), "{endless}");
-        let wrong = read_bounded(io::repeat(0xFF)).expect_err("no text");
+        let wrong = Coverage::read_ucis(io::repeat(0xFF)).expect_err("no text");
         assert_eq!(wrong.kind(), io::ErrorKind::InvalidData, "{wrong}");
     }
 
     #[test]
     fn files_round_trip() {
         for coverage in [Coverage::default(), some(1)] {
-            assert_eq!(read(&write(&coverage)), Ok(coverage), "the same hits");
+            assert_eq!(read(&coverage.to_ucis()), Ok(coverage), "the same hits");
         }
     }
 
@@ -142,7 +149,7 @@ mod tests {
 
     #[test]
     fn other_files_are_refused() {
-        let text = write(&some(1));
+        let text = some(1).to_ucis();
         let refused = |text: &str| read(text).expect_err("another file");
         assert!(refused("").starts_with("line 1: "), "empty");
         let cut = &text[..text.rfind("</UCIS>").expect("the end")];
@@ -163,7 +170,7 @@ mod tests {
     /// The bins of a coverpoint are numbered from 0, and each group is one coverpoint.
     #[test]
     fn bins_are_numbered_within_their_coverpoint() {
-        let text = write(&Coverage::default());
+        let text = Coverage::default().to_ucis();
         let (mut next, mut coverpoints) = (0, 0);
         for line in text.lines() {
             if line.starts_with("<coverpoint ") {

@@ -14,7 +14,7 @@
 use crate::case::Case;
 use crate::quote::quoted;
 use std::fmt;
-use tess_core::{Parity, ProcessedFactor};
+use tess_core::ProcessedFactor;
 
 /// What a signal describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,11 +168,10 @@ fn values(case: &Case, part: Part) -> Option<Vec<(Signal, u32)>> {
 /// In the order of the signals of `factor`.
 fn factor(factor: &ProcessedFactor) -> Vec<u32> {
     let c = &factor.context;
-    let odd = u32::from(c.parity == Parity::Odd);
     vec![
         0,
         factor.fixed.to_bits(),
-        odd,
+        c.parity.odd(),
         c.fraction,
         c.half_points,
         c.points,

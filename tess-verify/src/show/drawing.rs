@@ -6,9 +6,10 @@ mod colours;
 mod labels;
 mod layout;
 mod overlay;
-mod rings;
 
-use crate::show::picture::{Colour, Picture, Position, Shape};
+#[cfg(feature = "png")]
+use crate::show::picture::png;
+use crate::show::picture::{Colour, Picture, Position, Shape, svg};
 use crate::vectors::Listing;
 use colours::{GRID, INK, PAPER, POINT};
 use layout::Layout;
@@ -88,7 +89,7 @@ impl Drawing {
     /// The picture as an SVG file.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        self.picture.to_svg()
+        svg::render(&self.picture)
     }
 
     /// The picture as a PNG file.
@@ -97,7 +98,7 @@ impl Drawing {
     /// A size of 0, or one that memory does not hold.
     #[cfg(feature = "png")]
     pub fn to_png(&self) -> std::io::Result<Vec<u8>> {
-        self.picture.to_png()
+        png::render(&self.picture)
     }
 
     /// An empty picture with the outline of the domain.
@@ -206,7 +207,8 @@ fn colours_of(patch: &Listing, colours: Colours) -> Vec<Colour> {
         Colours::Plain => vec![colours::PLAIN; count],
         Colours::Order => (0..count).map(|t| colours::along_scale(t, count)).collect(),
         Colours::Rings => {
-            rings::rings(&patch.case.patch(), count).into_iter().map(colours::of_ring).collect()
+            let model = patch.case.patch();
+            (0..).map(|t| colours::of_ring(model.locate_primitive(t))).take(count).collect()
         }
     }
 }

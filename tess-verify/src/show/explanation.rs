@@ -10,13 +10,12 @@ mod text;
 
 use super::Part;
 use crate::case::Case;
-use crate::names::Named;
+use crate::names::{Named, way_of};
 use factors::FactorReport;
 pub(crate) use point::PointReport;
 pub(crate) use primitive::PrimitiveReport;
 use std::fmt;
 use structure::{PointRun, Stitch};
-use tess_core::ProcessedPatch;
 
 /// Where a part of a patch comes from, or every stage of the patch: text, and JSON with the feature `serde`.
 #[derive(Clone, Debug)]
@@ -90,11 +89,7 @@ impl PatchReport {
             partitioning: config.partitioning.name(),
             output: config.output.name(),
             split: config.split.name(),
-            kind: match patch.processed() {
-                ProcessedPatch::Culled => "culled",
-                ProcessedPatch::Minimum(_) => "minimum",
-                ProcessedPatch::Regular(_) => "regular",
-            },
+            kind: way_of(patch),
             decisions: decisions::decisions(patch, raw),
             factors: factors::reports(patch, raw),
             points: counts.points,

@@ -2,8 +2,10 @@
 
 mod digits;
 #[cfg(feature = "png")]
-mod png;
-mod svg;
+pub(super) mod png;
+pub(super) mod svg;
+
+pub(super) use digits::width as number_width;
 
 /// A position in pixels, y down.
 pub(super) type Position = [f64; 2];
@@ -63,23 +65,4 @@ impl Picture {
         let lines = strokes.into_iter().map(|points| Shape::Line { points, width, stroke });
         self.shapes.extend(lines);
     }
-
-    /// The picture as an SVG file.
-    pub(super) fn to_svg(&self) -> String {
-        svg::render(self)
-    }
-
-    /// The picture as a PNG file.
-    ///
-    /// # Errors
-    /// A size of 0, or one that memory does not hold.
-    #[cfg(feature = "png")]
-    pub(super) fn to_png(&self) -> std::io::Result<Vec<u8>> {
-        png::render(self)
-    }
-}
-
-/// Width of a number's bounding box, for digits of this height.
-pub(super) fn number_width(number: u32, height: f64) -> f64 {
-    digits::width(number, height)
 }

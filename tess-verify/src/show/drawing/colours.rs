@@ -7,8 +7,8 @@
     reason = "mixing colours"
 )]
 
-use super::rings::Ring;
 use crate::show::picture::Colour;
+use tess_core::PrimitiveOrigin;
 
 /// Edges and numbers.
 pub(super) const INK: Colour = Colour(0x26, 0x32, 0x38);
@@ -48,14 +48,15 @@ fn mix(from: Colour, to: Colour, part: f64) -> Colour {
     Colour(channel(from.0, to.0), channel(from.1, to.1), channel(from.2, to.2))
 }
 
-/// Transitions stand out; rings alternate; the centre has its own.
-pub(super) const fn of_ring(ring: Ring) -> Colour {
-    match ring {
-        Ring::None => PLAIN,
-        Ring::Transition(edge) if edge % 2 == 0 => Colour(0xf6, 0xc2, 0x8b),
-        Ring::Transition(_) => Colour(0xfb, 0xdc, 0xb4),
-        Ring::Interior(ring) if ring % 2 == 0 => Colour(0xa9, 0xcc, 0xe8),
-        Ring::Interior(_) => Colour(0xd3, 0xe6, 0xf5),
-        Ring::Centre => Colour(0xb9, 0xe2, 0xb5),
+/// Transitions stand out; rings alternate; the centre has its own. Minimum patches and other outputs than triangles
+/// have no ring.
+pub(super) const fn of_ring(origin: Option<PrimitiveOrigin>) -> Colour {
+    match origin {
+        Some(PrimitiveOrigin::Transition { edge, .. }) if edge % 2 == 0 => Colour(0xf6, 0xc2, 0x8b),
+        Some(PrimitiveOrigin::Transition { .. }) => Colour(0xfb, 0xdc, 0xb4),
+        Some(PrimitiveOrigin::Ring { ring, .. }) if ring % 2 == 0 => Colour(0xa9, 0xcc, 0xe8),
+        Some(PrimitiveOrigin::Ring { .. }) => Colour(0xd3, 0xe6, 0xf5),
+        Some(PrimitiveOrigin::Centre { .. }) => Colour(0xb9, 0xe2, 0xb5),
+        _ => PLAIN,
     }
 }

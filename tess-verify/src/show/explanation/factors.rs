@@ -2,8 +2,9 @@
 
 use super::Fixed;
 use crate::case::Case;
+use crate::names::Named;
 use std::fmt;
-use tess_core::{FactorContext, Parity, Patch, PatchFactors, ProcessedFactor};
+use tess_core::{FactorContext, Patch, PatchFactors, ProcessedFactor};
 
 /// A binary32 number; NaN and infinities have no `value` in JSON.
 #[derive(Clone, Copy, Debug)]
@@ -100,10 +101,7 @@ impl From<&ProcessedFactor> for Processed {
             clamped: Float::new(factor.clamped),
             rounded: Float::new(factor.rounded),
             fixed: Fixed::new(factor.fixed.to_bits()),
-            parity: match factor.context.parity {
-                Parity::Even => "even",
-                Parity::Odd => "odd",
-            },
+            parity: factor.context.parity.name(),
             context: Context::from(&factor.context),
         }
     }

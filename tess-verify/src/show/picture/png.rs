@@ -4,7 +4,7 @@ use super::{Colour, Picture, Position, Shape};
 use std::io;
 use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-pub(super) fn render(picture: &Picture) -> io::Result<Vec<u8>> {
+pub(in crate::show) fn render(picture: &Picture) -> io::Result<Vec<u8>> {
     let size = picture.size;
     let mut pixels = Pixmap::new(size, size).ok_or_else(|| {
         io::Error::other(format!("a picture of {size} x {size} pixels cannot be made"))
@@ -95,7 +95,7 @@ mod tests {
             Shape::Polygon { corners: vec![[60.0, 60.0]], fill: BLUE },
         ];
         let picture = Picture { size: 64, title: String::new(), shapes };
-        let png = picture.to_png().expect("a picture");
+        let png = render(&picture).expect("a picture");
         let pixels = Pixmap::decode_png(&png).expect("PNG");
         assert_eq!((pixels.width(), pixels.height()), (64, 64));
         let white = Colour(255, 255, 255);
@@ -120,7 +120,7 @@ mod tests {
         assert_ne!(pixel(&pixels, [26, 48]), white, "the rim");
         let edge = pixel(&pixels, [10, 9]);
         assert!(edge != RED && edge != white, "edges are smooth: {edge:?}");
-        let error = Picture { size: 0, ..picture }.to_png().expect_err("no picture");
+        let error = render(&Picture { size: 0, ..picture }).expect_err("no picture");
         assert!(error.to_string().contains("0 x 0 pixels"), "{error}");
     }
 }

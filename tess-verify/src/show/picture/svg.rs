@@ -4,7 +4,7 @@ use super::{Colour, Picture, Position, Shape};
 use crate::quote::escape;
 use std::fmt::Write;
 
-pub(super) fn render(picture: &Picture) -> String {
+pub(in crate::show) fn render(picture: &Picture) -> String {
     let size = picture.size;
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{size}\" height=\"{size}\" \
