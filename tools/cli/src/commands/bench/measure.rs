@@ -68,7 +68,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<BenchRo
     let in_turn = if is_device { 0 } else { core.parts.len() };
     let take =
         |times: &mut PartTimes, part, run: &mut dyn FnMut() -> Result<Duration, BackendError>| {
-            if sleeps { times.take_one(part, run) } else { times.take(part, threads, run) }
+            times.take(part, || if sleeps { after_a_pause(run) } else { sample(threads, run) })
         };
     for _ in 0..plan.samples {
         for part in 0..parts.len().max(in_turn) {
@@ -129,7 +129,7 @@ impl Core {
 
     /// Takes one more sample of a part.
     fn take(&mut self, part: usize) -> Result<(), BackendError> {
-        self.times.take(part, 1, || self.runner.run(part))
+        self.times.take(part, || sample(1, &mut || self.runner.run(part)))
     }
 
     /// Its speed; `None` beside itself.
@@ -153,25 +153,10 @@ impl PartTimes {
     fn take(
         &mut self,
         part: usize,
-        threads: u32,
-        mut run: impl FnMut() -> Result<Duration, BackendError>,
+        sample: impl FnOnce() -> Result<f64, BackendError>,
     ) -> Result<(), BackendError> {
         if let Some(samples) = self.parts.get_mut(part) {
-            samples.push(sample(threads, &mut run)?);
-        }
-        Ok(())
-    }
-
-    /// Takes the time of one run of a part, if there is such a part, after a pause.
-    #[expect(clippy::disallowed_methods, reason = "a pause has no event to wait for")]
-    fn take_one(
-        &mut self,
-        part: usize,
-        run: impl FnOnce() -> Result<Duration, BackendError>,
-    ) -> Result<(), BackendError> {
-        if let Some(samples) = self.parts.get_mut(part) {
-            std::thread::sleep(PAUSE);
-            samples.push(run()?.as_secs_f64());
+            samples.push(sample()?);
         }
         Ok(())
     }
@@ -185,11 +170,20 @@ impl PartTimes {
 /// In this time threads that have nothing to do fall asleep.
 const PAUSE: Duration = Duration::from_millis(2);
 
+/// The time of one run after a pause, in seconds.
+#[expect(clippy::disallowed_methods, reason = "a pause has no event to wait for")]
+fn after_a_pause(
+    run: &mut dyn FnMut() -> Result<Duration, BackendError>,
+) -> Result<f64, BackendError> {
+    std::thread::sleep(PAUSE);
+    Ok(run()?.as_secs_f64())
+}
+
 /// The mean time of as many runs as take a fifth of a millisecond for each thread, in seconds. The first run of
 /// several threads is not timed: it wakes them.
 fn sample(
     threads: u32,
-    run: &mut impl FnMut() -> Result<Duration, BackendError>,
+    run: &mut dyn FnMut() -> Result<Duration, BackendError>,
 ) -> Result<f64, BackendError> {
     let long_enough = Duration::from_micros(200) * threads;
     if threads > 1 {

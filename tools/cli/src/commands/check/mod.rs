@@ -189,7 +189,7 @@ fn compare(
     recorder.update(|record| record::finish(record, &report));
     if let Some(coverage) = coverage {
         let coverage = coverage.into_inner().unwrap_or_else(PoisonError::into_inner);
-        recorder.update(|record| record::add_coverage(record, &coverage.coverage));
+        recorder.update(|record| record.coverage = Some(coverage_file::hits(&coverage.coverage)));
         coverage.add(|_| Ok(()))?;
     }
     if let Some(failures) = failures {

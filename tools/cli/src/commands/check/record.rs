@@ -2,10 +2,8 @@
 
 use crate::campaign::report::{First, Part, Report};
 use crate::campaign::{Placed, ShardArgs, shard};
-use crate::coverage_file;
 use crate::failure::Failure;
 use tess_verify::check::{self, Checked, Difference, SpecStage};
-use tess_verify::cover::Coverage;
 use tess_verify::vectors::Header;
 use tess_verify::{Case, Named};
 
@@ -56,11 +54,6 @@ pub(super) fn first(difference: &Difference) -> First {
     let case = difference.case.map(|case| case.to_string());
     let (difference, passes_alone) = (difference.mismatch.to_string(), difference.passes_alone);
     First { case, difference, passes_alone }
-}
-
-/// Adds the bins that the file hits.
-pub(super) fn add_coverage(report: &mut Report, coverage: &Coverage) {
-    report.coverage = Some(coverage_file::hits(coverage));
 }
 
 /// Adds how the cases were made, which shards of one campaign have in common.

@@ -7,7 +7,7 @@ use crate::failure::{Exit, Failure};
 use crate::input::Reader;
 use crate::output::{progress, stdout};
 use indicatif::ProgressBar;
-use std::fmt::{self, Display, Formatter};
+use std::fmt::Display;
 use std::io::Write;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -36,7 +36,7 @@ pub(super) fn run(
         )));
     }
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
-    let judges = Mutex::new((Checker::new(specification), BesideModel::default()));
+    let judges = Mutex::new((Checker::new(specification), [0; 3]));
     // One thread, so that records come in their order.
     let mut model: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
     let answered = asked.as_mut().map(|asked| asked as _);
@@ -46,7 +46,7 @@ pub(super) fn run(
             let (checker, beside) = &mut *judges;
             let mut judge = |case: &Case, output: &Tessellation| {
                 checker.add(case, output);
-                beside.add(case, output);
+                beside[beside_model(case, output)] += 1;
             };
             for record in checked.records {
                 match record {
@@ -69,41 +69,20 @@ pub(super) fn run(
         print(&format!("{answers} of answers\n"))?;
     }
     let ended = conclude("listings", &checker.report(), known, recorder)?;
-    print(&beside)?;
+    let [equal, reordered, different] = beside;
+    print(&format!(
+        "patches beside the model: {equal} equal, {reordered} in another order, {different} different\n"
+    ))?;
     Ok(if answers.mismatches > 0 { Exit::Different } else { ended })
 }
 
-/// How patches compare with the model, vertex by vertex. No standard but Direct3D's asks for its order.
-#[derive(Default)]
-struct BesideModel {
-    equal: u64,
-    reordered: u64,
-    different: u64,
-}
-
-impl BesideModel {
-    fn add(&mut self, case: &Case, observed: &Tessellation) {
-        let expected = case.patch().tessellate();
-        let is_equal =
-            |order| Strength { order, ..Strength::default() }.equal(case, observed, &expected);
-        if is_equal(ListOrder::Sequence) {
-            self.equal += 1;
-        } else if is_equal(ListOrder::Any) {
-            self.reordered += 1;
-        } else {
-            self.different += 1;
-        }
-    }
-}
-
-impl Display for BesideModel {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { equal, reordered, different } = self;
-        writeln!(
-            f,
-            "patches beside the model: {equal} equal, {reordered} in another order, {different} different"
-        )
-    }
+/// How a patch compares with the model, vertex by vertex: equal (0), in another order (1), different (2). No standard
+/// but Direct3D's asks for its order.
+fn beside_model(case: &Case, observed: &Tessellation) -> usize {
+    let expected = case.patch().tessellate();
+    let is_equal =
+        |order| Strength { order, ..Strength::default() }.equal(case, observed, &expected);
+    [ListOrder::Sequence, ListOrder::Any].into_iter().position(is_equal).unwrap_or(2)
 }
 
 /// Prints a report and adds each rule to the run's: how many patches it judged, and how many of them break it.

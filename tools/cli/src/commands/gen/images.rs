@@ -2,10 +2,10 @@
 //!
 //! Each is a text of one hex word a line, after a comment that says how the word is laid out.
 
+use super::stages::{position, raw_factors};
 use std::io::{self, Write};
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_core::Config;
 use tess_verify::Case;
-use tess_verify::Named;
 
 /// The names of the four images and of the file with their sizes as macros.
 pub(super) const FILES: [&str; 5] =
@@ -97,22 +97,13 @@ fn number(first: u64) -> io::Result<u32> {
 
 /// The four digits of a case's configuration: positions in the lists of the specification.
 fn configuration(case: &Case) -> String {
-    fn position<T: Named>(value: T) -> usize {
-        T::NAMES.iter().position(|(_, named)| *named == value).unwrap_or(0)
-    }
     let Config { partitioning, output, split } = case.config;
-    format!(
-        "{:x}{:x}{:x}{:x}",
-        position::<Domain>(case.domain()),
-        position::<Partitioning>(partitioning),
-        position::<OutputPrimitive>(output),
-        position::<SplitOrder>(split)
-    )
+    let [domain, partitioning] = [position(case.domain()), position(partitioning)];
+    format!("{domain:x}{partitioning:x}{:x}{:x}", position(output), position(split))
 }
 
 fn factors(case: &Case) -> String {
-    let bits = case.factors.iter().map(f32::to_bits).chain([0; 6]).take(6);
-    bits.map(|bits| format!("{bits:08x}")).collect()
+    raw_factors(case).map(|bits| format!("{bits:08x}")).collect()
 }
 
 fn indices(primitive: &[u32]) -> String {

@@ -3,10 +3,7 @@
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use tess_core::stitch::{Diagonals, Step};
-use tess_core::{
-    Domain, FactorContext, FixedFactor, Parity, Partitioning, ProcessedPatch, Side, SplitOrder,
-    StitchKind, place,
-};
+use tess_core::{FactorContext, FixedFactor, Parity, ProcessedPatch, Side, StitchKind, place};
 use tess_verify::Case;
 use tess_verify::Named;
 
@@ -102,9 +99,15 @@ pub(super) fn rows(block: StageBlock, cases: impl Iterator<Item = Case>) -> BTre
     rows
 }
 
-fn position<T: Named>(value: T) -> u32 {
+/// The number of a value in the list of the specification.
+pub(super) fn position<T: Named>(value: T) -> u32 {
     let found = T::NAMES.iter().zip(0..).find(|((_, named), _)| *named == value);
     found.map_or(0, |(_, number)| number)
+}
+
+/// The bits of six factors, of which those that a domain does not have are 0.
+pub(super) fn raw_factors(case: &Case) -> impl Iterator<Item = u32> {
+    case.factors.iter().map(f32::to_bits).chain([0; 6]).take(6)
 }
 
 fn factors(case: &Case) -> Vec<u32> {
@@ -114,9 +117,8 @@ fn factors(case: &Case) -> Vec<u32> {
         ProcessedPatch::Minimum(_) => 1,
         ProcessedPatch::Regular(_) => 2,
     };
-    let mut row =
-        vec![position::<Domain>(case.domain()), position::<Partitioning>(case.config.partitioning)];
-    row.extend(case.factors.iter().map(f32::to_bits).chain([0; 6]).take(6));
+    let mut row = vec![position(case.domain()), position(case.config.partitioning)];
+    row.extend(raw_factors(case));
     row.push(outcome);
     let processed = patch.processed().factors().into_iter().flat_map(|all| all.iter());
     let numbers = processed.flat_map(|one| [one.fixed.to_bits(), one.context.parity.odd()]);
@@ -136,7 +138,7 @@ fn contexts(case: &Case) -> impl Iterator<Item = ([u32; 3], FactorContext)> {
         .collect();
     let split = case.config.split;
     all.into_iter().map(move |(fixed, parity)| {
-        let input = [position::<SplitOrder>(split), parity.odd(), fixed.to_bits()];
+        let input = [position(split), parity.odd(), fixed.to_bits()];
         (input, FactorContext::new(fixed, parity, split))
     })
 }
@@ -155,7 +157,7 @@ fn stitches(case: &Case, rows: &mut BTreeSet<Vec<u32>>) {
         stitch.steps(split, |step| steps.push(step));
         let last = steps.len().saturating_sub(1);
         for ((number, step), at) in (0..).zip(&steps).zip(0..) {
-            let input = [position::<SplitOrder>(split), kind, middle_turned];
+            let input = [position(split), kind, middle_turned];
             let points = [stitch.outer_points, stitch.inner_points, number];
             let Step { outer, inner, advances, begins } = *step;
             let side = |side: Side| u32::from(side == Side::Outer);
@@ -217,6 +219,7 @@ fn word(block: StageBlock, row: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tess_core::{Domain, Partitioning, SplitOrder};
     use tess_verify::generate::{GenLevel, Selection};
 
     type RowWriter = fn(&mut dyn Write, StageBlock, &BTreeSet<Vec<u32>>) -> io::Result<()>;

@@ -4,7 +4,7 @@ use super::again::{Pattern, command_of};
 use super::campaign::{Campaign, LISTED, SHOWN, ShardFault, option_words};
 use super::read::FoundReport;
 use crate::campaign::junit::{JunitCase, JunitSuite, Outcome, seconds};
-use crate::campaign::report::{Report, State};
+use crate::campaign::report::Report;
 use crate::output::counted;
 use std::fmt::Write;
 
@@ -131,11 +131,7 @@ pub(super) fn csv(campaign: &Campaign) -> String {
     let mut text =
         "shard,shards,state,cases,mismatches,seconds,first,difference,report\n".to_owned();
     for FoundReport { place, report } in campaign.all() {
-        let state = match report.state {
-            State::Done => "done",
-            State::Interrupted => "interrupted",
-            State::Failed => "failed",
-        };
+        let state = format!("{:?}", report.state).to_lowercase();
         let (case, difference) = match &report.first {
             Some(first) => (first.case.as_deref().unwrap_or_default(), first.difference.as_str()),
             None => ("", ""),

@@ -1,11 +1,12 @@
 //! A stage in each language, through naga's writers.
 
 use super::manifest::{Binding, Kind, Sizes, Stage as Described};
+use super::structures::ends_open;
 use super::translation::{Checks, Target, Translation};
 use naga::back::{glsl, hlsl, msl, spv};
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use naga::{Module, ResourceBinding, ShaderStage, TypeInner};
+use naga::{Module, ResourceBinding, ShaderStage};
 use tess_gpu::{Access, Resource, Setup, Stage};
 
 /// A stage in its language.
@@ -229,17 +230,9 @@ impl Read {
 
     /// The bindings whose length only the host knows, in the order in which naga's MSL asks for them.
     fn unsized_bindings(&self) -> Vec<u32> {
-        let ends_open = |inner: &TypeInner| match inner {
-            TypeInner::Array { size: naga::ArraySize::Dynamic, .. } => true,
-            TypeInner::Struct { members, .. } => members.last().is_some_and(|member| {
-                let inner = &self.module.types[member.ty].inner;
-                matches!(inner, TypeInner::Array { size: naga::ArraySize::Dynamic, .. })
-            }),
-            _ => false,
-        };
         let globals = self.module.global_variables.iter();
         globals
-            .filter(|(_, variable)| ends_open(&self.module.types[variable.ty].inner))
+            .filter(|(_, variable)| ends_open(&self.module, variable.ty))
             .filter_map(|(_, variable)| variable.binding.map(|binding| binding.binding))
             .collect()
     }

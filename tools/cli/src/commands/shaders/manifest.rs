@@ -1,6 +1,6 @@
 //! The manifest: what a host needs to run the shaders. docs/shaders.md explains each entry.
 
-use super::plan::{Variant, name_of, resources};
+use super::plan::{Variant, resource_name, resources};
 use super::structures::Structure;
 use super::translation::Translation;
 use super::{INDEX_TYPES, NUMBERINGS, POINTS};
@@ -67,7 +67,7 @@ pub(super) struct Binding {
     pub(super) binding: u32,
     pub(super) kind: Kind,
     pub(super) is_written: bool,
-    #[serde(serialize_with = "lower_case")]
+    #[serde(serialize_with = "resource_name")]
     pub(super) resource: Resource,
     pub(super) hlsl_register: String,
 }
@@ -89,7 +89,7 @@ pub(super) struct Sizes {
 /// The use that the host makes of a buffer.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Role {
-    #[serde(serialize_with = "lower_case")]
+    #[serde(serialize_with = "resource_name")]
     pub(super) resource: Resource,
     pub(super) host: Host,
 }
@@ -111,10 +111,6 @@ pub(super) enum Host {
     Reads,
     /// Only keeps it: its contents pass from one dispatch to another.
     Keeps,
-}
-
-fn lower_case<S: serde::Serializer>(resource: &Resource, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(&name_of(*resource))
 }
 
 impl Manifest {

@@ -1,7 +1,7 @@
 //! The dispatches of a batch of one portion and one window, as formulas: everything that `tess_gpu::Plan` says.
 
 use super::formula::{Formula, Variable};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::mem::offset_of;
 use tess_gpu::layout::Job;
 use tess_gpu::sizes::{ALIGNMENT, BLOCK, CATALOGUE_PATCHES, SECTION, TILE};
@@ -57,17 +57,13 @@ pub(super) enum Count {
     IndirectAt(Formula),
 }
 
-fn resource_name<S: serde::Serializer>(resource: &Resource, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(&name_of(*resource))
-}
-
-fn stage_name<S: serde::Serializer>(stage: &Stage, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(stage.entry_point())
-}
-
 /// The name of a resource in both manifests.
-pub(super) fn name_of(resource: Resource) -> String {
-    format!("{resource:?}").to_lowercase()
+pub(super) fn resource_name<S: Serializer>(of: &Resource, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(&format!("{of:?}").to_lowercase())
+}
+
+fn stage_name<S: Serializer>(stage: &Stage, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(stage.entry_point())
 }
 
 /// Every stage that a variant runs, in the order of [`Stage::ALL`].

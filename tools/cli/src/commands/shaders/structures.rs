@@ -52,18 +52,23 @@ fn add(module: &Module, ty: naga::Handle<naga::Type>, found: &mut Vec<Structure>
         offset: member.offset,
         ty: type_name(module, member.ty),
     };
-    let is_open = members.last().is_some_and(|last| {
-        matches!(
-            module.types[last.ty].inner,
-            TypeInner::Array { size: naga::ArraySize::Dynamic, .. }
-        )
-    });
     let bytes = match members.last() {
-        Some(last) if is_open => last.offset,
+        Some(last) if ends_open(module, last.ty) => last.offset,
         _ => *span,
     };
     let members = members.iter().map(member).collect();
     found.push(Structure { name: name.clone(), bytes, members });
+}
+
+/// Whether only the host knows how long something of this type is: an array, or a structure that ends with one.
+pub(super) fn ends_open(module: &Module, ty: naga::Handle<naga::Type>) -> bool {
+    match &module.types[ty].inner {
+        TypeInner::Array { size: naga::ArraySize::Dynamic, .. } => true,
+        TypeInner::Struct { members, .. } => {
+            members.last().is_some_and(|last| ends_open(module, last.ty))
+        }
+        _ => false,
+    }
 }
 
 fn type_name(module: &Module, ty: naga::Handle<naga::Type>) -> String {

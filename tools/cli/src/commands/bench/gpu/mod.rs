@@ -116,9 +116,7 @@ impl GpuRunner {
         if self.last_use.is_none_or(|last| last.elapsed() > IDLE) {
             let start = Instant::now();
             while start.elapsed() < WARM_UP {
-                self.time(|encoder| {
-                    self.part(part).iter().for_each(|timed| timed.batch.encode(encoder));
-                })?;
+                self.run_part(part)?;
             }
         }
         self.last_use = Some(Instant::now());
@@ -128,6 +126,10 @@ impl GpuRunner {
     fn time(&self, work: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<Duration, BackendError> {
         let time = self.stopwatch.time(&self.gpu, work);
         time.map(Duration::from_nanos).map_err(BackendError::new)
+    }
+
+    fn run_part(&self, part: usize) -> Result<Duration, BackendError> {
+        self.time(|encoder| self.part(part).iter().for_each(|timed| timed.batch.encode(encoder)))
     }
 
     fn part(&self, part: usize) -> &[Timed] {
@@ -191,9 +193,7 @@ impl Runner for GpuRunner {
 
     fn run(&mut self, part: usize) -> Result<Duration, BackendError> {
         self.warm(part)?;
-        self.time(|encoder| {
-            self.part(part).iter().for_each(|timed| timed.batch.encode(encoder));
-        })
+        self.run_part(part)
     }
 
     fn fill(&mut self, part: usize) -> Result<Duration, BackendError> {
