@@ -162,11 +162,12 @@ impl Stream<'_> {
             parts.push((number, &points[first..first + own.len()], own));
             rest = after;
         }
-        let job = self.job;
-        parts
-            .into_par_iter()
-            .with_min_len(PATCHES_PER_TASK)
-            .for_each(|(number, points, out)| evaluate_patch(job, number, points, out));
+        let MeshJob { model, displaced, .. } = *self.job;
+        let parts = parts.into_par_iter().with_min_len(PATCHES_PER_TASK);
+        parts.for_each(|(number, points, out)| match displaced {
+            None => model.patch(number).samples(points, out),
+            Some(displaced) => displaced.patch(number).samples(points, out),
+        });
     }
 }
 
@@ -185,13 +186,6 @@ fn by_domain(
         }
     }
     (triangles, quads)
-}
-
-fn evaluate_patch(job: &MeshJob<'_>, number: usize, points: &[[f32; 2]], out: &mut [Sample]) {
-    match job.displaced {
-        None => job.model.patch(number).samples(points, out),
-        Some(displaced) => displaced.patch(number).samples(points, out),
-    }
 }
 
 impl<F> Group<F> {

@@ -19,13 +19,8 @@ pub(crate) enum MeshStage {
     Output,
 }
 
-const STAGES: [(MeshStage, &str); 5] = [
-    (MeshStage::Load, "load"),
-    (MeshStage::Factors, "factors"),
-    (MeshStage::Tessellation, "tessellation"),
-    (MeshStage::Evaluation, "evaluation"),
-    (MeshStage::Output, "output"),
-];
+/// Their names.
+const STAGES: [&str; 5] = ["load", "factors", "tessellation", "evaluation", "output"];
 
 /// Counts and times of one run.
 #[derive(Clone, Debug, Default)]
@@ -60,7 +55,7 @@ impl fmt::Display for Statistics {
             let rate = *triangles as f64 / seconds.max(1e-9) / 1e6;
             writeln!(f, "{name:>12} {:>10.2} ms {rate:>10.2} M triangles/s", seconds * 1e3)
         };
-        STAGES.iter().try_for_each(|&(stage, name)| line(name, times[stage as usize]))?;
+        STAGES.iter().zip(times).try_for_each(|(name, time)| line(name, *time))?;
         line("all", times.iter().sum())
     }
 }

@@ -4,7 +4,7 @@
 //! Points may have four numbers, x y z w: then they are rational with weight w, a form that the
 //! classic files do not know. The file is text; numbers are separated by blanks, one point a line.
 
-use super::text::{number, quoted, without_mark};
+use super::text::{number, quoted, without_mark, words};
 use glam::{Vec3, Vec4};
 use tess_surface::BezierPatch;
 
@@ -99,8 +99,4 @@ fn point(text: &[u8]) -> Result<Vec4, String> {
         [x, y, z, w] => Ok((Vec3::new(x, y, z) * w).extend(w)),
         _ => Err(wrong()),
     }
-}
-
-fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
-    text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }

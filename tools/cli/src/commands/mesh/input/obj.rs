@@ -4,7 +4,7 @@
 //! and display attributes do not change a surface and are skipped. Points and lines have none; they
 //! are skipped and counted. Every other keyword is an error, so that no misspelt line is lost.
 
-use super::text::{TextLines, TextWords, integer, number, quoted, without_mark};
+use super::text::{TextLines, integer, number, quoted, without_mark, words};
 use glam::{Vec2, Vec3};
 use tess_surface::{Face, PolygonMesh, Sides};
 
@@ -50,7 +50,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
 
 impl Obj {
     fn line(&mut self, number: usize, line: &[u8]) -> Result<(), String> {
-        let mut words = TextWords(line);
+        let mut words = words(line);
         let Some(keyword) = words.next() else { return Ok(()) };
         let words = words.take_while(|word| !word.starts_with(b"#"));
         match keyword {

@@ -39,20 +39,8 @@ impl<'a> Iterator for TextLines<'a> {
 }
 
 /// The words of a line.
-pub(super) struct TextWords<'a>(pub(super) &'a [u8]);
-
-impl<'a> Iterator for TextWords<'a> {
-    type Item = &'a [u8];
-
-    #[inline]
-    fn next(&mut self) -> Option<&'a [u8]> {
-        let start = self.0.iter().position(|byte| !byte.is_ascii_whitespace())?;
-        let rest = &self.0[start..];
-        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
-        let (word, after) = rest.split_at(end);
-        self.0 = after;
-        Some(word)
-    }
+pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
 /// A whole number.
@@ -117,7 +105,7 @@ fn any_number(word: &[u8]) -> Result<f32, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{TextLines, TextWords, decimal, integer, number};
+    use super::{TextLines, decimal, integer, number, words};
 
     #[test]
     fn short_numbers_are_those_of_the_standard_library() {
@@ -168,7 +156,7 @@ mod tests {
     #[test]
     fn lines_and_words() {
         let lines: Vec<_> =
-            TextLines(b"a  b\r\n\n c").map(|line| TextWords(line).collect::<Vec<_>>()).collect();
+            TextLines(b"a  b\r\n\n c").map(|line| words(line).collect::<Vec<_>>()).collect();
         assert_eq!(lines, [vec![&b"a"[..], b"b"], vec![], vec![b"c"]]);
     }
 }

@@ -10,8 +10,9 @@ mod raster;
 use super::input::Up;
 use super::view::CameraView;
 use crate::failure::Failure;
+use crate::output::OutputFile;
 use crate::output::form::FileForm;
-use std::io;
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use tess_surface::Sample;
 
@@ -59,7 +60,9 @@ impl MeshFile {
     /// Begins an output. Errors: a place that cannot be written to.
     pub(crate) fn open(path: &Path, form: ResultForm, options: &Options) -> Result<Self, Failure> {
         let sink: Box<dyn Sink> = match form {
-            ResultForm::Obj => Box::new(obj::Obj::create(path)?),
+            ResultForm::Obj => {
+                Box::new(obj::Obj(BufWriter::with_capacity(1 << 20, OutputFile::create(path)?)))
+            }
             ResultForm::Gltf => Box::new(gltf::create(path, options)?),
             ResultForm::Glb => Box::new(glb::create(path, options)?),
             ResultForm::Png => Box::new(picture::PngPicture::create(path, options)?),

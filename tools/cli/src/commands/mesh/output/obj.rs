@@ -2,19 +2,11 @@
 
 use super::MeshBlock;
 use super::Sink;
-use crate::failure::Failure;
 use crate::output::OutputFile;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
 
 /// A text file that grows.
-pub(super) struct Obj(BufWriter<OutputFile>);
-
-impl Obj {
-    pub(super) fn create(path: &Path) -> Result<Self, Failure> {
-        Ok(Self(BufWriter::with_capacity(1 << 20, OutputFile::create(path)?)))
-    }
-}
+pub(super) struct Obj(pub(super) BufWriter<OutputFile>);
 
 impl Sink for Obj {
     fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
