@@ -1,7 +1,7 @@
 //! Files that are there whole or not at all, and what is no regular file.
 
 use super::ending::{self, Guard};
-use super::stdout::stdout;
+use super::stdout;
 use crate::failure::Failure;
 use std::fs::{self, File, Metadata};
 use std::io::{self, Seek, Write};
@@ -83,7 +83,7 @@ pub(super) fn permissions(mode: u32) -> fs::Permissions {
 
 /// A file beside the one that it becomes when it is whole.
 #[derive(Debug)]
-pub(super) struct Partial {
+pub(crate) struct Partial {
     file: NamedTempFile,
     path: PathBuf,
     _guard: Guard,
@@ -169,12 +169,7 @@ pub(crate) fn create_unless_there(path: &Path, content: &[u8]) -> io::Result<()>
 
 /// An output that is written in any order and put in its place at the end.
 #[derive(Debug)]
-pub(crate) struct OutputFile {
-    content: Content,
-}
-
-#[derive(Debug)]
-enum Content {
+pub(crate) enum OutputFile {
     /// Becomes the file.
     Partial(Partial),
     /// Copied to stdout at the end, or to a pipe or a device that is open already.
@@ -184,17 +179,14 @@ enum Content {
 impl OutputFile {
     /// Begins an output. Errors: the place cannot be written.
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
-        let content = || -> io::Result<Content> {
-            Ok(match Destination::of(path)? {
-                Destination::Stdout => Content::Spool(tempfile::tempfile()?, None),
-                Destination::Stream(path) => {
-                    Content::Spool(tempfile::tempfile()?, Some(open_stream(&path)?))
-                }
-                Destination::File(path) => Content::Partial(Partial::of(&path)?),
-            })
+        let create = || match Destination::of(path)? {
+            Destination::Stdout => Ok(Self::Spool(tempfile::tempfile()?, None)),
+            Destination::Stream(path) => {
+                Ok(Self::Spool(tempfile::tempfile()?, Some(open_stream(&path)?)))
+            }
+            Destination::File(path) => Partial::of(&path).map(Self::Partial),
         };
-        let content = content().map_err(|error| Failure::write(path, error))?;
-        Ok(Self { content })
+        create().map_err(|error| Failure::write(path, error))
     }
 
     /// Whether a path leads to no pipe, no device and not to stdout. It opens nothing, as opening a pipe
@@ -204,9 +196,9 @@ impl OutputFile {
     }
 
     fn file(&self) -> &File {
-        match &self.content {
-            Content::Partial(partial) => partial.file.as_file(),
-            Content::Spool(file, _) => file,
+        match self {
+            Self::Partial(partial) => partial.file.as_file(),
+            Self::Spool(file, _) => file,
         }
     }
 
@@ -217,10 +209,10 @@ impl OutputFile {
 
     /// Puts the whole output in its place. Errors: it cannot be put there; then nothing is, or what was there before.
     pub(crate) fn finish(self) -> io::Result<()> {
-        match self.content {
-            Content::Partial(partial) => partial.persist(),
-            Content::Spool(file, Some(mut stream)) => copy(file, &mut stream),
-            Content::Spool(file, None) => copy(file, &mut stdout()),
+        match self {
+            Self::Partial(partial) => partial.persist(),
+            Self::Spool(file, Some(mut stream)) => copy(file, &mut stream),
+            Self::Spool(file, None) => copy(file, &mut stdout()),
         }
     }
 }

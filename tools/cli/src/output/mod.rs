@@ -10,7 +10,6 @@ pub(crate) mod ending;
 mod file;
 mod folder;
 pub(crate) mod form;
-mod stdout;
 
 use crate::failure::Failure;
 use crate::threads::startable;
@@ -20,10 +19,9 @@ use file::Destination;
 pub(crate) use file::{OutputFile, create_unless_there};
 pub(crate) use folder::{NewFolder, refuse_stdout};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-pub(crate) use stdout::stdout;
 
 /// The `-o` option.
 #[derive(Clone, Debug, clap::Args)]
@@ -49,11 +47,7 @@ impl OutputArgs {
         &self,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        self.stream_to(content).map_err(|error| Failure::write(&self.file, error))
-    }
-
-    fn stream_to(&self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-        match Destination::of(&self.file)? {
+        let write = || match Destination::of(&self.file)? {
             Destination::Stdout => {
                 let mut out = stdout();
                 content(&mut out)?;
@@ -69,7 +63,8 @@ impl OutputArgs {
                 content(&mut out)?;
                 out.into_inner().map_err(io::IntoInnerError::into_error)?.persist()
             }
-        }
+        };
+        write().map_err(|error| Failure::write(&self.file, error))
     }
 
     /// Refuses a place that cannot be written, before long work for it. Errors: as [`OutputArgs::write`] would; but a
@@ -95,8 +90,21 @@ impl OutputArgs {
     /// Refuses to write bytes that are no text to a terminal. Errors: the result goes to stdout, and that is a
     /// terminal.
     pub(crate) fn refuse_terminal(&self, what: &str) -> Result<(), Failure> {
-        if self.is_stdout() { stdout::refuse_terminal(what) } else { Ok(()) }
+        if self.is_stdout() && io::stdout().is_terminal() {
+            let message =
+                format!("{what} is no text for a terminal: add -o FILE, or redirect stdout");
+            return Err(Failure::bad_input(message));
+        }
+        Ok(())
     }
+}
+
+/// Stdout, buffered. It must be flushed, or errors are lost.
+///
+/// A write fails with [`io::ErrorKind::BrokenPipe`] when the reader has left;
+/// [`Failure::write`] makes that a quiet end.
+pub(crate) fn stdout() -> BufWriter<StdoutLock<'static>> {
+    BufWriter::new(io::stdout().lock())
 }
 
 /// A progress bar over `length` of what `unit` names, on stderr if that is a terminal. Its message,
