@@ -26,7 +26,7 @@ pub(crate) fn refuse_stdout(folder: &Path, why: &str) -> Result<(), Failure> {
 }
 
 impl NewFolder {
-    /// Begins a folder. Errors: it is there already, or cannot be made.
+    /// Begins a folder, and makes those that it lies in. Errors: it is there already, or cannot be made.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         if path.symlink_metadata().is_ok() {
             return Err(io::Error::new(
@@ -42,6 +42,7 @@ impl NewFolder {
     /// # Errors
     /// It cannot be made.
     pub(crate) fn replacing(path: &Path) -> io::Result<Self> {
+        fs::create_dir_all(folder_of(path))?;
         let (folder, guard) = ending::guarded(|| {
             #[cfg_attr(not(unix), expect(unused_mut, reason = "only Unix gives permissions"))]
             let mut builder = temporary();

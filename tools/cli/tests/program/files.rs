@@ -251,3 +251,20 @@ fn folders_are_not_stdout() {
         assert_eq!(names(&folder), [""; 0], "{words}: nothing is made");
     }
 }
+
+/// The folders that a new one lies in are made; a file is none.
+#[test]
+fn folders_around_new_folders() {
+    let folder = directory("folders_around_new_folders");
+    fs::write(folder.join("file"), "").expect("a file");
+    let mut commands = vec![("gen --level 3 --count 1 --format readmemh", "a/b")];
+    if cfg!(feature = "shaders") {
+        commands.push(("shaders --target wgsl", "c/d/e"));
+    }
+    for (words, place) in commands {
+        done(&shell(&format!("$TESS {words} -o {place}"), &folder));
+        assert!(folder.join(place).is_dir(), "{words}");
+        let run = shell(&format!("$TESS {words} -o file/b"), &folder);
+        run.exits(2).prints_nothing().says("cannot write file/b: ");
+    }
+}
