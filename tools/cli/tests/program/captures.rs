@@ -61,8 +61,7 @@ fn failing_records_are_kept_and_can_be_asked_again() {
     let (device, failing) = (device.display(), failing.display());
     let run = tess(&format!("check {device} --order any --failures {failing}"));
     run.exits(1);
-    let beside = "point (10000, 0ffff): observed 1 times (but point (10000, 10000) 0 times, not 1)";
-    run.prints(beside);
+    run.prints("point (10000, 0ffff): observed 1 times (but point (10000, 10000) 0 times, not 1)");
     let kept = read_to_string(failing.to_string()).expect("a file");
     assert!(kept.contains(QUAD) && !kept.contains(TRI) && kept.ends_with("end\n# end\n"), "{kept}");
     tess(&format!("check {failing}")).exits(1).prints("1 cases, 1 mismatches");
@@ -88,8 +87,7 @@ fn failing_records_that_answer_other_cases() {
     let run = tess_with_input(&format!("check - --cases {asked} --failures {failing}"), &wrong);
     run.exits(1);
     assert!(run.stdout.ends_with("3 cases, 2 mismatches\n"), "{}", run.stdout);
-    let note = "1 difference left out of ";
-    run.says(note);
+    run.says("1 difference left out of ");
     let kept = read_to_string(failing.to_string()).expect("a file");
     assert!(kept.contains(QUAD) && !kept.contains(TRI), "{kept}");
 }
@@ -102,8 +100,7 @@ fn a_device_that_turns_the_other_way_reads_one_line() {
         tess_with_input("patch --cases -", &ccw).stdout.replace("triangle_ccw", "triangle_cw");
     let run = tess_with_input("check - --order any", &turned);
     run.exits(1);
-    let line = "one mistake explains all 2 differences: every triangle turns the other way\n";
-    run.prints(line);
+    run.prints("one mistake explains all 2 differences: every triangle turns the other way\n");
     assert_eq!(run.stdout.matches("\nrecord ").count(), 1, "{}", run.stdout);
     assert!(run.stdout.ends_with("and 1 more\n2 cases, 2 mismatches\n"), "{}", run.stdout);
 }

@@ -192,8 +192,7 @@ fn unused_points_in_any_order() {
     assert_ne!(junk, moved, "the triangle is the same");
     let run = tess_with_input("check - --order any", &moved);
     run.exits(1);
-    let point = "point (fffff, 12345): observed 1 times, expected 0 times (stage: location)";
-    run.prints(point);
+    run.prints("point (fffff, 12345): observed 1 times, expected 0 times (stage: location)");
 }
 
 /// Neither endless lines nor endless lists fill the memory.

@@ -28,16 +28,13 @@ fn joined_values_are_other_values() {
     let of =
         |shard, domains: &[&str]| report(shard, 2, value!({ "options": { "domain": domains } }));
     let run = merged(&[of(1, &["tri,quad"]), of(2, &["tri", "quad"])]);
-    run.exits(2);
-    let why = "an option is domain=tri domain=quad; in stdin:1 it is domain=tri,quad";
-    run.prints(why);
+    run.exits(2).prints("an option is domain=tri domain=quad; in stdin:1 it is domain=tri,quad");
     let of = |shard, options: Value| report(shard, 2, value!({ "options": options }));
     let run =
         merged(&[of(1, value!({ "a": ["1 b=2"] })), of(2, value!({ "a": ["1"], "b": ["2"] }))]);
     run.exits(2);
     let run = merged(&[of(1, value!({ "a": ["1 a=2"] })), of(2, value!({ "a": ["1", "2"] }))]);
-    let why = "an option is a=1 a=2; in stdin:1 it is a='1 a=2'";
-    run.prints(why);
+    run.prints("an option is a=1 a=2; in stdin:1 it is a='1 a=2'");
     merged(&[of(1, value!({ "a": ["1"] })), of(2, value!({ "a": ["1"] }))]).exits(0);
 }
 
@@ -55,13 +52,9 @@ fn baselines_are_compared() {
         "stdin:2 is of another campaign: the cases of k have the digest 0b; most reports have 0a";
     run.prints(why);
     let run = merged(&[of(1, "k1", "0a"), of(2, "k2", "0b"), of(3, "k3", "0a")]);
-    run.exits(0);
-    let sum = "known differences: 3 of 6 cases of 2 baselines occur\n";
-    run.prints(sum);
+    run.exits(0).prints("known differences: 3 of 6 cases of 2 baselines occur\n");
     let run = merged(&[of(1, "k", "0a"), of(2, "k", "0a"), report(3, 3, value!({}))]);
-    run.exits(2);
-    let why = "stdin:3 is of another campaign: the baseline is not given";
-    run.prints(why);
+    run.exits(2).prints("stdin:3 is of another campaign: the baseline is not given");
 }
 
 /// The digest is of the cases, in any order and with any remarks.
@@ -149,8 +142,7 @@ fn times_and_stages_are_added_up() {
     };
     let run =
         merged(&[of(1, value!({ "location": 2 })), of(2, value!({ "answer": 1, "location": 1 }))]);
-    run.exits(1);
-    run.prints("stage answer: 1\nstage location: 3\n");
+    run.exits(1).prints("stage answer: 1\nstage location: 3\n");
     run.prints("4 cases, 4 mismatches, 1.400 s of all shards\n");
 }
 
