@@ -1,3 +1,9 @@
+// Names of the domains, partitionings, outputs and split orders, each in the order of its numbers.
+localparam string TESS_NAMES[13] = '{"isoline", "tri", "quad",
+    "integer", "pow2", "fractional_odd", "fractional_even",
+    "point", "line", "triangle_cw", "triangle_ccw",
+    "ruler", "center"};
+
 // A patch. The factors are bits of binary32 numbers, in the order of tess_dpi::factors_t.
 class tess_patch_item extends uvm_sequence_item;
     rand domain_e       domain;
@@ -39,8 +45,8 @@ class tess_patch_item extends uvm_sequence_item;
 
     // Everything that the result depends on, as a line that `tess patch --cases` takes.
     virtual function string convert2string();
-        string words = $sformatf("case %s %s %s %s", domain_name(), partitioning_name(), output_name(),
-            split_name());
+        string words = $sformatf("case %s %s %s %s", TESS_NAMES[int'(domain)], TESS_NAMES[3 + int'(partitioning)],
+            TESS_NAMES[7 + int'(out)], TESS_NAMES[11 + int'(split_order)]);
         for (int unsigned i = 0; i < factor_count(); i++) words = {words, $sformatf(" %08x", factors[i])};
         return words;
     endfunction
@@ -57,25 +63,26 @@ class tess_patch_item extends uvm_sequence_item;
     virtual function bit from_case(string line);
         string          words[10];
         int             given;
-        domain_e        d;
-        partitioning_e  p;
-        output_e        o;
-        split_order_e   s;
+        int             d, p, o, s;
         bit [31:0]      x[6];
         string          blanks = line;
         for (int i = 0; i < blanks.len(); i++) if (blanks.getc(i) == ",") blanks.putc(i, " ");
         if (blanks.len() > 5 && blanks.substr(0, 4) == "case ") blanks = blanks.substr(5, blanks.len() - 1);
         given = $sscanf(blanks, "%s %s %s %s %s %s %s %s %s %s", words[0], words[1], words[2], words[3], words[4],
             words[5], words[6], words[7], words[8], words[9]);
-        if (given < 4 || !named(words, d, p, o, s)) return 0;
-        if (given < 6 + 2 * int'(d)) return 0;
-        for (int unsigned i = 0; i < 2 + 2 * int'(d); i++) begin
+        if (given < 4) return 0;
+        d = number_of(words[0], 0, 3);
+        p = number_of(words[1], 3, 4);
+        o = number_of(words[2], 7, 4);
+        s = number_of(words[3], 11, 2);
+        if (d < 0 || p < 0 || o < 0 || s < 0 || given < 6 + 2 * d) return 0;
+        for (int i = 0; i < 2 + 2 * d; i++) begin
             if (!is_hex(words[4 + i]) || $sscanf(words[4 + i], "%h", x[i]) != 1) return 0;
         end
-        domain       = d;
-        partitioning = p;
-        out          = o;
-        split_order  = s;
+        domain       = domain_e'(d);
+        partitioning = partitioning_e'(p);
+        out          = output_e'(o);
+        split_order  = split_order_e'(s);
         factors      = x;
         return 1;
     endfunction
@@ -90,66 +97,10 @@ class tess_patch_item extends uvm_sequence_item;
         return 1;
     endfunction
 
-    // The values of the first four words; 0 if one is no name.
-    protected static function bit named(input string words[10], output domain_e d, output partitioning_e p,
-            output output_e o, output split_order_e s);
-        case (words[0])
-            "isoline": d = ISOLINE;
-            "tri":     d = TRIANGLE;
-            "quad":    d = QUAD;
-            default:   return 0;
-        endcase
-        case (words[1])
-            "integer":         p = INTEGER;
-            "pow2":            p = POW2;
-            "fractional_odd":  p = FRACTIONAL_ODD;
-            "fractional_even": p = FRACTIONAL_EVEN;
-            default:           return 0;
-        endcase
-        case (words[2])
-            "point":        o = POINT;
-            "line":         o = LINE;
-            "triangle_cw":  o = TRIANGLE_CW;
-            "triangle_ccw": o = TRIANGLE_CCW;
-            default:        return 0;
-        endcase
-        case (words[3])
-            "ruler":  s = RULER;
-            "center": s = CENTER;
-            default:  return 0;
-        endcase
-        return 1;
-    endfunction
-
-    protected function string domain_name();
-        case (domain)
-            ISOLINE:  return "isoline";
-            TRIANGLE: return "tri";
-            default:  return "quad";
-        endcase
-    endfunction
-
-    protected function string split_name();
-        if (split_order == CENTER) return "center";
-        return "ruler";
-    endfunction
-
-    protected function string partitioning_name();
-        case (partitioning)
-            INTEGER:        return "integer";
-            POW2:           return "pow2";
-            FRACTIONAL_ODD: return "fractional_odd";
-            default:        return "fractional_even";
-        endcase
-    endfunction
-
-    protected function string output_name();
-        case (out)
-            POINT:       return "point";
-            LINE:        return "line";
-            TRIANGLE_CW: return "triangle_cw";
-            default:     return "triangle_ccw";
-        endcase
+    // The number of a word among `count` names from `first` on; -1 if it is none of them.
+    protected static function int number_of(string word, int first, int count);
+        for (int i = 0; i < count; i++) if (word == TESS_NAMES[first + i]) return i;
+        return -1;
     endfunction
 
     virtual function void do_copy(uvm_object rhs);
