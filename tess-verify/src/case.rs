@@ -68,6 +68,14 @@ impl Case {
         Patch::new(self.config, self.factors)
     }
 
+    /// The same with another factor at a position.
+    pub(crate) fn with_factor(&self, position: usize, factor: f32) -> Self {
+        let mut at = 0..;
+        let factors =
+            self.factors.map(|own| if at.next() == Some(position) { factor } else { own });
+        Self { factors, ..*self }
+    }
+
     /// The command line that tessellates the same patch.
     #[must_use]
     pub fn command(&self) -> String {

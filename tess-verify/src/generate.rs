@@ -81,11 +81,8 @@ impl Shard {
     }
 
     /// The number of this part's item `n` among all items; `None` beyond 2^64.
-    pub(crate) const fn item(&self, n: u64) -> Option<u64> {
-        match n.checked_mul(self.of) {
-            Some(before) => before.checked_add(self.part),
-            None => None,
-        }
+    pub(crate) fn item(&self, n: u64) -> Option<u64> {
+        n.checked_mul(self.of)?.checked_add(self.part)
     }
 }
 
@@ -176,10 +173,9 @@ impl Selection {
     fn random_families(self) -> impl Iterator<Item = Case> {
         let random = SplitMix64::new(self.seed);
         let count = usize::try_from(self.random_count()).unwrap_or(usize::MAX);
-        let domains = self.domain.map_or(Domain::ALL.to_vec(), |domain| vec![domain]);
-        let partitionings =
-            self.partitioning.map_or(Partitioning::ALL.to_vec(), |partitioning| vec![partitioning]);
-        let splits = self.split.map_or(SplitOrder::ALL.to_vec(), |split| vec![split]);
+        let domains = one_or(self.domain, &Domain::ALL);
+        let partitionings = one_or(self.partitioning, &Partitioning::ALL);
+        let splits = one_or(self.split, &SplitOrder::ALL);
         let families = related::random(random, domains, partitionings, splits);
         // Every family has each output, so the filter leaves some of each.
         families.filter(move |case| self.selects(case)).take(count)
@@ -188,9 +184,6 @@ impl Selection {
     fn random_cases(self) -> impl Iterator<Item = Case> {
         let count = self.random_count();
         let mut random = SplitMix64::new(self.seed);
-        fn one_or<T: Copy>(one: Option<T>, all: &[T]) -> Vec<T> {
-            one.map_or(all.to_vec(), |one| vec![one])
-        }
         let domains = one_or(self.domain, &Domain::ALL);
         let partitionings = one_or(self.partitioning, &Partitioning::ALL);
         let outputs = one_or(self.output, &OutputPrimitive::ALL);
@@ -222,6 +215,10 @@ impl Selection {
             && self.output.is_none_or(|own| own == config.output)
             && self.split.is_none_or(|own| own == config.split)
     }
+}
+
+fn one_or<T: Copy>(one: Option<T>, all: &[T]) -> Vec<T> {
+    one.map_or(all.to_vec(), |one| vec![one])
 }
 
 /// Every domain with every configuration, in the order of spec section 1.

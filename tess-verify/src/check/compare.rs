@@ -125,22 +125,11 @@ pub(crate) fn locations(
     let count = Mismatch::count("locations", observed.len() as u64, expected.len() as u64);
     count.or_else(|| {
         let at = observed.iter().zip(expected).position(|(o, e)| o != e)?;
-        let mut before = 0;
-        for (&factor, context) in factors.iter().zip(contexts) {
-            let p = at - before;
-            if p < context.points as usize {
-                let element = Element::Location { factor, p };
-                return Some(Mismatch::hex(
-                    element,
-                    5,
-                    observed[at],
-                    expected[at],
-                    SpecStage::Location,
-                ));
-            }
-            before += context.points as usize;
-        }
-        None
+        let of_factor = |(&factor, context): (&FixedFactor, &FactorContext)| {
+            (0..context.points as usize).map(move |p| Element::Location { factor, p })
+        };
+        let element = factors.iter().zip(contexts).flat_map(of_factor).nth(at)?;
+        Some(Mismatch::hex(element, 5, observed[at], expected[at], SpecStage::Location))
     })
 }
 

@@ -29,16 +29,8 @@ pub(super) fn conflicts(mut uses: Vec<Use>) -> Report {
     for used in uses {
         if let Some(mismatch) = conflict(&used, &mut known) {
             let Use { number, line, case, .. } = used;
-            let case = Some(case);
             report.explain(Explained::default());
-            report.differ(Difference {
-                number,
-                line,
-                mismatch,
-                case,
-                file: None,
-                passes_alone: false,
-            });
+            report.differ(Difference::new(number, line, mismatch, Some(case)));
         }
     }
     report

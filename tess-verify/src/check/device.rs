@@ -128,18 +128,13 @@ fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: SpecSt
 
 /// The case with one factor off by a unit in the last place, or by one; and culled.
 fn other_factors(case: &Case) -> Vec<Case> {
-    let mut cases = vec![PatchFactors::uniform(case.domain(), 0.0)];
+    let mut cases = vec![Case { factors: PatchFactors::uniform(case.domain(), 0.0), ..*case }];
     let patch = case.patch();
     let processed = patch.processed().factors().into_iter().flat_map(|factors| factors.iter());
     for (position, factor) in processed.enumerate() {
         let fixed = factor.fixed.to_bits();
-        for other in [fixed - 1, fixed + 1, fixed - 0x1_0000, fixed + 0x1_0000] {
-            let mut at = 0;
-            cases.push(case.factors.map(|raw| {
-                at += 1;
-                if at == position + 1 { from_fixed(other) } else { raw }
-            }));
-        }
+        let others = [fixed - 1, fixed + 1, fixed - 0x1_0000, fixed + 0x1_0000];
+        cases.extend(others.map(|other| case.with_factor(position, from_fixed(other))));
     }
-    cases.into_iter().map(|factors| Case { factors, ..*case }).collect()
+    cases
 }

@@ -88,7 +88,7 @@ impl Findings {
         again: impl FnOnce() -> (Option<String>, bool),
     ) {
         self.report.explain(explained);
-        let found = Difference { number, line, mismatch, case, file: None, passes_alone: false };
+        let found = Difference::new(number, line, mismatch, case);
         let (file, passes_alone) = if self.report.shows(&found) { again() } else { (None, false) };
         self.report.differ(Difference { file, passes_alone, ..found });
     }

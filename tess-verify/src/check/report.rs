@@ -148,6 +148,15 @@ pub struct Difference {
 }
 
 impl Difference {
+    pub(super) const fn new(
+        number: u64,
+        line: Option<u64>,
+        mismatch: Mismatch,
+        case: Option<Case>,
+    ) -> Self {
+        Self { number, line, mismatch, case, file: None, passes_alone: false }
+    }
+
     /// Shell commands that show the same again: the record alone through `tess check`, and the
     /// patch through `tess patch`.
     #[must_use]

@@ -65,48 +65,22 @@ impl Way {
         Self::MirroredV,
     ];
 
-    /// Whether the specification leaves this to a device.
+    /// Whether the specification leaves this to a device, as it does the first of them.
     #[must_use]
     pub const fn is_allowed(self) -> bool {
-        matches!(
-            self,
-            Self::Order
-                | Self::Flush
-                | Self::Conversion
-                | Self::FlushAndConversion
-                | Self::Clamping
-        )
+        self as usize <= Self::Clamping as usize
     }
 
     /// The options of `tess check` under which this counts as equal; empty if there are none.
     #[must_use]
     pub const fn options(self) -> &'static str {
-        match self {
-            Self::Order => "--order any",
-            Self::Flush => "--denormals flush",
-            Self::Conversion => "--conversion 0.6ulp",
-            Self::FlushAndConversion => "--denormals flush --conversion 0.6ulp",
-            _ => "",
-        }
+        SAID[self as usize].1
     }
 
     /// What the device does, in words.
     #[must_use]
     pub const fn words(self) -> &'static str {
-        match self {
-            Self::Order => "primitives or points come in another order, and are the model's",
-            Self::Flush => "positive denormal outer factors are flushed to zero, which culls",
-            Self::Conversion => "factors are converted to fixed point within 0.6 ulp",
-            Self::FlushAndConversion => {
-                "denormal outer factors are flushed, and factors converted within 0.6 ulp"
-            }
-            Self::Clamping => "factors above 64 are not clamped to the model's range",
-            Self::Reversed => "every triangle turns the other way",
-            Self::Transposed => "u and v are exchanged",
-            Self::TransposedReversed => "u and v are exchanged, the turn of triangles kept",
-            Self::MirroredU => "u runs backwards",
-            Self::MirroredV => "v runs backwards",
-        }
+        SAID[self as usize].0
     }
 
     /// Whether this explains an output that differs in a strength. `max_level` is the largest factor
@@ -142,6 +116,23 @@ impl Way {
         }
     }
 }
+
+/// The words and the options of each [`Way`], in their order.
+const SAID: [(&str, &str); 10] = [
+    ("primitives or points come in another order, and are the model's", "--order any"),
+    ("positive denormal outer factors are flushed to zero, which culls", "--denormals flush"),
+    ("factors are converted to fixed point within 0.6 ulp", "--conversion 0.6ulp"),
+    (
+        "denormal outer factors are flushed, and factors converted within 0.6 ulp",
+        "--denormals flush --conversion 0.6ulp",
+    ),
+    ("factors above 64 are not clamped to the model's range", ""),
+    ("every triangle turns the other way", ""),
+    ("u and v are exchanged", ""),
+    ("u and v are exchanged, the turn of triangles kept", ""),
+    ("u runs backwards", ""),
+    ("v runs backwards", ""),
+];
 
 /// Whether a device cuts finer than the model: it has more distinct points.
 fn has_more_places(case: &Case, observed: &Tessellation) -> bool {

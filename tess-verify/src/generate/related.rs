@@ -103,14 +103,6 @@ fn random_level(random: &mut SplitMix64) -> f32 {
 /// outer levels exchanged, the inner levels changed or not above 1, and an outer level that discards.
 fn family(base: Case, turn: usize, cases: &mut Vec<Case>) {
     let with_output = |output| Case { config: Config { output, ..base.config }, ..base };
-    let with = |position: usize, level: f32| {
-        let mut at = 0;
-        let factors = base.factors.map(|factor| {
-            at += 1;
-            if at == position + 1 { level } else { factor }
-        });
-        Case { factors, ..base }
-    };
     let (outer, all) = (base.domain().outer_factors(), base.domain().factors());
     let raised = |position: usize| {
         let bits = base.factors.iter().nth(position).unwrap_or_default();
@@ -118,14 +110,14 @@ fn family(base: Case, turn: usize, cases: &mut Vec<Case>) {
     };
     cases.extend([base, base, with_output(OutputPrimitive::TriangleCcw)]);
     cases.extend([OutputPrimitive::Point, OutputPrimitive::Line].map(with_output));
-    cases.extend((0..all).map(|position| with(position, raised(position))));
+    cases.extend((0..all).map(|position| base.with_factor(position, raised(position))));
     let levels: Vec<f32> = base.factors.iter().collect();
     cases.extend((1..outer).map(|by| {
         let level = |p: usize| levels[if p < outer { (p + by) % outer } else { p }];
         Case { factors: PatchFactors::from_fn(base.domain(), level), ..base }
     }));
     let discards = NOT_ABOVE_ZERO[turn % NOT_ABOVE_ZERO.len()];
-    cases.extend((0..outer).map(|position| with(position, discards)));
+    cases.extend((0..outer).map(|position| base.with_factor(position, discards)));
     let low = NOT_ABOVE_ONE[turn % NOT_ABOVE_ONE.len()];
-    cases.extend((outer..all).map(|position| with(position, low)));
+    cases.extend((outer..all).map(|position| base.with_factor(position, low)));
 }

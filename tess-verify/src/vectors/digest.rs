@@ -14,22 +14,12 @@ impl Default for Fnv1a {
 }
 
 impl Fnv1a {
-    /// Continues over one word.
-    const fn word(&mut self, word: u32) {
-        let [a, b, c, d] = word.to_le_bytes();
-        self.byte(a);
-        self.byte(b);
-        self.byte(c);
-        self.byte(d);
-    }
-
-    const fn byte(&mut self, byte: u8) {
-        self.0 = (self.0 ^ byte as u64).wrapping_mul(0x100_0000_01B3);
-    }
-
     /// Continues over words.
     pub fn words(&mut self, words: impl IntoIterator<Item = u32>) {
-        words.into_iter().for_each(|word| self.word(word));
+        let step = |digest: u64, byte| (digest ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3);
+        self.0 = words
+            .into_iter()
+            .fold(self.0, |digest, word| word.to_le_bytes().into_iter().fold(digest, step));
     }
 
     /// Continues over points: u, then v of each.
@@ -37,10 +27,11 @@ impl Fnv1a {
         self.words(points.iter().flat_map(|point| [point.u.to_bits(), point.v.to_bits()]));
     }
 
-    /// Continues over a whole patch, as chained rows do: point count, index count, points, indices.
+    /// Continues over a whole patch, as chained rows do: point count, index count, points, indices. An implementation
+    /// under test may return more than a patch has, never 2^32 elements.
     pub fn patch(&mut self, patch: &Tessellation) {
-        self.word(count(&patch.points));
-        self.word(count(&patch.indices));
+        let count = |elements| u32::try_from(elements).unwrap_or(u32::MAX);
+        self.words([patch.points.len(), patch.indices.len()].map(count));
         self.points(&patch.points);
         self.words(patch.indices.iter().copied());
     }
@@ -76,12 +67,6 @@ pub(crate) fn words_digest(words: &[u32]) -> u64 {
     let mut digest = Fnv1a::default();
     digest.words(words.iter().copied());
     digest.finish()
-}
-
-/// A length as a word of a digest. An implementation under test may return more than a patch has,
-/// never 2^32 elements.
-fn count<T>(elements: &[T]) -> u32 {
-    u32::try_from(elements.len()).unwrap_or(u32::MAX)
 }
 
 #[cfg(test)]

@@ -94,9 +94,8 @@ fn indices<R: BufRead>(lines: &mut Lines<R>, size: usize) -> Result<Vec<u32>, Ve
     let mut indices = Vec::with_capacity(count);
     for _ in 0..count / size {
         let line = lines.expect("indices")?;
-        let mut words = line.text.as_bytes().split(|byte| *byte == b' ');
-        let read = words.try_fold(0, |read, word| {
-            indices.push(parse_index(word)?);
+        let read = line.text.split(' ').try_fold(0, |read, word| {
+            indices.push(decimal(word)?);
             Some(read + 1)
         });
         if read != Some(size) {
@@ -121,14 +120,4 @@ fn announced(line: Line<'_>, what: &'static str, most: usize) -> Result<usize, V
 fn parse_point(text: &str) -> Option<DomainPoint> {
     let (u, v) = text.split_once(' ')?;
     Some(DomainPoint::from_bits(words::coordinate(u)?, words::coordinate(v)?))
-}
-
-/// Decimal digits alone: no sign.
-fn parse_index(word: &[u8]) -> Option<u32> {
-    let digit = |byte: u8| byte.checked_sub(b'0').filter(|digit| *digit < 10).map(u64::from);
-    let append = |index: u64, byte: &u8| Some(index * 10 + digit(*byte)?);
-    // Ten digits are enough for any index, and cannot overflow 64 bits.
-    let index =
-        (1..=10).contains(&word.len()).then(|| word.iter().try_fold(0, append)).flatten()?;
-    u32::try_from(index).ok()
 }

@@ -122,13 +122,10 @@ fn factors(
     domain: Domain,
 ) -> Result<PatchFactors, VectorError> {
     let list = row.floats(column)?;
-    PatchFactors::from_slice(domain, &list)
-        .ok_or_else(|| wrong_number(row, column, domain, list.len()))
-}
-
-fn wrong_number(row: &Row<'_>, column: &'static str, domain: Domain, found: usize) -> VectorError {
-    let names = domain.factor_names();
-    row.error(column, format!("expected {} ({}), found {found}", names.len(), names.join(" ")))
+    PatchFactors::from_slice(domain, &list).ok_or_else(|| {
+        let (names, found) = (domain.factor_names(), list.len());
+        row.error(column, format!("expected {} ({}), found {found}", names.len(), names.join(" ")))
+    })
 }
 
 fn sizes(row: &Row<'_>) -> Result<Sizes, VectorError> {
