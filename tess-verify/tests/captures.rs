@@ -5,11 +5,11 @@ use std::fmt::Write;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, OutputPrimitive, Tessellation};
 use tess_verify::check::{
-    CheckError, Elements, Known, ListOrder, Report, Strength, Tested, Way, check, check_asked,
-    vertices,
+    CheckError, Checked, Elements, Known, ListOrder, Report, Strength, Tested, Way, check,
+    check_asked, vertices,
 };
 use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::vectors::{Cases, Listing, Record, VectorFile};
+use tess_verify::vectors::{Cases, Coordinates, Listing, Record, VectorFile};
 use tess_verify::{Backend, Case, CoreBackend};
 
 const ANY: Strength = strength(ListOrder::Any);
@@ -40,9 +40,13 @@ fn turn(report: &Report) -> Option<Way> {
     report.ways().into_iter().find(|way| !way.is_allowed())
 }
 
-/// The verdict on records, in a file that marks its end.
+/// A file of records that marks its end.
+fn file(records: &str) -> String {
+    format!("{HEADER}{records}# end\n")
+}
+
 fn verdict(records: &str, strength: Strength) -> Report {
-    run(&format!("{HEADER}{records}# end\n"), strength).expect("a verdict")
+    run(&file(records), strength).expect("a verdict")
 }
 
 fn error(text: &str) -> String {
@@ -62,6 +66,14 @@ fn record(line: &str, notation: &str, show: impl Fn(u32) -> String) -> String {
         writeln!(text, "{} {}", show(u), show(v)).expect("written");
     }
     text + "end\n"
+}
+
+/// A record as it is read.
+fn coordinates(record: &str) -> Coordinates {
+    let text = file(record);
+    let record = VectorFile::new("capture", text.as_bytes()).expect("a header").next();
+    let Some(Ok(Record::Coordinates(coordinates))) = record else { panic!("{record:?}") };
+    coordinates
 }
 
 fn hex(number: u32) -> String {
@@ -84,14 +96,9 @@ fn records_are_written_as_they_are_read() {
     let is_vertex = |line: &str| line.len() == "00000 00000".len();
     let third = |line: &str| if is_vertex(line) { " 10000\n" } else { "\n" };
     let with_third: String = right.lines().map(|line| line.to_owned() + third(line)).collect();
-    let read = |text: &str| -> Record {
-        let text = format!("{HEADER}{text}# end\n");
-        let mut file = VectorFile::new("capture", text.as_bytes()).expect("a header");
-        file.next().expect("a record").expect("a right file")
-    };
     for text in [right, with_third] {
         let vertices = text.lines().count() - 3;
-        let Record::Coordinates(coordinates) = read(&text) else { panic!("{text}") };
+        let coordinates = coordinates(&text);
         let announced = format!("coordinates hex {vertices}\n");
         assert_eq!(coordinates.to_string(), text.replace("coordinates hex\n", &announced));
     }
@@ -100,10 +107,8 @@ fn records_are_written_as_they_are_read() {
 /// A capture that is right tells of a backend: one changed coordinate is one difference.
 #[test]
 fn captures_test_a_backend() {
-    let check_backend = |records: &str| {
-        let text = format!("{HEADER}{records}# end\n");
-        run_tested(&text, Tested::Backend).expect("a verdict")
-    };
+    let check_backend =
+        |records: &str| run_tested(&file(records), Tested::Backend).expect("a verdict");
     let right = record(TRI, "hex", hex);
     assert_eq!(check_backend(&right).mismatches, 0, "the model's");
     let report = check_backend(&right.replacen("10000", "10001", 1));
@@ -170,7 +175,7 @@ fn listings_without_an_index_buffer() {
 #[test]
 fn third_coordinates_stand_everywhere_or_nowhere() {
     for rows in ["0 1 0\n0 0\n1 0 0\n", "0 1\n0 0\n1 0 0\n"] {
-        let error = error(&format!("{HEADER}{TRI}\ncoordinates float\n{rows}end\n# end\n"));
+        let error = error(&file(&format!("{TRI}\ncoordinates float\n{rows}end\n")));
         assert!(error.contains("all vertices have a third coordinate, or none has"), "{error}");
     }
 }
@@ -178,12 +183,7 @@ fn third_coordinates_stand_everywhere_or_nowhere() {
 /// Points get the model's numbers: the model's sequence is its listing, and what differs stands out.
 #[test]
 fn coordinates_with_the_models_numbers() {
-    let listing = |text: &str| {
-        let text = format!("{HEADER}{text}# end\n");
-        let record = VectorFile::new("capture", text.as_bytes()).expect("a header").next();
-        let Some(Ok(Record::Coordinates(vertices))) = record else { panic!("{record:?}") };
-        vertices.numbered()
-    };
+    let listing = |text: &str| coordinates(text).numbered();
     // Just above 2, points coincide.
     let coinciding = "case isoline fractional_even line ruler 3f800000 40000080";
     for line in [TRI, QUAD, coinciding] {
@@ -225,7 +225,6 @@ fn third_coordinates_are_compared() {
 
 #[test]
 fn numbers_that_mean_something_else_are_refused() {
-    let file = |line: &str, rows: &str| format!("{HEADER}{TRI}\n{line}\n{rows}end\n# end\n");
     for (line, rows, expected) in [
         (
             "coordinates hex",
@@ -258,11 +257,11 @@ fn numbers_that_mean_something_else_are_refused() {
         ("coordinates hex", "00000 00000\n", "1 is no multiple of 3"),
         ("points 1", "0 1\n", "`0 1` is not a point: u and v as 5 to 8 hex digits each"),
     ] {
-        let error = error(&file(line, rows));
+        let error = error(&file(&format!("{TRI}\n{line}\n{rows}end\n")));
         assert!(error.contains(expected), "{line} {rows:?}: {error}");
     }
     let points = Strength { elements: Elements::Points, ..SEQUENCE };
-    let file = format!("{HEADER}{}# end\n", record(TRI, "hex", hex));
+    let file = file(&record(TRI, "hex", hex));
     let refused = run(&file, points).expect_err("no order of points").to_string();
     assert!(
         refused.starts_with("capture:2: coordinates: vertices by coordinates do not"),
@@ -288,49 +287,38 @@ fn a_file_without_a_count_marks_its_end() {
     assert!(error.contains("case: a case is"), "the mark comes too early: {error}");
 }
 
-/// For each record, whether it is wrong for the case that it states.
-fn answered_wrongly(asked: &str, records: &str) -> Vec<bool> {
-    let file = format!("{HEADER}{records}# end\n");
-    let file = VectorFile::new("capture", file.as_bytes()).expect("a header");
-    let mut cases = Cases::new("asked", asked.as_bytes()).expect("cases");
-    let mut one: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
-    let seen = std::sync::Mutex::new(Vec::new());
-    let tested = Tested::Listings(ANY);
-    let checked = |checked: tess_verify::check::Checked<'_>| {
-        seen.lock().expect("no panic").extend_from_slice(checked.different);
-    };
-    check_asked(file, Some(&mut cases), &Known::default(), &mut one, tested, &checked)
-        .expect("a verdict");
-    seen.into_inner().expect("no panic")
-}
-
-fn asked(asked: &str, records: &str) -> Result<Report, CheckError> {
-    let text = format!("{HEADER}{records}# end\n");
+/// What is said of records, and for each whether it is wrong for the case that it states.
+fn asked(asked: &str, records: &str) -> Result<(Report, Vec<bool>), CheckError> {
+    let text = file(records);
     let file = VectorFile::new("capture", text.as_bytes())?;
     let mut cases = Cases::new("asked", asked.as_bytes())?;
     let mut one: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
-    check_asked(file, Some(&mut cases), &Known::default(), &mut one, Tested::Listings(ANY), &|_| ())
+    let seen = std::sync::Mutex::new(Vec::new());
+    let see = |checked: Checked<'_>| seen.lock().expect("no panic").extend(checked.different);
+    let (known, tested) = (Known::default(), Tested::Listings(ANY));
+    let report = check_asked(file, Some(&mut cases), &known, &mut one, tested, &see)?;
+    Ok((report, seen.into_inner().expect("no panic")))
 }
 
 #[test]
 fn what_was_asked_must_be_answered() {
     let [tri, quad] = [TRI, QUAD].map(|line| record(line, "hex", hex));
     let cases = format!("# two\n{TRI}\n\n{QUAD}\n");
-    let mismatches = |records: &str| asked(&cases, records).expect("a verdict").mismatches;
+    let mismatches = |records: &str| asked(&cases, records).expect("a verdict").0.mismatches;
     assert_eq!(mismatches(&format!("{tri}{quad}")), 0, "both");
     assert_eq!(mismatches(&format!("{tri}{tri}")), 1, "the easy one twice");
     assert_eq!(mismatches(&tri), 1, "one is missing");
     assert_eq!(mismatches(&format!("{tri}{quad}{quad}")), 1, "one too many");
     assert_eq!(mismatches(&format!("{quad}{tri}")), 2, "exchanged");
     let wrong = tri.replacen("\n10000 00000", "\n10000 00001", 1);
-    let different = answered_wrongly(&cases, &format!("{tri}{wrong}{wrong}"));
+    let (_, different) = asked(&cases, &format!("{tri}{wrong}{wrong}")).expect("a verdict");
     assert_eq!(different, [false, true, true], "what answers another case is compared, too");
-    let report = asked(&cases, &format!("{tri}{tri}")).expect("a verdict");
+    let (report, _) = asked(&cases, &format!("{tri}{tri}")).expect("a verdict");
     let shown = report.differences[0].to_string();
     assert!(shown.starts_with("record 2 (line "), "{shown}");
     assert!(shown.contains(&format!("observed {TRI}, expected {QUAD}")), "{shown}");
     let recorded = format!("{}{tri}{quad}", HEADER.replace("source", "count=2 source"));
-    let report = asked(&recorded, &format!("{tri}{quad}")).expect("a verdict");
+    let (report, _) = asked(&recorded, &format!("{tri}{quad}")).expect("a verdict");
     assert_eq!(report.mismatches, 0, "cases of a vector file");
     let error = |asked_for: &str| asked(asked_for, &tri).expect_err("refused").to_string();
     assert_eq!(error("# none\n"), "asked:2: case: there is no case");
