@@ -206,6 +206,11 @@ mod tests {
         hits.into_iter().map(|(bin, hits)| format!("{bin} {hits}")).collect()
     }
 
+    /// Those of one group.
+    fn group(line: &str, group: &str) -> Vec<String> {
+        bins(line).iter().filter_map(|bin| Some(bin.strip_prefix(group)?.to_owned())).collect()
+    }
+
     /// Every bin of a case, and no other.
     fn expect(line: &str, expected: &str) {
         let expected: Vec<&str> = expected.lines().map(str::trim).collect();
@@ -233,18 +238,11 @@ mod tests {
     fn ends_of_the_range() {
         let line =
             "case quad integer point ruler 42800000 40200000 42820000 3f000000 7fc00000 42800000";
-        let all = bins(line);
-        let of = |group: &str| -> Vec<&str> {
-            all.iter().filter_map(|bin| bin.strip_prefix(group)).collect()
-        };
         let clamp =
             ["inside/nan 1", "inside/within 1", "outer/above 1", "outer/below 1", "outer/within 2"];
-        assert_eq!(of("clamp/integer/"), clamp, "{all:?}");
-        assert_eq!(
-            of("round/integer/"),
-            ["inside/exact 2", "outer/exact 3", "outer/up 1"],
-            "{all:?}"
-        );
+        assert_eq!(group(line, "clamp/integer/"), clamp);
+        let round = ["inside/exact 2", "outer/exact 3", "outer/up 1"];
+        assert_eq!(group(line, "round/integer/"), round);
     }
 
     /// Equal inside factors, odd and even; a denormal; factors that do not round.
@@ -297,10 +295,20 @@ mod tests {
             ("40800000 40800000", "point 1"),
         ] {
             let line = format!("case quad integer line ruler{} {inside}", " 40400000".repeat(4));
-            let all = bins(&line);
-            let centres: Vec<&str> =
-                all.iter().filter_map(|bin| bin.strip_prefix("centre/quad/")).collect();
-            assert_eq!(centres, [expected], "{inside}");
+            assert_eq!(group(&line, "centre/quad/"), [expected], "{inside}");
+        }
+    }
+
+    /// 3f800080 is 1 + 2^-16, and 3f800040 is 1 + 2^-17.
+    #[test]
+    fn picture_frames() {
+        for (factors, expected) in [
+            ("40000000 3f800000 3f800000 3f800080", "already_above 1"),
+            ("40000000 3f800000 3f800000 3f80007f", "raised 1"),
+            ("3f800000 3f800000 3f800000 3f800040", "all_one 1"),
+        ] {
+            let line = format!("case tri fractional_odd line ruler {factors}");
+            assert_eq!(group(&line, "picture_frame/"), [expected], "{factors}");
         }
     }
 
