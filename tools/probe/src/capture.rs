@@ -13,8 +13,10 @@ use ash::vk;
 use std::collections::HashMap;
 use std::ptr::null;
 use std::sync::Arc;
-use tess_core::{Config, Domain, PatchFactors, SplitOrder};
+use tess_core::{Config, Domain, DomainPoint, PatchFactors, SplitOrder, Tessellation};
 use tess_verify::Case;
+use tess_verify::check::Elements;
+use tess_verify::vectors::fixed;
 
 /// The elements that are captured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,12 +28,34 @@ pub enum Method {
     Points,
 }
 
+impl Method {
+    /// The elements that can be compared.
+    pub(crate) const fn elements(self) -> Elements {
+        match self {
+            Self::Primitives => Elements::Primitives,
+            Self::Points => Elements::Points,
+        }
+    }
+}
+
 /// A device's output for one patch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Captured {
     /// `gl_TessCoord` of each vertex as the bits of binary32 numbers, primitive after primitive; or
     /// of each evaluated point, where no primitives are captured.
     pub vertices: Vec<[u32; 3]>,
+}
+
+impl Captured {
+    /// The same as an output: each vertex is a separate point, in the order of the primitives; `None` if a
+    /// coordinate is no 16.16 number in 0..=1.
+    #[must_use]
+    pub fn output(&self) -> Option<Tessellation> {
+        let point = |&[u, v, _]: &[u32; 3]| Some(DomainPoint::from_bits(fixed(u)?, fixed(v)?));
+        let points: Vec<_> = self.vertices.iter().map(point).collect::<Option<_>>()?;
+        let indices = (0..).take(points.len()).collect();
+        Some(Tessellation { points, indices })
+    }
 }
 
 /// A device whose tessellator is probed.

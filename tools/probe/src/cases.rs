@@ -27,19 +27,12 @@ pub(crate) fn asked(case: &Case) -> Case {
     Case { config, factors: case.factors }
 }
 
-/// Cases of one configuration, as many as one capture takes.
-pub(crate) type Group = Vec<Case>;
-
 /// The same cases by domain and configuration.
-pub(crate) fn groups(cases: &[Case]) -> Vec<Group> {
-    let mut groups: Vec<Group> = Vec::new();
+pub(crate) fn groups(cases: &[Case]) -> Vec<Vec<Case>> {
+    let mut groups: Vec<Vec<Case>> = Vec::new();
+    let kind = |case: &Case| (case.domain(), case.config);
     for case in cases {
-        let own = groups.iter_mut().find(|group| {
-            group
-                .first()
-                .is_some_and(|first| (first.domain(), first.config) == (case.domain(), case.config))
-        });
-        match own {
+        match groups.iter_mut().find(|group| kind(&group[0]) == kind(case)) {
             Some(group) => group.push(*case),
             None => groups.push(vec![*case]),
         }

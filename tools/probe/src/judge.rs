@@ -3,35 +3,28 @@
 use crate::capture::{Captured, Method};
 use crate::digests::Digests;
 use crate::info::Info;
-use crate::output::output;
 use crate::report::{ExplainedBy, First, ProbeReport, ProbeRow, Unexplained};
 use crate::verdict::{PatchVerdict, any_order, third_is_right, verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use tess_core::Tessellation;
-use tess_verify::check::{Elements, Known, Strength, Way, check_device};
+use tess_verify::check::{Known, Strength, Way, check_device};
 use tess_verify::vectors::fixed;
 use tess_verify::{Case, Named};
 
 /// Compares what a device gave, patch by patch, and says in the end what explains the differences.
 #[derive(Clone, Debug)]
 pub struct Judge {
-    info: Info,
     method: Method,
     /// The strength of the comparison.
     strength: Strength,
     /// The cases that may differ all the same.
     known: Arc<Known>,
     rows: Vec<(ProbeRow, Digests)>,
-    different: u64,
-    excused: u64,
-    stages: BTreeMap<String, u64>,
-    first_different: Option<First>,
     /// Patches that are not the model's in any order, by what explains them.
     ways: [u64; Way::ALL.len()],
-    odd: u64,
-    unexplained: u64,
-    first: Option<First>,
+    /// The observations so far, but for the rows and what explains them.
+    report: ProbeReport,
 }
 
 impl Judge {
@@ -39,24 +32,30 @@ impl Judge {
     /// that the method captures.
     #[must_use]
     pub fn new(info: &Info, method: Method, strength: Strength) -> Self {
-        let elements = match method {
-            Method::Primitives => strength.elements,
-            Method::Points => Elements::Points,
+        let (name, elements) = match method {
+            Method::Primitives => ("primitives", strength.elements),
+            Method::Points => ("points", method.elements()),
         };
         Self {
-            info: info.clone(),
             method,
             strength: Strength { elements, ..strength },
             known: Arc::default(),
             rows: Vec::new(),
-            different: 0,
-            excused: 0,
-            stages: BTreeMap::new(),
-            first_different: None,
             ways: [0; Way::ALL.len()],
-            odd: 0,
-            unexplained: 0,
-            first: None,
+            report: ProbeReport {
+                device: info.clone(),
+                method: name,
+                patches: 0,
+                different: 0,
+                known: 0,
+                stages: BTreeMap::new(),
+                first_different: None,
+                passes_alone: false,
+                odd: 0,
+                explanations: Vec::new(),
+                unexplained: Unexplained { patches: 0, first: None },
+                rows: Vec::new(),
+            },
         }
     }
 
@@ -68,7 +67,7 @@ impl Judge {
 
     /// Adds a patch: what was asked, and what the device gave.
     pub fn add(&mut self, case: &Case, captured: &Captured) {
-        let observed = output(captured);
+        let observed = captured.output();
         let expected = case.patch().tessellate();
         let verdict = verdict(case, captured, observed.as_ref(), &expected, self.method);
         let third = third_is_right(case, captured);
@@ -84,7 +83,7 @@ impl Judge {
         let found =
             (!equal).then(|| self.describe(self.strength, case, captured, observed.as_ref()));
         if self.known.excuses(case, found.as_ref().map(|found| &found.difference as _)) {
-            self.excused += 1;
+            self.report.known += 1;
         } else if let Some(found) = found {
             self.differ(found);
         }
@@ -97,10 +96,10 @@ impl Judge {
 
     /// Counts a difference that is not known.
     fn differ(&mut self, found: First) {
-        self.different += 1;
+        self.report.different += 1;
         self.row(&found.case).0.different += 1;
-        *self.stages.entry(found.stage.clone()).or_default() += 1;
-        self.first_different.get_or_insert(found);
+        *self.report.stages.entry(found.stage.clone()).or_default() += 1;
+        self.report.first_different.get_or_insert(found);
     }
 
     fn explain(
@@ -110,11 +109,10 @@ impl Judge {
         observed: Option<&Tessellation>,
         third: bool,
     ) {
-        self.odd += 1;
-        let (method, max_level) = (self.method, self.info.max_level);
-        let explains = |way: Way| {
-            third && observed.is_some_and(|o| way.explains(case, o, any_order(method), max_level))
-        };
+        self.report.odd += 1;
+        let (order, max_level) = (any_order(self.method), self.report.device.max_level);
+        let explains =
+            |way: Way| third && observed.is_some_and(|o| way.explains(case, o, order, max_level));
         let mut explained = Way::ALL.map(explains);
         // Both freedoms together count where neither is enough.
         explained[2] &= !explained[0] && !explained[1];
@@ -123,9 +121,10 @@ impl Judge {
         }
         let allowed = Way::ALL.into_iter().zip(explained).any(|(way, yes)| yes && way.is_allowed());
         if !allowed {
-            self.unexplained += 1;
-            if self.first.is_none() {
-                self.first = Some(self.describe(any_order(self.method), case, captured, observed));
+            self.report.unexplained.patches += 1;
+            if self.report.unexplained.first.is_none() {
+                self.report.unexplained.first =
+                    Some(self.describe(order, case, captured, observed));
             }
         }
     }
@@ -180,26 +179,15 @@ impl Judge {
             words: way.words(),
             is_allowed: way.is_allowed(),
             patches,
-            is_all: patches == self.odd,
+            is_all: patches == self.report.odd,
         };
         let mut rows: Vec<ProbeRow> = self.rows.into_iter().map(|(row, d)| row.with(&d)).collect();
         rows.sort_by(|a, b| a.names().cmp(&b.names()));
         ProbeReport {
-            device: self.info,
-            method: match self.method {
-                Method::Primitives => "primitives",
-                Method::Points => "points",
-            },
             patches: rows.iter().map(|row| row.patches).sum(),
-            different: self.different,
-            known: self.excused,
-            stages: self.stages,
-            first_different: self.first_different,
-            passes_alone: false,
-            odd: self.odd,
             explanations: explanations.map(explanation).collect(),
-            unexplained: Unexplained { patches: self.unexplained, first: self.first },
             rows,
+            ..self.report
         }
     }
 }

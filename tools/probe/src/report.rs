@@ -3,12 +3,10 @@
 use crate::capture::Captured;
 use crate::digests::Digests;
 use crate::info::Info;
-use crate::output::output;
 use crate::verdict::PatchVerdict;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
-use tess_core::Tessellation;
 use tess_verify::Case;
 use tess_verify::check::Way;
 
@@ -86,14 +84,6 @@ pub struct First {
     /// The device's answer.
     #[serde(skip)]
     pub captured: Captured,
-}
-
-impl First {
-    /// The device's answer as an output; `None` if a coordinate is no 16.16 number.
-    #[must_use]
-    pub fn output(&self) -> Option<Tessellation> {
-        output(&self.captured)
-    }
 }
 
 /// How the patches of one configuration compare with the model.

@@ -3,7 +3,6 @@
 use crate::capture::{Method, Prober};
 use crate::cases::asked;
 use crate::error::Error;
-use crate::output::output;
 use tess_core::SplitOrder;
 use tess_verify::Case;
 use tess_verify::generate::Selection;
@@ -28,7 +27,7 @@ pub fn rules(
     let cases: Vec<Case> = selection.cases().map(|case| asked(&case)).collect();
     let mut checker = Checker::new(specification);
     prober.each(&cases, &mut progress, |case, captured| {
-        let output = output(captured).ok_or_else(|| {
+        let output = captured.output().ok_or_else(|| {
             Error::Capture(format!("{case}: a coordinate is no multiple of 2^-16"))
         })?;
         checker.add(case, &output);

@@ -4,7 +4,7 @@ use crate::capture::{Captured, Method};
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, Tessellation};
 use tess_verify::Case;
-use tess_verify::check::{Elements, ListOrder, Strength, vertices};
+use tess_verify::check::{ListOrder, Strength, vertices};
 use tess_verify::vectors::fixed;
 
 /// The nearest to the model that a captured patch is; the first is the nearest.
@@ -26,11 +26,7 @@ pub(crate) enum PatchVerdict {
 
 /// The strength in which only the order is free.
 pub(crate) fn any_order(method: Method) -> Strength {
-    let elements = match method {
-        Method::Primitives => Elements::Primitives,
-        Method::Points => Elements::Points,
-    };
-    Strength { order: ListOrder::Any, elements, ..Strength::default() }
+    Strength { order: ListOrder::Any, elements: method.elements(), ..Strength::default() }
 }
 
 /// Compares a patch with the model's output for it. `None` instead of an output if it has coordinates that are no 16.16 numbers.

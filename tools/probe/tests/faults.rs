@@ -139,7 +139,7 @@ fn a_coordinate_between_two_numbers_is_seen() {
     assert_eq!((report.rows[0].coordinates, report.rows[0].max_units), (1, 1), "{report}");
     let first = report.unexplained.first.expect("it is no freedom");
     assert!(first.difference.contains("no multiple of 2^-16"), "{}", first.difference);
-    assert_eq!(first.output(), None, "nor can it be drawn");
+    assert_eq!(first.captured.output(), None, "nor can it be drawn");
 }
 
 #[test]

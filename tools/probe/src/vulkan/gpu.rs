@@ -15,9 +15,7 @@ pub(crate) struct Gpu {
     pub(crate) limits: vk::PhysicalDeviceLimits,
     pub(crate) feedback: Option<ext::transform_feedback::Device>,
     pub(crate) info: Info,
-    instance: ash::Instance,
-    /// The loader: it must stay as long as what it gave.
-    _entry: ash::Entry,
+    _instance: Instance,
 }
 
 impl fmt::Debug for Gpu {
@@ -30,15 +28,24 @@ impl Drop for Gpu {
     fn drop(&mut self) {
         // SAFETY: every other object of the device holds an `Arc` of this and so is gone, and
         // nothing runs: each submission is waited for.
-        unsafe {
-            self.device.destroy_device(None);
-            self.instance.destroy_instance(None);
-        }
+        unsafe { self.device.destroy_device(None) };
     }
 }
 
-/// The loader and an instance; the instance is the caller's to destroy.
-fn instance() -> Result<(ash::Entry, ash::Instance), Error> {
+struct Instance {
+    instance: ash::Instance,
+    /// The loader: it must stay as long as what it gave.
+    _entry: ash::Entry,
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        // SAFETY: nothing of the instance is kept: a device of it was destroyed before.
+        unsafe { self.instance.destroy_instance(None) };
+    }
+}
+
+fn instance() -> Result<Instance, Error> {
     // SAFETY: the library is the system's loader, whose initialisers are trusted as any program's
     // that uses Vulkan.
     let entry =
@@ -59,7 +66,7 @@ fn instance() -> Result<(ash::Entry, ash::Instance), Error> {
         ),
         other => Error::of("vkCreateInstance")(other),
     })?;
-    Ok((entry, instance))
+    Ok(Instance { instance, _entry: entry })
 }
 
 /// Every device that the system's loader knows, in its order.
@@ -67,15 +74,15 @@ fn instance() -> Result<(ash::Entry, ash::Instance), Error> {
 /// # Errors
 /// [`Error::NoLoader`] without Vulkan.
 pub fn list() -> Result<Vec<Info>, Error> {
-    let (_entry, instance) = instance()?;
+    let owner = instance()?;
+    let devices = devices(&owner.instance)?.into_iter().enumerate();
+    Ok(devices.map(|(number, device)| info(&owner.instance, device, number)).collect())
+}
+
+fn devices(instance: &ash::Instance) -> Result<Vec<vk::PhysicalDevice>, Error> {
     // SAFETY: the instance is alive.
-    let devices = unsafe { instance.enumerate_physical_devices() };
-    let infos = devices.map_err(Error::of("vkEnumeratePhysicalDevices")).map(|devices| {
-        devices.into_iter().enumerate().map(|(i, device)| info(&instance, device, i)).collect()
-    });
-    // SAFETY: nothing of the instance is kept.
-    unsafe { instance.destroy_instance(None) };
-    infos
+    unsafe { instance.enumerate_physical_devices() }
+        .map_err(Error::of("vkEnumeratePhysicalDevices"))
 }
 
 fn info(instance: &ash::Instance, physical: vk::PhysicalDevice, number: usize) -> Info {
@@ -121,25 +128,9 @@ fn has_feedback(instance: &ash::Instance, physical: vk::PhysicalDevice) -> bool 
 impl Gpu {
     /// Opens device `number` of the loader's list.
     pub(crate) fn open(number: usize) -> Result<Self, Error> {
-        let (entry, instance) = instance()?;
-        match Self::of_instance(&instance, number) {
-            Ok(opened) => Ok(opened(entry, instance)),
-            Err(error) => {
-                // SAFETY: nothing of the instance is kept.
-                unsafe { instance.destroy_instance(None) };
-                Err(error)
-            }
-        }
-    }
-
-    /// Everything but what the device was opened with.
-    fn of_instance(
-        instance: &ash::Instance,
-        number: usize,
-    ) -> Result<impl FnOnce(ash::Entry, ash::Instance) -> Self + use<>, Error> {
-        // SAFETY: the instance is alive.
-        let devices = unsafe { instance.enumerate_physical_devices() }
-            .map_err(Error::of("vkEnumeratePhysicalDevices"))?;
+        let owner = instance()?;
+        let instance = &owner.instance;
+        let devices = devices(instance)?;
         let there = devices.len();
         let physical = *devices.get(number).ok_or(Error::NoDevice { asked: number, there })?;
         let info = info(instance, physical, number);
@@ -161,17 +152,7 @@ impl Gpu {
         let memory = unsafe { instance.get_physical_device_memory_properties(physical) };
         // SAFETY: as above.
         let limits = unsafe { instance.get_physical_device_properties(physical) }.limits;
-        Ok(move |entry, instance| Self {
-            device,
-            queue,
-            family,
-            memory,
-            limits,
-            feedback,
-            info,
-            instance,
-            _entry: entry,
-        })
+        Ok(Self { device, queue, family, memory, limits, feedback, info, _instance: owner })
     }
 }
 

@@ -11,10 +11,9 @@ use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
 use crate::output::form;
 use crate::output::{OutputArgs, Role, json, note, progress, refuse_shared};
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tess_probe::{First, ProbeReport, ProbeRow, Prober, cases, list, probe_known};
+use tess_probe::{First, ProbeReport, ProbeRow, Prober, cases, list, probe};
 use tess_verify::check::{Conversion, Denormals, Known, ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::rules::Specification;
@@ -156,7 +155,7 @@ impl Args {
             open(args.device).map_err(Failure::unavailable)?.with_draw_vertices(args.draw_vertices);
         let bar = progress(cases.len() as u64, "patches");
         let strength = args.strength();
-        let report = probe_known(&mut prober, &cases, strength, known, |patches| bar.inc(patches));
+        let report = probe(&mut prober, &cases, strength, known, |patches| bar.inc(patches));
         bar.finish_and_clear();
         let report = report.map_err(Failure::unavailable)?;
         recorder.update(|record| note_parts(record, &report));
@@ -173,12 +172,8 @@ impl Args {
         if devices.is_empty() {
             return Err(Failure::unavailable("Vulkan is here, but no driver has a device"));
         }
-        let mut text = String::new();
-        for device in &devices {
-            // Writing to a String cannot fail.
-            _ = writeln!(text, "{device}");
-        }
-        let text = if self.json { json(&devices) } else { text };
+        let lines = devices.iter().map(|device| device.to_string() + "\n");
+        let text = if self.json { json(&devices) } else { lines.collect() };
         self.output.write(text.as_bytes())?;
         Ok(Exit::Done)
     }
@@ -213,24 +208,20 @@ impl Args {
 /// Says on stderr how it ends.
 fn verdict(report: &ProbeReport) -> Exit {
     let ProbeReport { patches, different, known, .. } = report;
-    if *different == 0 && *known > 0 {
-        note(&format!(
-            "equal: {} of {patches} patches; the differences of {known} are known",
-            patches - known
-        ));
-        Exit::Done
-    } else if *patches == 0 {
-        Exit::Done
-    } else if *different == 0 {
-        note(&format!("equal: all {patches} patches, as far as they were compared"));
-        Exit::Done
-    } else {
+    if *different > 0 {
         note(&format!("different: {different} of {patches} patches"));
         if report.passes_alone {
             note(&format!("the first {PASSES_ALONE}"));
         }
-        Exit::Different
+        return Exit::Different;
     }
+    if *known > 0 {
+        let equal = patches - known;
+        note(&format!("equal: {equal} of {patches} patches; the differences of {known} are known"));
+    } else if *patches > 0 {
+        note(&format!("equal: all {patches} patches, as far as they were compared"));
+    }
+    Exit::Done
 }
 
 /// Whether a row counts this case.
@@ -275,7 +266,7 @@ impl FirstPicture {
 
     /// Draws the model's patch with what the device gave over it.
     fn draw(&self, first: &First) -> Result<(), Failure> {
-        let Some(output) = first.output() else {
+        let Some(output) = first.captured.output() else {
             note("no picture: a coordinate of the device is no number that can be drawn");
             return Ok(());
         };
