@@ -1,6 +1,6 @@
 //! `tess_batch_run`.
 
-use super::hostile::{CANARY, Wrongs};
+use super::hostile::{CANARY, NO_POINT, Wrongs};
 use super::patch::{capacity, is_possible};
 use crate::input::Bytes;
 use crate::{compare_with_model, repeatable};
@@ -18,7 +18,6 @@ use tess_capi::types::{TessConfig, TessPoint};
 use tess_core::{Config, Domain, DomainPoint, PatchFactors, Tessellation};
 use tess_verify::Case;
 
-const NO_POINT: TessPoint = TessPoint { u: CANARY, v: CANARY };
 const NO_RANGE: TessRange =
     TessRange { first_point: CANARY, points: CANARY, first_index: CANARY, indices: CANARY };
 

@@ -6,11 +6,13 @@ use tess_capi::status::{
     TESS_MISALIGNED, TESS_NULL_POINTER, TESS_OK, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT,
     TessStatus,
 };
-use tess_capi::types::TessConfig;
+use tess_capi::types::{TessConfig, TessPoint};
 use tess_verify::Case;
 
 /// The words that buffers hold before a call.
 pub(super) const CANARY: u32 = 0xC0DE_C0DE;
+/// A point of such words.
+pub(super) const NO_POINT: TessPoint = TessPoint { u: CANARY, v: CANARY };
 
 /// Statuses that explain a refusal of a call.
 #[derive(Debug, Default)]

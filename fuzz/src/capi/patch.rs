@@ -1,6 +1,6 @@
 //! `tess_patch` and `tess_count`.
 
-use super::hostile::{CANARY, Hostile, Wrongs};
+use super::hostile::{CANARY, Hostile, NO_POINT, Wrongs};
 use crate::input::Bytes;
 use crate::{compare_with_model, repeatable};
 use tess_capi::patch::{tess_count, tess_patch};
@@ -9,7 +9,6 @@ use tess_capi::types::{TessCounts, TessPoint};
 use tess_core::{DomainPoint, Tessellation};
 
 const NO_COUNTS: TessCounts = TessCounts { points: CANARY, primitives: CANARY, indices: CANARY };
-const NO_POINT: TessPoint = TessPoint { u: CANARY, v: CANARY };
 
 pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let mut wrongs = Wrongs::default();

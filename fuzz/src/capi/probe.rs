@@ -1,6 +1,6 @@
 //! Probes: one element of a patch, one context, one place.
 
-use super::hostile::{CANARY, Hostile, Wrongs};
+use super::hostile::{CANARY, Hostile, NO_POINT, Wrongs};
 use crate::input::Bytes;
 use crate::repeatable;
 use tess_capi::probe::{TessPrimitive, tess_context, tess_place, tess_point, tess_primitive};
@@ -17,7 +17,7 @@ pub(super) fn check_element(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let config = wrongs.pointer(bytes, &raw mut hostile.config);
     let factors = wrongs.pointer(bytes, hostile.factors.as_mut_ptr());
 
-    let mut point = TessPoint { u: CANARY, v: CANARY };
+    let mut point = NO_POINT;
     let mut point_wrongs = Wrongs::default();
     point_wrongs.add_if(number >= patch.counts().points, TESS_OUT_OF_RANGE);
     // SAFETY: each pointer is null, askew or to memory as large as the call claims.
@@ -25,7 +25,7 @@ pub(super) fn check_element(bytes: &mut Bytes<'_>) -> Result<(), String> {
     judge(&wrongs, &point_wrongs, "tess_point", &hostile, status)?;
     let expected = match patch.point(number) {
         Some(point) if wrongs.is_empty() => TessPoint::from(point),
-        _ => TessPoint { u: CANARY, v: CANARY },
+        _ => NO_POINT,
     };
     if point != expected {
         let message = format!("tess_point {number}: {point:x?}, expected {expected:x?}");

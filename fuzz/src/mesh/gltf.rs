@@ -3,7 +3,7 @@
 use super::{mesh_words, models};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use glam::{Vec2, Vec3};
+use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
 use serde_json::Value;
 use tess_program::fuzzing;
 use tess_surface::{Face, PolygonMesh, Sides};
@@ -60,11 +60,6 @@ fn json_and_blob(data: &[u8]) -> (&[u8], &[u8]) {
     }
 }
 
-type Matrix = [[f32; 4]; 4];
-
-const IDENTITY: Matrix =
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
-
 struct File {
     json: Value,
     buffers: Vec<Vec<u8>>,
@@ -82,7 +77,7 @@ fn naive(data: &[u8]) -> Option<PolygonMesh> {
     let scene = file.json["scene"].as_u64().unwrap_or(0) as usize;
     let mut mesh = PolygonMesh::default();
     for root in list(&file.json["scenes"][scene]["nodes"]) {
-        file.node(index(root)?, &IDENTITY, &mut mesh)?;
+        file.node(index(root)?, Mat4::IDENTITY, &mut mesh)?;
     }
     Some(mesh)
 }
@@ -105,42 +100,37 @@ fn numbers(value: &Value) -> Option<Vec<f32>> {
 }
 
 impl File {
-    fn node(&self, number: usize, parent: &Matrix, mesh: &mut PolygonMesh) -> Option<()> {
+    fn node(&self, number: usize, parent: Mat4, mesh: &mut PolygonMesh) -> Option<()> {
         let node = &self.json["nodes"][number];
         let own = match numbers(&node["matrix"]) {
-            Some(numbers) => *numbers.as_chunks::<4>().0.first_chunk()?,
+            Some(numbers) => Mat4::from_cols_array(numbers.first_chunk()?),
             None => transform(node)?,
         };
-        let transform = own.map(|column| multiply(parent, column));
+        let transform = parent * own;
         if let Some(number) = index(&node["mesh"]) {
             for primitive in list(&self.json["meshes"][number]["primitives"]) {
-                self.primitive(primitive, &transform, mesh)?;
+                self.primitive(primitive, transform, mesh)?;
             }
         }
         list(&node["children"])
             .iter()
-            .try_for_each(|child| self.node(index(child)?, &transform, mesh))
+            .try_for_each(|child| self.node(index(child)?, transform, mesh))
     }
 
-    fn primitive(
-        &self,
-        primitive: &Value,
-        transform: &Matrix,
-        mesh: &mut PolygonMesh,
-    ) -> Option<()> {
+    fn primitive(&self, primitive: &Value, transform: Mat4, mesh: &mut PolygonMesh) -> Option<()> {
         let attributes = &primitive["attributes"];
         let first = [mesh.positions.len(), mesh.normals.len(), mesh.texcoords.len()];
         let positions = self.accessor(index(&attributes["POSITION"])?)?;
         let has_normals = attributes.get("NORMAL").is_some();
         let has_texcoords = attributes.get("TEXCOORD_0").is_some();
-        for p in &positions {
-            let [x, y, z, _] = multiply(transform, [p[0] as f32, p[1] as f32, p[2] as f32, 1.0]);
-            mesh.positions.push(Vec3::new(x, y, z));
-        }
+        let linear = Mat3::from_mat4(transform);
+        let vector = |xyz: &Vec<f64>| Vec3::new(xyz[0] as f32, xyz[1] as f32, xyz[2] as f32);
+        let placed = positions.iter().map(|xyz| transform.transform_point3(vector(xyz)));
+        mesh.positions.extend(placed);
         if has_normals {
-            for n in self.accessor(index(&attributes["NORMAL"])?)? {
-                mesh.normals.push(turn(transform, [n[0] as f32, n[1] as f32, n[2] as f32]));
-            }
+            let normals = self.accessor(index(&attributes["NORMAL"])?)?;
+            let turn = linear.inverse().transpose();
+            mesh.normals.extend(normals.iter().map(|xyz| turn * vector(xyz)));
         }
         if has_texcoords {
             for t in self.accessor(index(&attributes["TEXCOORD_0"])?)? {
@@ -151,7 +141,7 @@ impl File {
             Some(number) => self.accessor(number)?.iter().map(|i| i[0] as usize).collect(),
             None => (0..positions.len()).collect(),
         };
-        let mirrored = determinant(transform) < 0.0;
+        let mirrored = linear.determinant() < 0.0;
         for &[a, b, c] in indices.as_chunks().0 {
             let corners = if mirrored { [a, c, b] } else { [a, b, c] };
             let from =
@@ -227,51 +217,14 @@ impl File {
     }
 }
 
-/// Translation times rotation times scale, column by column.
-fn transform(node: &Value) -> Option<Matrix> {
+/// Translation times rotation times scale.
+fn transform(node: &Value) -> Option<Mat4> {
     let or = |name: &str, default: &[f32]| match node.get(name) {
         Some(value) => numbers(value),
         None => Some(default.to_vec()),
     };
-    let t = or("translation", &[0.0; 3])?;
-    let r = or("rotation", &[0.0, 0.0, 0.0, 1.0])?;
-    let s = or("scale", &[1.0; 3])?;
-    let (x, y, z, w) = (r[0], r[1], r[2], r[3]);
-    let (xx, yy, zz) = (x * (x + x), y * (y + y), z * (z + z));
-    let (xy, xz, yz) = (x * (y + y), x * (z + z), y * (z + z));
-    let (wx, wy, wz) = (w * (x + x), w * (y + y), w * (z + z));
-    let columns = [
-        [1.0 - (yy + zz), xy + wz, xz - wy, 0.0],
-        [xy - wz, 1.0 - (xx + zz), yz + wx, 0.0],
-        [xz + wy, yz - wx, 1.0 - (xx + yy), 0.0],
-    ];
-    let [a, b, c] = [0, 1, 2].map(|k| columns[k].map(|number| number * s[k]));
-    Some([a, b, c, [t[0], t[1], t[2], 1.0]])
-}
-
-fn multiply(matrix: &Matrix, v: [f32; 4]) -> [f32; 4] {
-    [0, 1, 2, 3].map(|row| {
-        let term = |column: usize| matrix[column][row] * v[column];
-        term(0) + term(1) + term(2) + term(3)
-    })
-}
-
-fn cross(a: [f32; 4], b: [f32; 4]) -> [f32; 3] {
-    [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]]
-}
-
-fn determinant(m: &Matrix) -> f32 {
-    let across = cross(m[1], m[2]);
-    m[0][0] * across[0] + m[0][1] * across[1] + m[0][2] * across[2]
-}
-
-/// A normal: the inverse of the transpose has the columns' cross products over the determinant.
-fn turn(m: &Matrix, normal: [f32; 3]) -> Vec3 {
-    let over = 1.0 / determinant(m);
-    let columns = [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])];
-    let row = |row: usize| {
-        let term = |column: usize| columns[column][row] * over * normal[column];
-        term(0) + term(1) + term(2)
-    };
-    Vec3::new(row(0), row(1), row(2))
+    let translation = Vec3::from_slice(&or("translation", &[0.0; 3])?);
+    let rotation = Quat::from_slice(&or("rotation", &[0.0, 0.0, 0.0, 1.0])?);
+    let scale = Vec3::from_slice(&or("scale", &[1.0; 3])?);
+    Some(Mat4::from_scale_rotation_translation(scale, rotation, translation))
 }

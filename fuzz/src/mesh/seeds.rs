@@ -291,13 +291,5 @@ pub fn chunk(file: &mut Vec<u8>, kind: &[u8], content: &[u8]) {
     let start = file.len();
     file.extend(kind);
     file.extend(content);
-    file.extend(checksum(&file[start..]).to_be_bytes());
-}
-
-/// CRC-32 of a chunk's type and content, bit by bit.
-fn checksum(bytes: &[u8]) -> u32 {
-    !bytes.iter().fold(u32::MAX, |crc, &byte| {
-        let step = |crc: u32, _| crc >> 1 ^ (crc & 1) * 0xEDB8_8320;
-        (0..8).fold(crc ^ u32::from(byte), step)
-    })
+    file.extend(crc32fast::hash(&file[start..]).to_be_bytes());
 }
