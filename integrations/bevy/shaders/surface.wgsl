@@ -1,12 +1,12 @@
 // Functions for hull and domain functions. Everything about an edge is the same from both sides.
 
 // The instance of each patch.
-@group(TESS_GROUP) @binding(2) var<storage, read> tess_owners: array<u32>;
+@group(TESS_GROUP) @binding(3) var<storage, read> tess_owners: array<u32>;
 // The words of all shapes, one behind another.
-@group(TESS_GROUP) @binding(3) var<storage, read> tess_words: array<u32>;
+@group(TESS_GROUP) @binding(4) var<storage, read> tess_words: array<u32>;
 
 // The values of all entities, their number in front of each one's.
-@group(TESS_GROUP) @binding(4) var<storage, read> tess_values: array<u32>;
+@group(TESS_GROUP) @binding(5) var<storage, read> tess_values: array<u32>;
 
 // A patch of an entity.
 struct TessPlace {

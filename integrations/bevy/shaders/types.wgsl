@@ -20,17 +20,12 @@ struct TessInstance {
     normal_from_local: mat4x4<f32>,
     // To the place of the frame before.
     previous_from_world: mat4x4<f32>,
-    base_color: vec4<f32>,
-    emissive: vec4<f32>,
-    // Perceptual roughness, metallic, reflectance, 1 if unlit.
-    material: vec4<f32>,
     // The factor rule: its kind and its amount.
     rule: vec4<f32>,
     first_patch: u32,
     first_word: u32,
     first_value: u32,
-    // 1 if shadows fall on it.
-    receives_shadows: u32,
+    reserved: u32,
 }
 
 // In world space.
@@ -44,5 +39,6 @@ struct Vertex {
     @location(4) @interpolate(flat) instance: u32,
 }
 
-@group(TESS_GROUP) @binding(0) var<uniform> tess_view: TessView;
-@group(TESS_GROUP) @binding(1) var<storage, read> tess_instances: array<TessInstance>;
+// Binding 0 is Bevy's `mesh`, for its fragment functions.
+@group(TESS_GROUP) @binding(1) var<uniform> tess_view: TessView;
+@group(TESS_GROUP) @binding(2) var<storage, read> tess_instances: array<TessInstance>;

@@ -1,21 +1,24 @@
 //! The component, and what the user sets for all of them.
 
 use crate::detail::LevelOfDetail;
-use crate::look::Look;
 use crate::shape::Shape;
+use bevy::asset::{Handle, uuid_handle};
 use bevy::camera::visibility::{NoAutoAabb, Visibility};
 use bevy::ecs::prelude::*;
 use bevy::mesh::Mesh3d;
+use bevy::pbr::{MeshMaterial3d, StandardMaterial};
 use bevy::render::sync_world::SyncToRenderWorld;
 use bevy::transform::components::Transform;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tess_core::{Config, Partitioning};
 
-/// A surface that is tessellated in each frame, by what each camera sees of it.
+/// A surface that is tessellated in each frame, by what each camera sees of it. It looks as its
+/// [`MeshMaterial3d`] says; without one it has `StandardMaterial::default()`.
 #[derive(Clone, Component, Debug)]
 // The mesh is empty; Bevy finds the cameras and lights that see it.
 #[require(Transform, Visibility, Mesh3d, SyncToRenderWorld, NoAutoAabb)]
+#[require(MeshMaterial3d<StandardMaterial> = MeshMaterial3d(PLAIN))]
 pub struct Tessellated {
     /// Its patches. Share them between entities that look alike in shape: they are then kept once.
     pub shape: Arc<dyn Shape>,
@@ -23,37 +26,27 @@ pub struct Tessellated {
     pub detail: LevelOfDetail,
     /// How factors become segments. Fractional ones do not pop as the camera moves.
     pub partitioning: Partitioning,
-    /// How it looks.
-    pub look: Look,
 }
 
+/// The material of surfaces without one.
+pub(crate) const PLAIN: Handle<StandardMaterial> =
+    uuid_handle!("5c1e8a3e-0b0e-4f0b-9d3c-7a5be9a1d2f4");
+
 impl Tessellated {
-    /// A surface of this shape, in segments of 8 pixels, with Bevy's default material.
+    /// A surface of this shape, in segments of 8 pixels.
     pub fn new(shape: impl Shape) -> Self {
         Self::shared(Arc::new(shape))
     }
 
     /// The same of a shape that other entities have too.
     pub fn shared(shape: Arc<dyn Shape>) -> Self {
-        Self {
-            shape,
-            detail: LevelOfDetail::default(),
-            partitioning: Partitioning::FractionalEven,
-            look: Look::default(),
-        }
+        Self { shape, detail: LevelOfDetail::default(), partitioning: Partitioning::FractionalEven }
     }
 
     /// The same surface with this many segments.
     #[must_use]
     pub const fn with_detail(mut self, detail: LevelOfDetail) -> Self {
         self.detail = detail;
-        self
-    }
-
-    /// The same surface with this look.
-    #[must_use]
-    pub const fn with_look(mut self, look: Look) -> Self {
-        self.look = look;
         self
     }
 

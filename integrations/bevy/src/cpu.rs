@@ -3,7 +3,6 @@
 use crate::component::{TessSettings, TessStats, TessValues, Tessellated};
 use crate::eye::{Casting, Eye, View};
 use crate::is_on_cpu;
-use crate::look::Look;
 use crate::shape::ShapeVertex;
 use bevy::asset::{Assets, Handle, RenderAssetUsages};
 use bevy::camera::primitives::Aabb;
@@ -12,7 +11,7 @@ use bevy::ecs::prelude::*;
 use bevy::log::warn_once;
 use bevy::math::Vec3A;
 use bevy::mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology};
-use bevy::pbr::{MeshMaterial3d, StandardMaterial};
+use bevy::pbr::{MeshMaterial3d, StandardMaterial, StandardMaterialKey};
 use bevy::platform::collections::HashMap;
 use bevy::render::renderer::RenderDevice;
 use bevy::transform::components::GlobalTransform;
@@ -81,8 +80,8 @@ pub(crate) fn mesh(of: Tessellation, topology: PrimitiveTopology) -> Mesh {
 #[derive(Clone, Component, Debug)]
 pub(crate) struct Fallback {
     eye: Eye<'static>,
-    look: Look,
     wireframe: bool,
+    has_tangents: bool,
     triangles: u64,
     mesh: Handle<Mesh>,
 }
@@ -92,6 +91,7 @@ type Surface<'a> = (
     Ref<'a, Tessellated>,
     Option<Ref<'a, TessValues>>,
     &'a GlobalTransform,
+    Option<&'a MeshMaterial3d<StandardMaterial>>,
     Option<&'a mut Fallback>,
 );
 
@@ -106,13 +106,13 @@ pub(crate) fn tessellate(
     mut surfaces: Query<Surface<'_>>,
     mut tessellators: ResMut<Tessellators>,
     mut meshes: ResMut<Assets<Mesh>>,
-    mut materials: ResMut<Assets<StandardMaterial>>,
+    materials: Res<Assets<StandardMaterial>>,
 ) {
     if !is_on_cpu(&settings, device.as_deref()) {
         for (entity, .., fallback) in &surfaces {
             if fallback.is_some() {
                 let mut entity = commands.entity(entity);
-                entity.remove::<(Fallback, MeshMaterial3d<StandardMaterial>)>();
+                entity.remove::<Fallback>();
                 entity.insert(Mesh3d::default());
             }
         }
@@ -120,13 +120,18 @@ pub(crate) fn tessellate(
     }
     let Some(view) = view_of(&cameras, &casting) else { return };
     let mut triangles = 0;
-    for (entity, surface, values, transform, mut fallback) in &mut surfaces {
+    for (entity, surface, values, transform, material, mut fallback) in &mut surfaces {
         let rule = surface.detail;
         let eye = Eye { view, world_from_local: transform.affine(), rule, values: &[] };
         if is_unseen(&surface, &eye) {
             continue;
         }
-        let is_same = |old: &Fallback| old.eye == eye && old.wireframe == settings.wireframe;
+        let wireframe = settings.wireframe;
+        let material = material.and_then(|material| materials.get(material));
+        let has_tangents = !wireframe && material.is_some_and(wants_tangents);
+        let is_same = |old: &Fallback| {
+            old.eye == eye && old.wireframe == wireframe && old.has_tangents == has_tangents
+        };
         let is_changed =
             surface.is_changed() || values.as_ref().is_some_and(|values| values.is_changed());
         if let Some(old) = fallback.as_deref().filter(|old| is_same(old) && !is_changed) {
@@ -140,28 +145,35 @@ pub(crate) fn tessellate(
         };
         let count = tessellation.indices.len() as u64 / 3;
         triangles += count;
-        let topology = match settings.wireframe {
+        let topology = match wireframe {
             true => PrimitiveTopology::LineList,
             false => PrimitiveTopology::TriangleList,
         };
-        let made = mesh(tessellation, topology);
-        let (look, wireframe) = (surface.look, settings.wireframe);
-        if let Some(old) = fallback.as_deref_mut().filter(|old| old.look == look) {
-            let handle = old.mesh.clone();
-            *old = Fallback { eye, look, wireframe, triangles: count, mesh: handle.clone() };
-            if meshes.insert(&handle, made).is_err() {
+        let mut made = mesh(tessellation, topology);
+        if has_tangents && let Err(problem) = made.generate_tangents() {
+            warn_once!("a surface has no tangents: {problem}");
+        }
+        let of = |mesh| Fallback { eye, wireframe, has_tangents, triangles: count, mesh };
+        if let Some(old) = fallback.as_deref_mut() {
+            *old = of(old.mesh.clone());
+            if meshes.insert(&old.mesh, made).is_err() {
                 warn_once!("the mesh of a surface is gone");
             }
             continue;
         }
         let handle = meshes.add(made);
-        commands.entity(entity).insert((
-            Mesh3d(handle.clone()),
-            MeshMaterial3d(materials.add(StandardMaterial::from(look))),
-            Fallback { eye, look, wireframe, triangles: count, mesh: handle },
-        ));
+        commands.entity(entity).insert((Mesh3d(handle.clone()), of(handle)));
     }
     stats.set(triangles);
+}
+
+/// As render/pipelines.rs.
+fn wants_tangents(material: &StandardMaterial) -> bool {
+    StandardMaterialKey::from(material).intersects(
+        StandardMaterialKey::NORMAL_MAP
+            | StandardMaterialKey::CLEARCOAT_NORMAL_MAP
+            | StandardMaterialKey::ANISOTROPY,
+    )
 }
 
 /// Whether the camera sees nothing of a surface and its shadow; a mesh that it has is then as good as another.

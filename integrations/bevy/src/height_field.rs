@@ -22,7 +22,7 @@ pub struct HeightField {
     colors: GroundColors,
 }
 
-/// Linear colours of the ground, which multiply the look's base colour. All are white by default.
+/// Linear colours of the ground, which multiply the material's base colour. All are white by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundColors {
     /// Of low ground.

@@ -6,7 +6,6 @@ mod cpu;
 mod detail;
 mod eye;
 mod height_field;
-mod look;
 mod point_normal;
 mod program;
 mod render;
@@ -17,17 +16,17 @@ pub use component::{Backend, TessSettings, TessStats, TessValues, Tessellated};
 pub use detail::LevelOfDetail;
 pub use eye::Eye;
 pub use height_field::{GroundColors, HeightField, HeightFieldError};
-pub use look::Look;
 pub use point_normal::{PointNormalError, PointNormalMesh};
 pub use shape::{CpuShape, DEFAULT_FRAGMENT, Shape, ShapeVertex};
 pub use tess_core;
 pub use tess_surface;
 
 use bevy::app::{App, Plugin, PostUpdate};
-use bevy::asset::AssetEventSystems;
+use bevy::asset::{AssetEventSystems, Assets};
 use bevy::camera::primitives::Aabb;
 use bevy::camera::visibility::VisibilitySystems;
 use bevy::ecs::prelude::*;
+use bevy::pbr::StandardMaterial;
 use bevy::render::renderer::RenderDevice;
 use bevy::transform::TransformSystems;
 use component::Backend as Chosen;
@@ -40,6 +39,8 @@ pub struct TessPlugin;
 impl Plugin for TessPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<TessSettings>().init_resource::<TessStats>();
+        let mut materials = app.world_mut().resource_mut::<Assets<StandardMaterial>>();
+        materials.insert(&component::PLAIN, StandardMaterial::default()).expect("no generation");
         app.add_systems(
             PostUpdate,
             (

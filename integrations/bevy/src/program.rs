@@ -22,7 +22,10 @@ const FRAGMENT: &str = include_str!("../shaders/fragment.wesl");
 /// Bevy's items that fragment.wesl uses, in one line in front of the shape's first.
 const IMPORTS: &str = "import bevy_pbr::render::pbr_types as tess_pbr_types; \
                        import bevy_pbr::render::pbr_functions as tess_pbr_functions; \
-                       import bevy_pbr::render::mesh_types as tess_mesh_types; ";
+                       import bevy_pbr::render::pbr_fragment as tess_pbr_fragment; \
+                       @if(PREPASS_PIPELINE) \
+                       import bevy_pbr::prepass::io::VertexOutput as TessOutput; \
+                       @else import bevy_pbr::render::forward_io::VertexOutput as TessOutput; ";
 
 /// The plugin's bind group in the stage's compute pass.
 const HULL_GROUP: &str = "0";
@@ -65,13 +68,12 @@ impl Key {
         let builder = TessellationStage::builder(&source, self.domain, self.config, 1);
         Shader::from_wgsl(builder.vertex_shader(), format!("bevy_tess/surface_{number}.wgsl"))
     }
+}
 
-    /// The shape's text comes before the plugin's, with imports in front.
-    fn fragment_shader(&self, number: usize) -> Shader {
-        let own = [TYPES, FRAGMENT].join("\n").replace("TESS_GROUP", &DRAW_GROUP.to_string());
-        let source = format!("{IMPORTS}{}\n{own}", self.fragment);
-        Shader::from_wesl(source, format!("bevy_tess/fragment_{number}.wesl"))
-    }
+/// The text comes before the plugin's, with imports in front.
+fn fragment_shader(text: &str, name: &str) -> Shader {
+    let own = [TYPES, FRAGMENT].join("\n").replace("TESS_GROUP", &DRAW_GROUP.to_string());
+    Shader::from_wesl(format!("{IMPORTS}{text}\n{own}"), format!("bevy_tess/{name}.wesl"))
 }
 
 /// The shaders of all entities with one key.
@@ -90,7 +92,7 @@ pub(crate) struct Program {
 #[derive(Debug, Resource)]
 pub(crate) struct Programs {
     /// The modules of [`IMPORTS`] and [`PREPASS`].
-    library: [Handle<Shader>; 5],
+    library: [Handle<Shader>; 8],
     /// The fragment shader of prepasses.
     prepass: Handle<Shader>,
     all: HashMap<Key, Arc<Program>>,
@@ -103,13 +105,15 @@ impl FromWorld for Programs {
         let library = [
             "render/pbr_types",
             "render/pbr_functions",
-            "render/mesh_types",
+            "render/pbr_fragment",
+            "render/pbr_prepass_functions",
+            "render/mesh_view_bindings",
+            "render/forward_io",
             "prepass/bindings",
             "prepass/io",
         ]
         .map(|name| assets.load(format!("embedded://bevy_pbr/{name}.wesl")));
-        let source = [PREPASS, TYPES].join("\n").replace("TESS_GROUP", &DRAW_GROUP.to_string());
-        let prepass = assets.add(Shader::from_wesl(source, "bevy_tess/prepass.wesl"));
+        let prepass = assets.add(fragment_shader(PREPASS, "prepass"));
         Self { library, prepass, all: HashMap::default(), of_entities: HashMap::default() }
     }
 }
@@ -140,7 +144,8 @@ pub(crate) fn register(
         let (number, prepass) = (programs.all.len(), programs.prepass.clone());
         let program = programs.all.entry(key).or_insert_with_key(|key| {
             let vertex = shaders.add(key.vertex_shader(number));
-            let fragment = shaders.add(key.fragment_shader(number));
+            let name = format!("fragment_{number}");
+            let fragment = shaders.add(fragment_shader(&key.fragment, &name));
             Arc::new(Program { number, key: key.clone(), vertex, fragment, prepass })
         });
         let program = Arc::clone(program);

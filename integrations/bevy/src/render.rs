@@ -4,6 +4,7 @@ mod content;
 mod draw;
 mod extract;
 mod layout;
+mod materials;
 mod mirror;
 mod pipelines;
 mod queue;
@@ -13,8 +14,8 @@ mod tests;
 
 use crate::component::TessStats;
 use bevy::app::App;
-use bevy::core_pipeline::core_3d::Opaque3d;
-use bevy::core_pipeline::prepass::Opaque3dPrepass;
+use bevy::core_pipeline::core_3d::{AlphaMask3d, Opaque3d, Transparent3d};
+use bevy::core_pipeline::prepass::{AlphaMask3dPrepass, Opaque3dPrepass};
 use bevy::ecs::prelude::*;
 use bevy::pbr::Shadow;
 use bevy::render::render_phase::AddRenderCommand;
@@ -30,12 +31,23 @@ pub(crate) fn build(app: &mut App) {
         .init_gpu_resource::<pipelines::Pipelines>()
         .init_gpu_resource::<stages::Stages>()
         .add_render_command::<Opaque3d, draw::DrawLit>()
+        .add_render_command::<AlphaMask3d, draw::DrawLit>()
+        .add_render_command::<Transparent3d, draw::DrawLit>()
         .add_render_command::<Opaque3dPrepass, draw::DrawDepth>()
+        .add_render_command::<AlphaMask3dPrepass, draw::DrawDepth>()
         .add_render_command::<Shadow, draw::DrawDepth>()
         .add_systems(ExtractSchedule, extract::extract)
+        .add_systems(Render, materials::find.in_set(RenderSystems::Specialize))
         .add_systems(
             Render,
-            (queue::queue::<Opaque3d>, queue::queue::<Opaque3dPrepass>, queue::queue::<Shadow>)
+            (
+                queue::queue::<Opaque3d>,
+                queue::queue::<AlphaMask3d>,
+                queue::queue::<Transparent3d>,
+                queue::queue::<Opaque3dPrepass>,
+                queue::queue::<AlphaMask3dPrepass>,
+                queue::queue::<Shadow>,
+            )
                 .in_set(RenderSystems::Queue),
         )
         .add_systems(Render, stages::forget.in_set(RenderSystems::Cleanup))

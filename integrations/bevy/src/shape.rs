@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use std::fmt::Debug;
 use tess_core::{Domain, OutputPrimitive, PatchFactors};
 
-/// The default fragment shader: Bevy's lighting of the entity's [`Look`](crate::Look).
+/// The default fragment shader: Bevy's lighting of the entity's material.
 pub const DEFAULT_FRAGMENT: &str = include_str!("../shaders/default_fragment.wesl");
 
 /// Patches and the functions that make a surface of them.
@@ -67,6 +67,6 @@ pub struct ShapeVertex {
     pub normal: [f32; 3],
     /// Its texture coordinates.
     pub uv: [f32; 2],
-    /// A linear colour, which multiplies the base colour.
+    /// A linear colour, which multiplies the material's.
     pub color: [f32; 4],
 }

@@ -10,8 +10,8 @@ use bevy::math::ops;
 use bevy::pbr::{DistanceFog, FogFalloff};
 use bevy::prelude::*;
 use bevy_tess::{
-    BezierPatches, GroundColors, HeightField, LevelOfDetail, Look, PointNormalMesh, Shape,
-    TessValues, Tessellated,
+    BezierPatches, GroundColors, HeightField, LevelOfDetail, PointNormalMesh, Shape, TessValues,
+    Tessellated,
 };
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -37,9 +37,14 @@ pub(crate) fn set_up(
     for number in 0..CHARACTERS {
         let at = ground.surface_at(place(number));
         let nods = (Moving::Head(f32::from(number)), TessValues::default());
-        commands.spawn((character(number)?.with_detail(factors), standing(number, at), nods));
+        let (character, wool) = character(number)?;
+        let wool = MeshMaterial3d(materials.add(wool));
+        commands.spawn((character.with_detail(factors), wool, standing(number, at), nods));
     }
-    commands.spawn((teapot()?.with_detail(factors), at_the_flight(&ground)));
+    let base_color = Color::srgb(0.25, 0.4, 0.75);
+    let glaze = StandardMaterial { base_color, perceptual_roughness: 0.25, ..default() };
+    let glaze = MeshMaterial3d(materials.add(glaze));
+    commands.spawn((teapot()?.with_detail(factors), glaze, at_the_flight(&ground)));
     let stone = meshes.add(Cuboid::new(0.8, 5.0, 0.8));
     let grey = materials.add(Color::srgb(0.5, 0.5, 0.55));
     for number in 0..STONES {
@@ -47,11 +52,17 @@ pub(crate) fn set_up(
         let (mesh, material) = (Mesh3d(stone.clone()), MeshMaterial3d(grey.clone()));
         commands.spawn((mesh, material, Transform::from_translation(at)));
     }
-    let look = Look { perceptual_roughness: 0.9, reflectance: 0.2, ..default() };
-    commands.spawn(Tessellated::new(ground).with_look(look).with_detail(factors));
-    let look =
-        Look { base_color: Color::srgb(0.1, 0.3, 0.4), perceptual_roughness: 0.3, ..default() };
-    let water = Tessellated::new(Water(SIZE.x)).with_look(look).with_detail(factors);
+    let earth = StandardMaterial { perceptual_roughness: 0.9, reflectance: 0.2, ..default() };
+    let earth = MeshMaterial3d(materials.add(earth));
+    commands.spawn((Tessellated::new(ground).with_detail(factors), earth));
+    let deep = StandardMaterial {
+        base_color: Color::srgba(0.1, 0.3, 0.4, 0.7),
+        alpha_mode: AlphaMode::Blend,
+        perceptual_roughness: 0.3,
+        ..default()
+    };
+    let deep = MeshMaterial3d(materials.add(deep));
+    let water = (Tessellated::new(Water(SIZE.x)).with_detail(factors), deep);
     let waves = (Moving::Water, TessValues::default(), NotShadowCaster);
     commands.spawn((water, waves, Transform::from_xyz(0.0, WATER, 0.0)));
     let sun = DirectionalLight { illuminance: 9000.0, shadow_maps_enabled: true, ..default() };
@@ -86,24 +97,22 @@ fn ground() -> Result<HeightField> {
 }
 
 /// Characters of one of five colours share their shape.
-fn character(number: u16) -> Result<Tessellated> {
+fn character(number: u16) -> Result<(Tessellated, StandardMaterial)> {
     static SHAPE: std::sync::OnceLock<Arc<dyn Shape>> = std::sync::OnceLock::new();
     let mesh = gltf::animal();
     let made = PointNormalMesh::new(&mesh.positions, &mesh.normals, mesh.triangles)?;
     let shape = SHAPE.get_or_init(|| Arc::new(Wool(made)));
     let hue = 72.0 * f32::from(number % 5);
-    let look =
-        Look { base_color: Color::hsl(hue, 0.25, 0.8), perceptual_roughness: 0.8, ..default() };
-    Ok(Tessellated::shared(Arc::clone(shape)).with_look(look))
+    let base_color = Color::hsl(hue, 0.25, 0.8);
+    let wool = StandardMaterial { base_color, perceptual_roughness: 0.8, ..default() };
+    Ok((Tessellated::shared(Arc::clone(shape)), wool))
 }
 
 /// 32 patches of control points.
 fn teapot() -> Result<Tessellated> {
     let net = |patch: BezierPatch| patch.points.map(|row| row.map(|p| [p.x, p.y, p.z]));
     let patches = teapot::patches().into_iter().map(net).collect();
-    let base_color = Color::srgb(0.25, 0.4, 0.75);
-    let look = Look { base_color, perceptual_roughness: 0.25, ..default() };
-    Ok(Tessellated::new(BezierPatches::new(patches)?).with_look(look))
+    Ok(Tessellated::new(BezierPatches::new(patches)?))
 }
 
 /// Where the camera flies by.

@@ -23,6 +23,7 @@ pub(crate) struct Content {
     pub(crate) patches: u32,
     view: Buffer,
     instances: Mirror,
+    meshes: Mirror,
     values: Mirror,
     pub(crate) bind_group: BindGroup,
 }
@@ -107,18 +108,20 @@ impl Content {
             Ok::<_, String>(Mirror::new(buffer, words))
         };
         let instances = mirror("instances", vec![0; size_of::<GpuInstance>() / 4 * items.len()])?;
+        let meshes = mirror("meshes", layout::meshes(items))?;
         let values = mirror("values", packed_values(items))?;
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let view = upload(device, "view", &[0; size_of::<GpuView>()], usage)?;
         let mut binding = 0..;
-        let entries = [&view, &instances.buffer, &owners, &words, &values.buffer].map(|buffer| {
-            let binding = binding.next().unwrap_or(0);
-            BindGroupEntry { binding, resource: buffer.as_entire_binding() }
-        });
+        let entries = [&meshes.buffer, &view, &instances.buffer, &owners, &words, &values.buffer]
+            .map(|buffer| {
+                let binding = binding.next().unwrap_or(0);
+                BindGroupEntry { binding, resource: buffer.as_entire_binding() }
+            });
         let layout = cache.get_bind_group_layout(&layout::bind_group_layout());
         let bind_group = device.create_bind_group("bevy_tess", &layout, &entries);
         let groups = items.iter().map(|item| item.entity).zip(0..).collect();
-        Ok(Self { groups, firsts, patches, view, instances, values, bind_group })
+        Ok(Self { groups, firsts, patches, view, instances, meshes, values, bind_group })
     }
 
     /// Writes what changes from frame to frame.
@@ -138,6 +141,7 @@ impl Content {
         };
         let instances: Vec<_> = items.iter().zip(&self.firsts).map(instance).collect();
         self.instances.update(bytemuck::cast_slice(&instances).to_vec(), queue);
+        self.meshes.update(layout::meshes(items), queue);
         self.values.update(packed_values(items), queue);
     }
 

@@ -6,8 +6,8 @@ use bevy::ecs::query::ROQueryItem;
 use bevy::ecs::system::SystemParamItem;
 use bevy::ecs::system::lifetimeless::{Read, SRes};
 use bevy::pbr::{
-    SetMeshViewBindGroup, SetMeshViewBindingArrayBindGroup, SetPrepassViewBindGroup,
-    SetPrepassViewEmptyBindGroup,
+    MATERIAL_BIND_GROUP_INDEX, SetMaterialBindGroup, SetMeshViewBindGroup,
+    SetMeshViewBindingArrayBindGroup, SetPrepassViewBindGroup, SetPrepassViewEmptyBindGroup,
 };
 use bevy::render::render_phase::{
     PhaseItem, RenderCommand, RenderCommandResult, SetItemPipeline, TrackedRenderPass,
@@ -21,12 +21,18 @@ pub(crate) type DrawLit = (
     SetItemPipeline,
     SetMeshViewBindGroup<0>,
     SetMeshViewBindingArrayBindGroup<1>,
+    SetMaterialBindGroup<MATERIAL_BIND_GROUP_INDEX>,
     DrawTessellated,
 );
 
 /// In a prepass or a shadow map.
-pub(crate) type DrawDepth =
-    (SetItemPipeline, SetPrepassViewBindGroup<0>, SetPrepassViewEmptyBindGroup<1>, DrawTessellated);
+pub(crate) type DrawDepth = (
+    SetItemPipeline,
+    SetPrepassViewBindGroup<0>,
+    SetPrepassViewEmptyBindGroup<1>,
+    SetMaterialBindGroup<MATERIAL_BIND_GROUP_INDEX>,
+    DrawTessellated,
+);
 
 /// Draws the group of an entity.
 pub(crate) struct DrawTessellated;

@@ -1,10 +1,10 @@
 //! The render world's copy of a frame's surfaces.
 
+use super::materials::Material;
 use crate::component::{TessSettings, TessValues, Tessellated};
 use crate::detail::LevelOfDetail;
 use crate::eye::Casting;
 use crate::is_on_cpu;
-use crate::look::Look;
 use crate::program::{Program, Programs};
 use crate::shape::Shape;
 use bevy::asset::AssetServer;
@@ -25,7 +25,7 @@ pub(crate) struct Item {
     pub(crate) program: Arc<Program>,
     pub(crate) shape: Arc<dyn Shape>,
     pub(crate) rule: LevelOfDetail,
-    pub(crate) look: Look,
+    pub(crate) material: Option<Material>,
     pub(crate) values: Vec<f32>,
     pub(crate) world_from_local: Affine3A,
     pub(crate) previous_from_world: Affine3A,
@@ -75,7 +75,7 @@ pub(crate) fn extract(
             program: Arc::clone(programs.of(entity)?),
             shape: Arc::clone(&tessellated.shape),
             rule: tessellated.detail,
-            look: tessellated.look,
+            material: None,
             values: values.map_or_else(Vec::new, |values| values.0.clone()),
             world_from_local,
             previous_from_world: previous * world_from_local.inverse(),

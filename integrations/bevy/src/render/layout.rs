@@ -3,10 +3,11 @@
 use super::extract::Item;
 use crate::detail::LevelOfDetail;
 use crate::eye::View;
-use bevy::color::ColorToComponents;
 use bevy::math::{Mat3, Mat4};
+use bevy::pbr::{MeshFlags, MeshTransforms, MeshUniform};
 use bevy::render::render_resource::{
     BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, BufferBindingType, ShaderStages,
+    encase,
 };
 use bytemuck::{Pod, Zeroable};
 
@@ -42,14 +43,11 @@ pub(crate) struct GpuInstance {
     world_from_local: [[f32; 4]; 4],
     normal_from_local: [[f32; 4]; 4],
     previous_from_world: [[f32; 4]; 4],
-    base_color: [f32; 4],
-    emissive: [f32; 4],
-    material: [f32; 4],
     rule: [f32; 4],
     first_patch: u32,
     first_word: u32,
     first_value: u32,
-    receives_shadows: u32,
+    reserved: u32,
 }
 
 impl GpuInstance {
@@ -57,23 +55,36 @@ impl GpuInstance {
     pub(crate) fn new(item: &Item, firsts: [u32; 3], is_visible: bool) -> Self {
         let [first_patch, first_word, first_value] = firsts;
         let linear = Mat3::from(item.world_from_local.matrix3);
-        let look = &item.look;
-        let unlit = if look.unlit { 1.0 } else { 0.0 };
-        let [red, green, blue, _] = look.emissive.to_f32_array();
         Self {
             world_from_local: Mat4::from(item.world_from_local).to_cols_array_2d(),
             normal_from_local: Mat4::from_mat3(linear.inverse().transpose()).to_cols_array_2d(),
             previous_from_world: Mat4::from(item.previous_from_world).to_cols_array_2d(),
-            base_color: look.base_color.to_linear().to_f32_array(),
-            emissive: [red, green, blue, 0.0],
-            material: [look.perceptual_roughness, look.metallic, look.reflectance, unlit],
             rule: if is_visible { item.rule.words() } else { LevelOfDetail::HIDDEN },
             first_patch,
             first_word,
             first_value,
-            receives_shadows: item.receives_shadows.into(),
+            reserved: 0,
         }
     }
+}
+
+/// What Bevy's fragment functions read of each entity.
+pub(crate) fn meshes(items: &[&Item]) -> Vec<u32> {
+    let of = |item: &&Item| {
+        // The sign says that fragments are told which side is in front, whatever the transform does to triangles.
+        let mut flags = MeshFlags::SIGN_DETERMINANT_MODEL_3X3;
+        flags.set(MeshFlags::SHADOW_RECEIVER, item.receives_shadows);
+        let world_from_local = item.world_from_local.into();
+        let flags = flags.bits();
+        let transforms =
+            MeshTransforms { world_from_local, previous_world_from_local: world_from_local, flags };
+        let slot = item.material.as_ref().map_or(0, |material| material.slot);
+        MeshUniform::new(&transforms, 0, slot.into(), None, None, None, None, None)
+    };
+    let meshes: Vec<_> = items.iter().map(of).collect();
+    let mut buffer = encase::StorageBuffer::new(Vec::<u8>::new());
+    buffer.write(&meshes).expect("a vector grows");
+    bytemuck::pod_collect_to_vec(&buffer.into_inner())
 }
 
 /// The layout of the plugin's bind group, in compute and render passes.
@@ -83,7 +94,7 @@ pub(crate) fn bind_group_layout() -> BindGroupLayoutDescriptor {
         visibility,
         ty: BindingType::Buffer {
             ty: match binding {
-                0 => BufferBindingType::Uniform,
+                1 => BufferBindingType::Uniform,
                 _ => BufferBindingType::Storage { read_only: true },
             },
             has_dynamic_offset: false,
@@ -93,7 +104,7 @@ pub(crate) fn bind_group_layout() -> BindGroupLayoutDescriptor {
     };
     let surface = ShaderStages::COMPUTE | ShaderStages::VERTEX;
     let everywhere = surface | ShaderStages::FRAGMENT;
-    let entries = [everywhere, everywhere, surface, surface, surface];
+    let entries = [ShaderStages::FRAGMENT, everywhere, everywhere, surface, surface, surface];
     let mut binding = 0..;
     let entries = entries.map(|visibility| entry(binding.next().unwrap_or(0), visibility));
     BindGroupLayoutDescriptor::new("bevy_tess", &entries)

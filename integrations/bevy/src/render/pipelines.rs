@@ -5,22 +5,26 @@ use crate::program::{DRAW_GROUP, Program};
 use bevy::ecs::prelude::*;
 use bevy::ecs::system::SystemParam;
 use bevy::material::MaterialProperties;
-use bevy::material::key::{ErasedMaterialKey, ErasedMaterialPipelineKey, ErasedMeshPipelineKey};
+use bevy::material::key::{ErasedMaterialPipelineKey, ErasedMeshPipelineKey};
+use bevy::material::specialize::SpecializedMeshPipelineError;
 use bevy::mesh::{MeshVertexBufferLayoutRef, MeshVertexBufferLayouts, VertexBufferLayout};
-use bevy::pbr::{MeshPipeline, MeshPipelineKey, PrepassPipeline, PrepassPipelineSpecializer};
+use bevy::pbr::{
+    MATERIAL_BIND_GROUP_INDEX, MaterialPipeline, MeshPipeline, MeshPipelineKey, PrepassPipeline,
+    PrepassPipelineSpecializer,
+};
 use bevy::platform::collections::HashMap;
 use bevy::render::render_resource::{
-    CachedRenderPipelineId, Face, PipelineCache, PolygonMode, PrimitiveTopology,
+    CachedRenderPipelineId, PipelineCache, PolygonMode, PrimitiveTopology,
     RenderPipelineDescriptor, SpecializedMeshPipeline, VertexAttribute, VertexFormat,
     VertexStepMode,
 };
-use std::any::TypeId;
+use bevy::shader::ShaderDefVal;
 use std::sync::Arc;
 
 /// What is drawn: of Bevy's key, whether only depth, normals and motion, and whether as a wireframe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Kind {
-    pub(crate) key: MeshPipelineKey,
+    pub(crate) key: ErasedMaterialPipelineKey,
     pub(crate) is_prepass: bool,
     pub(crate) wireframe: bool,
 }
@@ -43,12 +47,12 @@ impl Pipelines {
         &mut self,
         program: &Program,
         kind: Kind,
+        properties: &Arc<MaterialProperties>,
         own: &Own<'_>,
     ) -> CachedRenderPipelineId {
-        *self
-            .0
-            .entry((program.number, kind))
-            .or_insert_with(|| own.cache.queue_render_pipeline(descriptor(own, program, kind)))
+        *self.0.entry((program.number, kind)).or_insert_with_key(|(_, kind)| {
+            own.cache.queue_render_pipeline(descriptor(own, program, kind, properties))
+        })
     }
 }
 
@@ -59,11 +63,17 @@ fn layout_of_a_mesh() -> MeshVertexBufferLayoutRef {
 }
 
 /// Bevy's pipeline for meshes, with the program's shaders and bind group in place of those for meshes.
-fn descriptor(own: &Own<'_>, program: &Program, kind: Kind) -> RenderPipelineDescriptor {
-    let mut descriptor = of_a_mesh(own, kind);
+fn descriptor(
+    own: &Own<'_>,
+    program: &Program,
+    kind: &Kind,
+    properties: &Arc<MaterialProperties>,
+) -> RenderPipelineDescriptor {
+    let mut descriptor = of_a_mesh(own, kind, properties);
     descriptor.label = Some("bevy_tess".into());
-    descriptor.layout[DRAW_GROUP] = layout::bind_group_layout();
-    descriptor.layout.truncate(DRAW_GROUP + 1);
+    descriptor.layout.truncate(DRAW_GROUP);
+    descriptor.layout.push(layout::bind_group_layout());
+    descriptor.layout.extend(properties.material_layout.clone());
     descriptor.vertex.shader = program.vertex.clone();
     descriptor.vertex.entry_point = Some("tess_vertex".into());
     descriptor.vertex.shader_defs.clear();
@@ -80,8 +90,14 @@ fn descriptor(own: &Own<'_>, program: &Program, kind: Kind) -> RenderPipelineDes
         let shader = if kind.is_prepass { &program.prepass } else { &program.fragment };
         fragment.shader = shader.clone();
         fragment.entry_point = None;
+        // Tangents where a material wants them, as meshes have.
+        if ["NORMAL_MAP", "CLEARCOAT_NORMAL_MAP", "ANISOTROPY"].into_iter().any(|name| {
+            let name = format!("STANDARD_MATERIAL_{name}");
+            fragment.shader_defs.contains(&name.into())
+        }) {
+            fragment.shader_defs.push("VERTEX_TANGENTS".into());
+        }
     }
-    descriptor.primitive.cull_mode = Some(Face::Back);
     if kind.wireframe {
         descriptor.primitive.polygon_mode = PolygonMode::Line;
         descriptor.primitive.cull_mode = None;
@@ -89,9 +105,14 @@ fn descriptor(own: &Own<'_>, program: &Program, kind: Kind) -> RenderPipelineDes
     descriptor
 }
 
-/// Bevy's pipeline for a mesh. Where the device cannot draw what is in front of the near plane, the vertex shader moves
-/// it there.
-fn of_a_mesh(own: &Own<'_>, Kind { mut key, is_prepass, .. }: Kind) -> RenderPipelineDescriptor {
+/// Bevy's pipeline for a mesh of a material. Where the device cannot draw what is in front of the near plane, the vertex
+/// shader moves it there.
+fn of_a_mesh(
+    own: &Own<'_>,
+    kind: &Kind,
+    properties: &Arc<MaterialProperties>,
+) -> RenderPipelineDescriptor {
+    let mut key: MeshPipelineKey = kind.key.mesh_key.downcast();
     key |= MeshPipelineKey::from_primitive_topology_and_strip_index(
         PrimitiveTopology::TriangleList,
         None,
@@ -100,24 +121,36 @@ fn of_a_mesh(own: &Own<'_>, Kind { mut key, is_prepass, .. }: Kind) -> RenderPip
     let clamps = key.contains(unclipped) && !own.prepass.depth_clip_control_supported;
     key.set(unclipped, key.contains(unclipped) && !clamps);
     let layout = layout_of_a_mesh();
-    let specialized = if is_prepass {
-        let properties = MaterialProperties {
-            material_layout: Some(own.prepass.empty_layout.clone()),
-            ..Default::default()
-        };
-        let pipeline = own.prepass.clone();
-        PrepassPipelineSpecializer { pipeline, properties: Arc::new(properties) }.specialize(
-            ErasedMaterialPipelineKey {
-                mesh_key: ErasedMeshPipelineKey::new(key),
-                material_key: ErasedMaterialKey::new(()),
-                type_id: TypeId::of::<()>(),
-            },
-            &layout,
-        )
+    let erased =
+        ErasedMaterialPipelineKey { mesh_key: ErasedMeshPipelineKey::new(key), ..kind.key.clone() };
+    let specialized = if kind.is_prepass {
+        let (pipeline, properties) = (own.prepass.clone(), Arc::clone(properties));
+        PrepassPipelineSpecializer { pipeline, properties }.specialize(erased, &layout)
     } else {
-        own.mesh.specialize(key, &layout)
+        lit(own, key, erased, &layout, properties)
     };
     let mut descriptor = specialized.expect("the mesh has the attributes that Bevy asks for");
     descriptor.vertex.constants = vec![("tess_clamps".into(), f64::from(clamps))];
     descriptor
+}
+
+/// Bevy's pipeline for the main pass: its MaterialPipelineSpecializer, which others cannot make.
+fn lit(
+    own: &Own<'_>,
+    key: MeshPipelineKey,
+    erased: ErasedMaterialPipelineKey,
+    layout: &MeshVertexBufferLayoutRef,
+    properties: &MaterialProperties,
+) -> Result<RenderPipelineDescriptor, SpecializedMeshPipelineError> {
+    let mut descriptor = own.mesh.specialize(key, layout)?;
+    let group = ShaderDefVal::UInt("MATERIAL_BIND_GROUP".into(), MATERIAL_BIND_GROUP_INDEX as u32);
+    let bindless = properties.bindless.then(|| "BINDLESS".into());
+    let fragment = descriptor.fragment.iter_mut();
+    fragment
+        .for_each(|f| f.shader_defs.extend(bindless.clone().into_iter().chain([group.clone()])));
+    if let Some(specialize) = properties.user_specialize {
+        let pipeline = MaterialPipeline { mesh_pipeline: own.mesh.clone() };
+        specialize(&pipeline, &mut descriptor, layout, erased)?;
+    }
+    Ok(descriptor)
 }

@@ -9,7 +9,7 @@ use bevy::prelude::*;
 use std::f32::consts::FRAC_PI_2;
 
 /// A square that faces the camera of [`app`].
-fn square(at: Vec3) -> impl Bundle {
+pub(super) fn square(at: Vec3) -> impl Bundle {
     let level = HeightField::new(UVec2::ONE, vec![0.0]).expect("one texel");
     let facing = Quat::from_rotation_x(FRAC_PI_2);
     (Tessellated::new(level), Transform::from_translation(at).with_rotation(facing))

@@ -2,7 +2,7 @@
 
 use super::{SIZE, app, picture, run};
 use crate::{
-    Backend, CpuShape, DEFAULT_FRAGMENT, Eye, Look, Shape, ShapeVertex, TessSettings, TessValues,
+    Backend, CpuShape, DEFAULT_FRAGMENT, Eye, Shape, ShapeVertex, TessSettings, TessValues,
     Tessellated,
 };
 use bevy::camera::primitives::Aabb;
@@ -81,8 +81,9 @@ fn both_ways_see_the_values_of_each_frame() {
     let [gpu, cpu] = [Backend::Auto, Backend::Cpu].map(|backend| {
         let mut app = app();
         app.insert_resource(TessSettings { backend, ..default() });
-        let white = Look { unlit: true, ..default() };
-        let square = Tessellated::new(Moved).with_look(white);
+        let white = StandardMaterial { unlit: true, ..default() };
+        let white = app.world_mut().resource_mut::<Assets<StandardMaterial>>().add(white);
+        let square = (Tessellated::new(Moved), MeshMaterial3d(white));
         let values = |all: &[f32]| TessValues(all.to_vec());
         let left = app.world_mut().spawn((square.clone(), values(&[9.0, -0.4, 7.0]))).id();
         let right = app.world_mut().spawn((square, values(&[9.0, 0.4]))).id();

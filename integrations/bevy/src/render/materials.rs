@@ -1,0 +1,70 @@
+//! The materials of surfaces: Bevy's, prepared by Bevy.
+
+use super::extract::Extracted;
+use bevy::ecs::prelude::*;
+use bevy::material::key::{ErasedMaterialPipelineKey, ErasedMeshPipelineKey};
+use bevy::material::{AlphaMode, MaterialProperties};
+use bevy::pbr::{MeshPipelineKey, PreparedMaterial, RenderMaterialInstances};
+use bevy::render::erased_render_asset::ErasedRenderAssets;
+use std::any::TypeId;
+use std::fmt;
+use std::sync::Arc;
+
+/// A material as Bevy has prepared it.
+#[derive(Clone)]
+pub(crate) struct Material {
+    pub(crate) properties: Arc<MaterialProperties>,
+    /// Its place in its bind group.
+    pub(crate) slot: u32,
+    type_id: TypeId,
+}
+
+/// Where a material is drawn, as Bevy does without transmission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pass {
+    Opaque,
+    Mask,
+    /// From back to front.
+    Blend,
+}
+
+impl fmt::Debug for Material {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Material").field("slot", &self.slot).finish_non_exhaustive()
+    }
+}
+
+impl Material {
+    pub(crate) fn pass(&self) -> Pass {
+        match self.properties.alpha_mode {
+            AlphaMode::Opaque | AlphaMode::AlphaToCoverage => Pass::Opaque,
+            AlphaMode::Mask(_) => Pass::Mask,
+            _ => Pass::Blend,
+        }
+    }
+
+    /// What pipelines depend on.
+    pub(crate) fn key(&self, mesh: MeshPipelineKey) -> ErasedMaterialPipelineKey {
+        ErasedMaterialPipelineKey {
+            mesh_key: ErasedMeshPipelineKey::new(mesh),
+            material_key: self.properties.material_key.clone(),
+            type_id: self.type_id,
+        }
+    }
+}
+
+/// Finds the materials of the frame's surfaces. One without is not drawn: Bevy loads it, or the surface is hidden.
+pub(crate) fn find(
+    mut extracted: ResMut<Extracted>,
+    instances: Res<RenderMaterialInstances>,
+    prepared: Res<ErasedRenderAssets<PreparedMaterial>>,
+) {
+    for item in &mut extracted.items {
+        let asset = instances.instances.get(&item.entity).map(|instance| instance.asset_id);
+        item.material = asset.and_then(|asset| {
+            let PreparedMaterial { binding, properties } = prepared.get(asset)?;
+            let (properties, slot) = (Arc::clone(properties), binding.slot.into());
+            Some(Material { properties, slot, type_id: asset.type_id() })
+        });
+    }
+}
