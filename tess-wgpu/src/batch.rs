@@ -98,6 +98,11 @@ impl Batch {
         self.buffers.of(Resource::Draws)
     }
 
+    /// The first patch of each group.
+    pub(crate) fn groups(&self) -> &wgpu::Buffer {
+        self.buffers.of(Resource::Groups)
+    }
+
     /// The [`tess_gpu::layout::Topology`] of each patch, after the batch has run.
     #[must_use]
     pub fn topologies(&self) -> &wgpu::Buffer {
@@ -141,7 +146,7 @@ fn plan(setup: Setup, patches: u32, outputs: Outputs<'_>, limits: Limits) -> Pla
 }
 
 /// How many groups there are; refuses those that do not ascend within the batch.
-fn check_groups(patches: u32, groups: &[u32]) -> Result<u32, Error> {
+pub(crate) fn check_groups(patches: u32, groups: &[u32]) -> Result<u32, Error> {
     let mut least = 0;
     for (group, &begin) in groups.iter().enumerate() {
         if begin < least || begin > patches {

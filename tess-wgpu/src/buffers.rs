@@ -31,7 +31,8 @@ impl Buffers {
         let make = |resource| match resource {
             Resource::Job => gpu::filled(device, "Job", &plan.jobs(), Usage::UNIFORM),
             Resource::Groups => {
-                gpu::filled(device, "Groups", bytemuck::cast_slice(groups), Usage::STORAGE)
+                let usage = Usage::STORAGE | Usage::COPY_DST;
+                gpu::filled(device, "Groups", bytemuck::cast_slice(groups), usage)
             }
             Resource::Factors => Ok(factors.clone()),
             Resource::Tables => Ok(tables.clone()),

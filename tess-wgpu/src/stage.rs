@@ -20,6 +20,7 @@ pub use builder::StageBuilder;
 pub use choices::{Factors, Overflow, PatchCount, Points, Room};
 pub use feedback::Feedback;
 
+use crate::batch::check_groups;
 use crate::error::Error;
 use crate::{Tessellator, gpu};
 use feedback::Feedbacks;
@@ -62,6 +63,8 @@ pub struct TessellationStage {
     room: Room,
     lull: Lull,
     groups: Vec<u32>,
+    /// Groups in place of those that the batch was made with, copied there in each frame.
+    begins: Option<wgpu::Buffer>,
     bind_groups: Vec<UserGroup>,
     /// The raw factors of the frame, as the batch reads them.
     factors: wgpu::Buffer,
@@ -146,7 +149,7 @@ impl TessellationStage {
     }
 
     /// The buffers of the last frame that was prepared, for an engine that records the draws itself. A call of
-    /// [`Self::prepare`] replaces them if it makes more room or if [`Self::set_groups`] came before it.
+    /// [`Self::prepare`] replaces them if it makes more room or if [`Self::set_groups`] gave another number of groups.
     ///
     /// # Errors
     /// [`StageError::NothingStored`] unless points and indices are stored.
@@ -163,11 +166,19 @@ impl TessellationStage {
     }
 
     /// Replaces the groups that [`StageBuilder::groups`] gave, from the next call of [`Self::prepare`] on. Until then
-    /// the frame that was prepared is drawn with its own groups. Nothing is compiled.
+    /// the frame that was prepared is drawn with its own groups. Nothing is compiled; as many groups as before are a copy
+    /// of their numbers.
     ///
     /// # Errors
     /// [`Error::MisplacedGroup`]; [`Error::OutOfMemory`]. The groups are then what they were.
     pub fn set_groups(&mut self, first_patches: &[u32]) -> Result<(), Error> {
+        if self.next.is_none() && first_patches.len() == self.groups.len() {
+            check_groups(self.form.patches, first_patches)?;
+            let bytes = bytemuck::cast_slice(first_patches);
+            self.begins = Some(gpu::filled(&self.device, "new groups", bytes, Usage::COPY_SRC)?);
+            self.groups = first_patches.to_vec();
+            return Ok(());
+        }
         let output = self.output_of(self.output.room, first_patches, self.output.stored.clone())?;
         self.next = Some((first_patches.to_vec(), output));
         Ok(())

@@ -6,7 +6,7 @@ use super::source;
 use super::wgsl::Declaration;
 use crate::Tessellator;
 use tess_core::{Config, Domain};
-use tess_gpu::{Order, Setup};
+use tess_gpu::{Capacity, Order, Setup};
 
 /// Makes a [`TessellationStage`](super::TessellationStage). Every choice has a default; only
 /// [`StageBuilder::build`] must be called.
@@ -23,6 +23,7 @@ pub struct StageBuilder<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) points: Points,
     pub(super) room: Room,
+    pub(super) first_room: Capacity,
     pub(super) overflow: Overflow,
     pub(super) groups: Vec<u32>,
     pub(super) render: Render<'a>,
@@ -58,6 +59,7 @@ impl<'a> StageBuilder<'a> {
             factors: Factors::Hull,
             points: Points::Stored,
             room: Room::Automatic { most_bytes: MOST_BYTES },
+            first_room: Capacity { points: 0, primitives: 0 },
             overflow: Overflow::Coarser,
             groups: Vec::new(),
             render: Render {
@@ -136,6 +138,13 @@ impl<'a> StageBuilder<'a> {
     /// The room for points and indices; [`Room::Automatic`] up to 256 MiB if this is not called.
     pub const fn room(mut self, room: Room) -> Self {
         self.room = room;
+        self
+    }
+
+    /// Begins [`Room::Automatic`] with no less than this: the [`capacity`](super::TessellationStage::capacity) of a smaller
+    /// stage that this one replaces.
+    pub const fn first_room(mut self, room: Capacity) -> Self {
+        self.first_room = room;
         self
     }
 

@@ -40,6 +40,7 @@ impl TessellationStage {
         if let Some((groups, output)) = self.next.take() {
             self.groups = groups;
             self.output = output;
+            self.begins = None;
         }
         self.adapt()?;
         gpu::recorded(&self.device, || {
@@ -49,6 +50,9 @@ impl TessellationStage {
                 fit.encode(encoder);
             }
             let batch = &self.output.batch;
+            if let Some(begins) = &self.begins {
+                encoder.copy_buffer_to_buffer(begins, 0, batch.groups(), 0, begins.size());
+            }
             batch.encode(encoder);
             let of = (batch, self.fit.as_ref());
             locked(&self.feedback).record(encoder, of, self.frame);
@@ -144,6 +148,7 @@ impl TessellationStage {
         let stored = Stored::new(&self.device, self.form, room)?;
         let groups = self.groups.clone();
         self.output = self.output_of(room, &groups, stored)?;
+        self.begins = None;
         if let Some(fit) = &mut self.fit {
             fit.set_room(words);
         }

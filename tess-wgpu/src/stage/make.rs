@@ -61,7 +61,7 @@ async fn stage(
     device: &wgpu::Device,
 ) -> Result<TessellationStage, Error> {
     check(&builder, device)?;
-    let StageBuilder { patches, points, room, overflow, .. } = builder;
+    let StageBuilder { patches, points, room, first_room, overflow, .. } = builder;
     let form = builder.form(device);
     let setup = form.setup;
     let mut tessellator = match builder.tessellator {
@@ -79,7 +79,7 @@ async fn stage(
         true => Some(render_pipeline(&builder, &tessellator, pulled.as_ref()).await?),
         false => None,
     };
-    let capacity = form.initial(room);
+    let capacity = form.first(room, first_room);
     let fit = (overflow == Overflow::Coarser)
         .then(|| Fit::new(&tessellator, setup, patches, &factors, capacity))
         .transpose()?;
@@ -97,6 +97,7 @@ async fn stage(
         room,
         lull: Lull::NEW,
         groups: builder.groups,
+        begins: None,
         bind_groups: builder.bind_groups.into_iter().map(|group| (group, Vec::new())).collect(),
         factors,
         count,

@@ -71,6 +71,16 @@ impl Form {
         }
     }
 
+    /// The same, where the stage chooses no less than `least`, as far as the budget goes.
+    pub(crate) fn first(self, room: Room, least: Capacity) -> Capacity {
+        match room {
+            Room::Automatic { most_bytes } => {
+                self.at_most(most_bytes, self.initial(room), self.possible(least))
+            }
+            _ => self.initial(room),
+        }
+    }
+
     /// The room ahead of frames that need this many points and primitives, if it is another.
     pub(crate) fn grown(self, room: Room, now: Capacity, needed: [u64; 2]) -> Option<Capacity> {
         let Room::Automatic { most_bytes } = room else { return None };
@@ -233,6 +243,9 @@ mod tests {
         let room = Room::Automatic { most_bytes: 100_000 };
         let first = form.initial(room);
         assert_eq!(first, Capacity { points: 250, primitives: 320 }, "factor 4");
+        let more = Capacity { points: 251, primitives: 9 };
+        assert_eq!(form.first(room, more), Capacity { points: 251, ..first }, "another stage's");
+        assert_eq!(form.first(Room::Exactly(first), more), first, "if the stage chooses");
         assert_eq!(form.grown(room, first, [218, 280]), None, "7/8 are not exceeded");
         let more = form.grown(room, first, [219, 280]).expect("points are nearly used");
         assert_eq!(more, Capacity { points: 547, primitives: 700 }, "5/2 of what was needed");
