@@ -80,18 +80,26 @@ pub enum Backend {
     Cpu,
 }
 
-/// How many triangles the surfaces had lately; a frame or two late on the GPU.
+/// How many triangles the surfaces had lately, a frame or two late on the GPU, and what was uploaded for them.
 #[derive(Clone, Debug, Default, Resource)]
-pub struct TessStats(Arc<AtomicU64>);
+pub struct TessStats(Arc<[AtomicU64; 2]>);
 
 impl TessStats {
     /// Triangles of all surfaces and cameras.
     #[must_use]
     pub fn triangles(&self) -> u64 {
-        self.0.load(Ordering::Relaxed)
+        self.0[0].load(Ordering::Relaxed)
     }
 
-    pub(crate) fn set(&self, triangles: u64) {
-        self.0.store(triangles, Ordering::Relaxed);
+    /// Bytes of shapes, places, looks and values that the last frame uploaded; 0 on the CPU. It uploads the view of each
+    /// camera too, and 4 bytes an entity if entities came or went.
+    #[must_use]
+    pub fn uploaded(&self) -> u64 {
+        self.0[1].load(Ordering::Relaxed)
+    }
+
+    pub(crate) fn set(&self, triangles: u64, uploaded: u64) {
+        self.0[0].store(triangles, Ordering::Relaxed);
+        self.0[1].store(uploaded, Ordering::Relaxed);
     }
 }

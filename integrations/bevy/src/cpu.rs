@@ -29,7 +29,7 @@ pub(crate) struct Tessellators {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tessellation {
     pub(crate) vertices: Vec<ShapeVertex>,
-    indices: Vec<u32>,
+    pub(crate) indices: Vec<u32>,
 }
 
 impl Tessellators {
@@ -164,7 +164,7 @@ pub(crate) fn tessellate(
         let handle = meshes.add(made);
         commands.entity(entity).insert((Mesh3d(handle.clone()), of(handle)));
     }
-    stats.set(triangles);
+    stats.set(triangles, 0);
 }
 
 /// As render/pipelines.rs.

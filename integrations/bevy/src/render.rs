@@ -7,6 +7,7 @@ mod layout;
 mod materials;
 mod mirror;
 mod pipelines;
+mod places;
 mod queue;
 mod stages;
 #[cfg(test)]

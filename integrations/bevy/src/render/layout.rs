@@ -66,6 +66,11 @@ impl GpuInstance {
             reserved: 0,
         }
     }
+
+    /// Makes it that of an entity that the camera does not see.
+    pub(crate) const fn hide(&mut self) {
+        self.rule = LevelOfDetail::HIDDEN;
+    }
 }
 
 /// What Bevy's fragment functions read of each entity.

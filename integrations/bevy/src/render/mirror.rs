@@ -1,41 +1,83 @@
 //! Buffers of which only what changes is written.
 
-use bevy::render::render_resource::Buffer;
-use bevy::render::renderer::RenderQueue;
+use bevy::render::render_resource::{Buffer, BufferDescriptor, BufferUsages};
+use bevy::render::renderer::{RenderDevice, RenderQueue};
+use std::cell::Cell;
 use std::ops::Range;
 
+/// Where to upload, and how many bytes were.
+pub(crate) struct Gpu<'a> {
+    pub(crate) device: &'a RenderDevice,
+    pub(crate) queue: &'a RenderQueue,
+    pub(crate) uploaded: Cell<u64>,
+}
+
+/// A storage buffer that doubles; the device copies what is there. None at first.
+#[derive(Debug, Default)]
+pub(crate) struct Growing(pub(crate) Option<Buffer>);
+
+impl Growing {
+    /// Writes words from this one on. An error if they exceed one binding.
+    pub(crate) fn write(&mut self, at: u32, words: &[u32], gpu: &Gpu<'_>) -> Result<(), String> {
+        let end = 4 * (u64::from(at) + words.len() as u64);
+        let buffer = self.with_room(end, gpu)?;
+        gpu.queue.write_buffer(buffer, 4 * u64::from(at), bytemuck::cast_slice(words));
+        gpu.uploaded.update(|bytes| bytes + 4 * words.len() as u64);
+        Ok(())
+    }
+
+    fn with_room(&mut self, bytes: u64, gpu: &Gpu<'_>) -> Result<&Buffer, String> {
+        let limits = gpu.device.limits();
+        let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) / 4 * 4;
+        if bytes > limit {
+            return Err(format!(
+                "surfaces take {bytes} bytes of a buffer, and the device binds {limit}; use less"
+            ));
+        }
+        let old = self.0.take();
+        if let Some(old) = old.as_ref().filter(|old| old.size() >= bytes) {
+            return Ok(self.0.insert(old.clone()));
+        }
+        let size = bytes.max(1024).next_power_of_two().min(limit);
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
+        let (label, mapped_at_creation) = (Some("bevy_tess"), false);
+        let new = BufferDescriptor { label, size, usage, mapped_at_creation };
+        let new = self.0.insert(gpu.device.create_buffer(&new));
+        if let Some(old) = old {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            encoder.copy_buffer_to_buffer(&old, 0, new, 0, old.size());
+            // At once: what is written from now on comes behind it.
+            gpu.queue.submit([encoder.finish()]);
+        }
+        Ok(new)
+    }
+}
+
 /// A buffer, and the words that are in it.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Mirror {
-    pub(crate) buffer: Buffer,
-    words: Vec<u32>,
+    pub(crate) buffer: Growing,
+    pub(crate) words: Vec<u32>,
 }
 
 /// Runs with fewer equal words between them are one: a write costs more than these words.
 const APART: usize = 64;
 
 impl Mirror {
-    /// A buffer with these words.
-    pub(crate) const fn new(buffer: Buffer, words: Vec<u32>) -> Self {
-        Self { buffer, words }
-    }
-
-    /// Writes the words that differ from those before, which are as many.
-    pub(crate) fn update(&mut self, words: Vec<u32>, queue: &RenderQueue) {
+    /// Writes the words that differ from those before, or are new.
+    pub(crate) fn update(&mut self, words: Vec<u32>, gpu: &Gpu<'_>) -> Result<(), String> {
         for run in changed(&self.words, &words) {
-            queue.write_buffer(
-                &self.buffer,
-                4 * run.start as u64,
-                bytemuck::cast_slice(&words[run]),
-            );
+            self.buffer.write(run.start as u32, &words[run], gpu)?;
         }
         self.words = words;
+        Ok(())
     }
 }
 
-fn changed(old: &[u32], new: &[u32]) -> Vec<Range<usize>> {
+/// Where words differ from those before, or are new.
+pub(crate) fn changed(old: &[u32], new: &[u32]) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
-    for at in (0..new.len()).filter(|&at| old[at] != new[at]) {
+    for at in (0..new.len()).filter(|&at| old.get(at) != Some(&new[at])) {
         match runs.last_mut() {
             Some(run) if at - run.end < APART => run.end = at + 1,
             _ => runs.push(at..at + 1),
@@ -43,7 +85,6 @@ fn changed(old: &[u32], new: &[u32]) -> Vec<Range<usize>> {
     }
     runs
 }
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,30 +3,38 @@
 use super::content::Content;
 use super::extract::{Extracted, Item};
 use super::layout;
+use super::mirror::Gpu;
+use super::places::Places;
 use super::queue::Seen;
 use crate::component::TessStats;
 use crate::eye::View;
 use crate::program::Key;
-use crate::shape::Shape;
 use bevy::camera::Camera3d;
 use bevy::ecs::prelude::*;
 use bevy::log::error;
-use bevy::platform::collections::HashMap;
+use bevy::platform::collections::{HashMap, HashSet};
 use bevy::render::camera::SortedCameras;
 use bevy::render::render_resource::{BindGroup, Buffer, CommandEncoder, PipelineCache};
 use bevy::render::renderer::{PendingCommandBuffers, RenderDevice, RenderQueue};
 use bevy::render::sync_world::MainEntity;
 use bevy::render::view::{ExtractedView, RetainedViewEntity};
-use std::sync::Arc;
-use tess_wgpu::TessellationStage;
+use std::cell::Cell;
+use std::mem::replace;
+use tess_wgpu::tess_gpu::Capacity;
+use tess_wgpu::tess_gpu::sizes::{CATALOGUE_PATCHES, SHORT_PATCHES};
+use tess_wgpu::{TessellationStage, Tessellator};
 
 /// The stages of all cameras.
 #[derive(Debug, Default, Resource)]
 pub(crate) struct Stages {
-    /// By the program's number.
+    /// By the program's number, as those of cameras.
+    places: HashMap<usize, Places>,
     of_views: HashMap<RetainedViewEntity, HashMap<usize, Prepared>>,
     /// The camera by which surfaces are tessellated for lights that all cameras share.
     first: Option<RetainedViewEntity>,
+    /// The pipelines that all stages share.
+    tessellator: Option<Tessellator>,
+    uploaded: u64,
 }
 
 impl Stages {
@@ -46,9 +54,9 @@ impl Stages {
         let of_camera = |camera| RetainedViewEntity::new(camera, None, 0);
         let camera = view.auxiliary_entity.map_or(view, of_camera);
         let of_view = self.of_views.get(&camera).or_else(|| self.of_views.get(&self.first?))?;
-        of_view.values().find_map(|Prepared { content, drawn, .. }| {
-            let content = content.as_ref()?;
-            Some((&content.bind_group, drawn.as_ref()?, *content.groups.get(&entity)?))
+        of_view.iter().find_map(|(number, Prepared { content, drawn, .. })| {
+            let group = *self.places.get(number)?.groups.get(&entity)?;
+            Some((content.as_ref()?.bind_group()?, drawn.as_ref()?, group))
         })
     }
 }
@@ -56,15 +64,24 @@ impl Stages {
 /// A stage, and what its shaders read.
 #[derive(Debug, Default)]
 pub(crate) struct Prepared {
-    /// The entities, in the order of their groups, with their shapes and numbers of values.
-    entities: Vec<(MainEntity, Arc<dyn Shape>, usize)>,
     content: Option<Content>,
+    /// With the most patches that it takes.
     stage: Option<(TessellationStage, u32)>,
     drawn: Option<Drawn>,
+    /// The changes of the places that it has seen.
+    changes: u64,
     /// An error is logged once; the program is then not drawn until its entities change.
     has_failed: bool,
-    is_used: bool,
+    /// Frames since it was prepared.
+    idle: u32,
 }
+
+/// A stage and its buffers are kept so many frames without entities: 17 seconds on most screens.
+const PATIENCE: u32 = 1024;
+/// Stages of so many patches have pipelines of their own. These are made with the first stage, so that growth waits for none.
+const OTHER_KINDS: [u32; 2] = [SHORT_PATCHES + 1, CATALOGUE_PATCHES];
+/// No stage takes fewer patches.
+const LEAST_PATCHES: u32 = 1024;
 
 /// The buffers of a draw.
 #[derive(Debug)]
@@ -90,75 +107,82 @@ pub(crate) fn prepare(
     let mut programs: HashMap<usize, Vec<&Item>> = HashMap::default();
     for item in &extracted.items {
         programs.entry(item.program.number).or_default().push(item);
+        stages.places.entry(item.program.number).or_default();
     }
+    let gpu = Gpu { device: &device, queue: &queue, uploaded: Cell::new(0) };
+    let Stages { places, of_views, first, tessellator, uploaded } = &mut *stages;
+    for (number, places) in places.iter_mut() {
+        places.refresh(programs.get(number).map_or(&[], Vec::as_slice), &gpu);
+    }
+    let tessellator = tessellator.get_or_insert_with(|| Tessellator::new(device.wgpu_device()));
+    let own = (&gpu, &*cache, &*tessellator);
     let mut encoder = device.create_command_encoder(&Default::default());
-    stages.first = None;
-    for view in cameras.0.iter().filter_map(|camera| views.get(camera.entity).ok()) {
+    let views: Vec<_> = cameras.0.iter().filter_map(|one| views.get(one.entity).ok()).collect();
+    *first = views.first().map(|view| view.retained_view_entity);
+    of_views.retain(|camera, _| views.iter().any(|view| view.retained_view_entity == *camera));
+    for view in views {
         let camera = view.retained_view_entity;
-        stages.first.get_or_insert(camera);
-        let of_view = stages.of_views.entry(camera).or_default();
+        let of_view = of_views.entry(camera).or_default();
         let visible = seen.by(camera);
         let height = view.viewport.w;
         let view =
             View::new(&view.world_from_view, view.clip_from_view, height, &extracted.casting);
         for (number, items) in &programs {
             let prepared = of_view.entry(*number).or_default();
-            prepared.is_used = true;
-            prepared.refresh(items, &device, &cache);
-            let Some(content) = &mut prepared.content else { continue };
-            content.update(items, view, &visible, &queue);
-            let key = &items[0].program.key;
-            if let Err(problem) = prepared.tessellate(key, &device, &cache, &mut encoder) {
+            let of = (&places[number], items.as_slice());
+            if let Err(problem) = prepared.tessellate(of, (view, &visible), own, &mut encoder) {
                 error!("surfaces cannot be tessellated: {problem}");
                 prepared.has_failed = true;
                 prepared.drawn = None;
             }
         }
     }
+    *uploaded = gpu.uploaded.get();
     pending.push([encoder.finish()]);
 }
 
 impl Prepared {
-    /// Takes other entities than the frame before.
-    fn refresh(&mut self, items: &[&Item], device: &RenderDevice, cache: &PipelineCache) {
-        let is_same = |((entity, shape, values), item): (&(_, _, _), &&Item)| {
-            *entity == item.entity
-                && Arc::ptr_eq(shape, &item.shape)
-                && *values == item.values.len()
-        };
-        if self.entities.len() == items.len() && self.entities.iter().zip(items).all(is_same) {
-            return;
-        }
-        let own = |item: &&Item| (item.entity, Arc::clone(&item.shape), item.values.len());
-        self.entities = items.iter().map(own).collect();
-        let content = Content::new(items, device, cache);
-        self.has_failed = content.is_err();
-        self.content =
-            content.inspect_err(|problem| error!("surfaces cannot be tessellated: {problem}")).ok();
-        self.drawn = None;
-    }
-
     fn tessellate(
         &mut self,
-        key: &Key,
-        device: &RenderDevice,
-        cache: &PipelineCache,
+        (places, items): (&Places, &[&Item]),
+        (view, visible): (View, &HashSet<MainEntity>),
+        (gpu, cache, tessellator): (&Gpu<'_>, &PipelineCache, &Tessellator),
         encoder: &mut CommandEncoder,
-    ) -> Result<(), tess_wgpu::Error> {
-        let Some(content) = self.content.as_ref().filter(|_| !self.has_failed) else {
+    ) -> Result<(), String> {
+        self.idle = 0;
+        let is_changed = replace(&mut self.changes, places.changes) != places.changes;
+        self.has_failed &= !is_changed;
+        if self.has_failed {
             return Ok(());
-        };
-        let room = self.stage.as_ref().map_or(0, |(_, room)| *room);
-        if room < content.patches || self.stage.is_none() {
-            let room = content.patches.checked_next_power_of_two().unwrap_or(u32::MAX);
-            self.stage = Some((stage(key, room, content, device, cache)?, room));
-        } else if let (None, Some((stage, _))) = (&self.drawn, &mut self.stage) {
-            stage.set_bind_group(0, &content.bind_group)?;
-            stage.set_groups(&content.first_patches())?;
+        }
+        let content = self.content.get_or_insert_with(|| Content::new(gpu.device));
+        content.update((places, items), view, visible, gpu)?;
+        let Some(group) = content.bind(places, gpu.device, cache) else { return Ok(()) };
+        let told = |error: tess_wgpu::Error| error.to_string();
+        let fits = self.stage.as_ref().is_some_and(|(_, most)| *most >= places.patches());
+        if !fits {
+            let most = places.patches().checked_next_power_of_two().unwrap_or(u32::MAX);
+            let most = most.max(LEAST_PATCHES);
+            let room = self.stage.as_ref().map(|(stage, _)| stage.capacity());
+            let own = (gpu, cache, tessellator);
+            let new = |patches, room: Option<Capacity>, begins: &[u32]| {
+                let like = (patches, room.unwrap_or_default());
+                stage(&items[0].program.key, like, (group, begins), own).map_err(told)
+            };
+            if room.is_none() {
+                for patches in OTHER_KINDS {
+                    new(patches, None, &[0])?;
+                }
+            }
+            self.stage = Some((new(most, room, &places.begins)?, most));
         }
         let Some((stage, _)) = &mut self.stage else { return Ok(()) };
-        stage.prepare(encoder, content.patches)?;
-        let buffers = stage.buffers()?;
+        stage.set_bind_group(0, group).map_err(told)?;
+        if fits && is_changed {
+            stage.set_groups(&places.begins).map_err(told)?;
+        }
+        stage.prepare(encoder, places.patches()).map_err(told)?;
+        let buffers = stage.buffers().map_err(told)?;
         self.drawn = Some(Drawn {
             points: buffers.points.clone().into(),
             indices: buffers.indices.clone().into(),
@@ -168,34 +192,39 @@ impl Prepared {
     }
 }
 
-/// A stage for up to `patches` patches; Bevy makes its render pipeline.
+/// A stage for so many patches that begins with this room; Bevy makes its render pipeline.
 fn stage(
     key: &Key,
-    patches: u32,
-    content: &Content,
-    device: &RenderDevice,
-    cache: &PipelineCache,
+    (patches, room): (u32, Capacity),
+    (group, begins): (&BindGroup, &[u32]),
+    (gpu, cache, tessellator): (&Gpu<'_>, &PipelineCache, &Tessellator),
 ) -> Result<TessellationStage, tess_wgpu::Error> {
     let source = key.hull_source();
     let layout = cache.get_bind_group_layout(&layout::bind_group_layout());
     TessellationStage::builder(&source, key.domain, key.config, patches)
-        .bind_group(&layout, &content.bind_group)
-        .groups(&content.first_patches())
+        .bind_group(&layout, group)
+        .groups(begins)
+        .first_room(room)
+        .tessellator(tessellator)
         .without_pipeline()
-        .build(device.wgpu_device())
+        .build(gpu.device.wgpu_device())
 }
 
-/// Drops the stages of cameras and programs that are gone, and counts what was drawn.
+/// Drops what no entity has had for long, and counts what was drawn.
 pub(crate) fn forget(mut stages: ResMut<Stages>, extracted: Res<Extracted>, stats: Res<TessStats>) {
     let mut triangles = 0;
-    for of_view in stages.of_views.values_mut() {
-        of_view.retain(|_, prepared| std::mem::take(&mut prepared.is_used));
-        let feedbacks =
-            of_view.values().filter_map(|prepared| prepared.stage.as_ref()?.0.feedback());
-        triangles += feedbacks.map(|feedback| feedback.drawn).sum::<u64>();
+    let Stages { places, of_views, uploaded, .. } = &mut *stages;
+    for prepared in of_views.values_mut().flat_map(HashMap::values_mut) {
+        if let (0, Some((stage, _))) = (prepared.idle, &prepared.stage) {
+            triangles += stage.feedback().map_or(0, |feedback| feedback.drawn);
+        }
+        prepared.idle += 1;
     }
-    stages.of_views.retain(|_, of_view| !of_view.is_empty());
+    of_views.values_mut().for_each(|all| all.retain(|_, prepared| prepared.idle < PATIENCE));
+    places.retain(|number, own| {
+        own.patches() > 0 || of_views.values().any(|all| all.contains_key(number))
+    });
     if extracted.is_on_gpu {
-        stats.set(triangles);
+        stats.set(triangles, *uploaded);
     }
 }

@@ -3,6 +3,7 @@
 
 mod materials;
 mod passes;
+mod streaming;
 mod values;
 
 use super::stages::Stages;
