@@ -4,8 +4,8 @@ use crate::errors::{argument, output};
 use numpy::PyArray;
 use numpy::ndarray::Dimension;
 use numpy::{
-    Element, Ix1, Ix2, PyArray1, PyArray2, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods,
-    PyReadwriteArray, PyUntypedArray, PyUntypedArrayMethods,
+    Element, PyArray1, PyArray2, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadwriteArray,
+    PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -157,6 +157,24 @@ pub(crate) fn overlap(one: &Range<usize>, other: &Range<usize>) -> bool {
     one.start.max(other.start) < one.end.min(other.end)
 }
 
+/// Points as a new array, a row each.
+pub(crate) fn fixed_array<'py>(py: Python<'py>, points: &[DomainPoint]) -> Array2<'py, u32> {
+    rows_of(py, points, |point| [point.u.to_bits(), point.v.to_bits()])
+}
+
+/// A new array of what each point gives, a row each.
+///
+/// # Panics
+/// Never: each row has two elements.
+pub(crate) fn rows_of<'py, T: Element>(
+    py: Python<'py>,
+    points: &[DomainPoint],
+    row: impl Fn(&DomainPoint) -> [T; 2],
+) -> Array2<'py, T> {
+    let flat: Vec<T> = points.iter().flat_map(row).collect();
+    PyArray1::from_vec(py, flat).reshape([points.len(), 2]).expect("two elements a row")
+}
+
 /// Pairs of coordinates as points.
 pub(crate) fn fixed_points(words: &mut [u32]) -> &mut [DomainPoint] {
     const {
@@ -186,10 +204,6 @@ pub(crate) fn ranges(words: &mut [u32]) -> &mut [PatchRange] {
     }
 }
 
-/// A one-dimensional array that is written.
-pub(crate) type Flat<'py, T> = PyReadwriteArray<'py, T, Ix1>;
-/// An array of rows that is written.
-pub(crate) type Rows<'py, T> = PyReadwriteArray<'py, T, Ix2>;
 /// Arrays of two types of elements.
 pub(crate) type Array1<'py, T> = Bound<'py, PyArray1<T>>;
 /// Arrays of rows.

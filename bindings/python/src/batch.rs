@@ -2,9 +2,7 @@
 
 mod work;
 
-use crate::arrays::{
-    self, Array1, Array2, Flat, Rows, addresses, described, overlap, refuse_masked, writable,
-};
+use crate::arrays::{self, Array1, Array2, addresses, described, overlap, refuse_masked, writable};
 use crate::errors::{self, argument, output};
 use crate::names::{config, named, whole, whole_or_none};
 use crate::threads::Threads;
@@ -219,6 +217,16 @@ enum Indices<'py> {
     Short(Array1<'py, u16>),
 }
 
+/// Does the same with an array of whatever format.
+macro_rules! each {
+    ($value:expr, $kind:ident::{$one:ident, $other:ident}, $array:ident => $work:expr) => {
+        match $value {
+            $kind::$one($array) => $work,
+            $kind::$other($array) => $work,
+        }
+    };
+}
+
 /// Arrays that a batch is written to.
 struct Arrays<'py> {
     points: Points<'py>,
@@ -279,14 +287,10 @@ impl<'py> Arrays<'py> {
 
     /// Refuses arrays that share memory.
     fn check_overlap(&self) -> PyResult<()> {
-        let points = match &self.points {
-            Points::Float(array) => addresses("points", array)?,
-            Points::Fixed(array) => addresses("points", array)?,
-        };
-        let indices = match &self.indices {
-            Indices::Long(array) => addresses("indices", array)?,
-            Indices::Short(array) => addresses("indices", array)?,
-        };
+        let points =
+            each!(&self.points, Points::{Float, Fixed}, array => addresses("points", array)?);
+        let indices =
+            each!(&self.indices, Indices::{Long, Short}, array => addresses("indices", array)?);
         let ranges = addresses("ranges", &self.ranges)?;
         for (one, a, other, b) in [
             ("points", &points, "indices", &indices),
@@ -302,16 +306,16 @@ impl<'py> Arrays<'py> {
 
     /// Writes the batch.
     fn write(&self, py: Python<'py>, work: BatchWork<'_>) -> PyResult<()> {
-        let mut ranges: Rows<'py, u32> = writable("ranges", &self.ranges)?;
+        let mut ranges = writable("ranges", &self.ranges)?;
         let ranges = arrays::ranges(ranges.as_slice_mut().map_err(output)?);
         match &self.points {
             Points::Float(points) => {
-                let mut points: Rows<'py, f32> = writable("points", points)?;
+                let mut points = writable("points", points)?;
                 let (points, _) = points.as_slice_mut().map_err(output)?.as_chunks_mut::<2>();
                 self.write_indices(py, work, points, ranges)
             }
             Points::Fixed(points) => {
-                let mut points: Rows<'py, u32> = writable("points", points)?;
+                let mut points = writable("points", points)?;
                 let points = arrays::fixed_points(points.as_slice_mut().map_err(output)?);
                 self.write_indices(py, work, points, ranges)
             }
@@ -325,30 +329,17 @@ impl<'py> Arrays<'py> {
         points: &mut [P],
         ranges: &mut [PatchRange],
     ) -> PyResult<()> {
-        match &self.indices {
-            Indices::Long(indices) => {
-                let mut indices: Flat<'py, u32> = writable("indices", indices)?;
-                let indices = indices.as_slice_mut().map_err(output)?;
-                work.write(py, ArrayRoom { points, indices, ranges })
-            }
-            Indices::Short(indices) => {
-                let mut indices: Flat<'py, u16> = writable("indices", indices)?;
-                let indices = indices.as_slice_mut().map_err(output)?;
-                work.write(py, ArrayRoom { points, indices, ranges })
-            }
-        }
+        each!(&self.indices, Indices::{Long, Short}, indices => {
+            let mut indices = writable("indices", indices)?;
+            let indices = indices.as_slice_mut().map_err(output)?;
+            work.write(py, ArrayRoom { points, indices, ranges })
+        })
     }
 
     /// The written elements, as views where the arrays are larger.
     fn result(self, py: Python<'py>, counts: BatchCounts) -> PyResult<Bound<'py, PyAny>> {
-        let points = match self.points {
-            Points::Float(array) => array.into_any(),
-            Points::Fixed(array) => array.into_any(),
-        };
-        let indices = match self.indices {
-            Indices::Long(array) => array.into_any(),
-            Indices::Short(array) => array.into_any(),
-        };
+        let points = each!(self.points, Points::{Float, Fixed}, array => array.into_any());
+        let indices = each!(self.indices, Indices::{Long, Short}, array => array.into_any());
         let first = |array: &Bound<'py, PyAny>, count: usize| {
             if array.len()? == count {
                 return Ok(array.clone());

@@ -2,13 +2,13 @@
 
 use crate::errors::{argument, no_such_element};
 use crate::names::{bits, case, config, factors, floats, named, whole, whole_or_none};
-use crate::{stages, values};
+use crate::{arrays, stages, values};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use tess_core::{Config, Domain, DomainPoint, ProcessedPatch, Tessellation};
+use tess_core::{Config, Domain, ProcessedPatch, Tessellation};
 use tess_verify::show::{
     self, Colours, DrawOptions, Explanation, Part, SignalError, draw, has_rings,
 };
@@ -168,28 +168,23 @@ impl Patch {
     /// The domain points: a new uint32 array of shape (points, 2), u and v as 16.16 integers.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u32>> {
-        let points = py.detach(|| self.tessellate()).points;
-        let count = points.len();
-        let flat: Vec<u32> = points.iter().flat_map(|p| [p.u.to_bits(), p.v.to_bits()]).collect();
-        shaped(PyArray1::from_vec(py, flat), [count, 2])
+        arrays::fixed_array(py, &py.detach(|| self.tessellate()).points)
     }
 
     /// The domain points: a new float32 array of shape (points, 2), exactly the 16.16 coordinates.
     #[getter]
     fn points_f32<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f32>> {
         let points = py.detach(|| self.tessellate()).points;
-        let count = points.len();
-        let flat: Vec<f32> = points.into_iter().flat_map(DomainPoint::to_f32).collect();
-        shaped(PyArray1::from_vec(py, flat), [count, 2])
+        arrays::rows_of(py, &points, |point| point.to_f32())
     }
 
     /// The primitives: a new uint32 array of shape (primitives, 1, 2 or 3), numbers of points.
     #[getter]
-    fn indices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u32>> {
+    fn indices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
         let indices = py.detach(|| self.tessellate()).indices;
         let size = self.case.primitive_size();
         let primitives = indices.len() / size;
-        shaped(PyArray1::from_vec(py, indices), [primitives, size])
+        PyArray1::from_vec(py, indices).reshape([primitives, size])
     }
 
     /// Point ``i`` as (u, v), 16.16 integers, in constant time.
@@ -427,15 +422,4 @@ fn part(point: Option<u32>, primitive: Option<u32>, factor: Option<u32>) -> PyRe
         (None, None, Some(k)) => Ok(Part::Factor(k)),
         _ => Err(argument("give a point, a primitive or a factor, one of them")),
     }
-}
-
-/// The array with this shape.
-///
-/// # Panics
-/// If the shape has another number of elements.
-fn shaped<'py, T: numpy::Element>(
-    flat: Bound<'py, PyArray1<T>>,
-    shape: [usize; 2],
-) -> Bound<'py, PyArray2<T>> {
-    flat.reshape(shape).expect("as many elements")
 }

@@ -4,7 +4,7 @@ use crate::errors::{self, argument, file_format};
 use crate::names::named;
 use crate::signals::{self, Watch};
 use crate::values;
-use crate::vectors::{NotOpen, device_answers, open};
+use crate::vectors::{device_answers, open};
 use pyo3::prelude::*;
 use pyo3::types::{PyString, PyTuple};
 use std::path::PathBuf;
@@ -38,10 +38,7 @@ pub(crate) fn check_rules<'py>(
     let is_path = answers.is_instance_of::<PyString>() || answers.hasattr("__fspath__")?;
     let found = if is_path {
         let path: PathBuf = answers.extract()?;
-        signals::interruptible(py, move |stop| {
-            let (file, _) = open(&path, stop).map_err(NotOpen::into_error)?;
-            of_file(file, specification)
-        })??
+        signals::interruptible(py, move |stop| of_file(open(&path, stop)?.0, specification))??
     } else {
         let answers = device_answers(answers)?;
         let mut watch = Watch::default();

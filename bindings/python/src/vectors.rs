@@ -1,6 +1,6 @@
 //! Test vectors: generated, read, written and checked.
 
-use crate::arrays::{copied, exact_words};
+use crate::arrays::{copied, exact_words, fixed_array};
 use crate::coverage::Coverage;
 use crate::errors::{self, argument, file_format};
 use crate::names::{named, whole, whole_or_none};
@@ -11,14 +11,14 @@ use crate::values;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Write};
+use std::io::{BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::check::{CheckError, Known, Report, Strength, Tested, check_asked};
 use tess_verify::generate::{GenLevel, Selection, Shard};
-use tess_verify::vectors::{Header, Kind, Listing, VectorError, write_cases};
+use tess_verify::vectors::{Header, Kind, Listing, write_cases};
 use tess_verify::{Backend, Case, CoreBackend, Named};
 
 /// Cases; `None` for one of another shard.
@@ -139,17 +139,21 @@ pub(crate) fn write_vectors(
 
 /// The cases of an iterable of patches, at least one.
 fn patches_of(patches: &Bound<'_, PyAny>) -> PyResult<Vec<Case>> {
+    let case = |patch: &Bound<'_, PyAny>| Ok(patch.cast::<Patch>()?.get().case);
+    all_of(patches, case, "at least one patch is needed")
+}
+
+/// What each element of an iterable gives. Errors: the message `none` if there is none; signals.
+fn all_of<T>(
+    iterable: &Bound<'_, PyAny>,
+    each: impl Fn(&Bound<'_, PyAny>) -> PyResult<T>,
+    none: &str,
+) -> PyResult<Vec<T>> {
     let mut watch = Watch::default();
-    let cases: Vec<Case> = patches
-        .try_iter()?
-        .take_while(|_| watch.goes_on())
-        .map(|patch| Ok(patch?.cast::<Patch>()?.get().case))
-        .collect::<PyResult<_>>()?;
+    let elements = iterable.try_iter()?.take_while(|_| watch.goes_on());
+    let all: Vec<T> = elements.map(|element| each(&element?)).collect::<PyResult<_>>()?;
     watch.finish()?;
-    if cases.is_empty() {
-        return Err(argument("at least one patch is needed"));
-    }
-    Ok(cases)
+    if all.is_empty() { Err(argument(none)) } else { Ok(all) }
 }
 
 /// A vector file: an iterator over its :class:`Record` s. The reader is strict; a file that is
@@ -173,8 +177,7 @@ pub(crate) struct VectorFile {
 impl VectorFile {
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let opened = signals::interruptible(py, move |stop| open(&path, stop))?;
-        let (file, raised) = opened.map_err(NotOpen::into_error)?;
+        let (file, raised) = signals::interruptible(py, move |stop| open(&path, stop))??;
         let header = file.header();
         let (kind, count, source) = (header.kind.name(), header.count, header.source.clone());
         Ok(Self { kind, count, source, records: Mutex::new(file), raised })
@@ -202,28 +205,13 @@ impl VectorFile {
 /// A vector file whose reader can be interrupted.
 pub(crate) type Reader = tess_verify::vectors::VectorFile<BufReader<Watched>>;
 
-/// Why a vector file cannot be read from.
-pub(crate) enum NotOpen {
-    File(io::Error),
-    Format(VectorError),
-}
-
-impl NotOpen {
-    pub(crate) fn into_error(self) -> PyErr {
-        match self {
-            Self::File(error) => error.into(),
-            Self::Format(error) => file_format(error),
-        }
-    }
-}
-
 /// Opens a vector file and reads its first line.
-pub(crate) fn open(path: &Path, stop: Arc<AtomicBool>) -> Result<(Reader, Raised), NotOpen> {
-    let file = Watched::new(File::open(path).map_err(NotOpen::File)?, stop);
+pub(crate) fn open(path: &Path, stop: Arc<AtomicBool>) -> PyResult<(Reader, Raised)> {
+    let file = Watched::new(File::open(path)?, stop);
     let raised = file.raised();
     let name = path.display().to_string();
     let reader = tess_verify::vectors::VectorFile::new(name, BufReader::new(file));
-    reader.map(|reader| (reader, raised)).map_err(NotOpen::Format)
+    reader.map(|reader| (reader, raised)).map_err(file_format)
 }
 
 /// One record of a vector file.
@@ -253,9 +241,7 @@ impl Record {
     /// The recorded points of a listing, uint32 of shape (points, 2), 16.16; else ``None``.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<u32>>> {
-        let points = &self.listing()?.output.points;
-        let flat = points.iter().flat_map(|p| [p.u.to_bits(), p.v.to_bits()]).collect();
-        PyArray1::from_vec(py, flat).reshape([points.len(), 2]).ok()
+        Some(fixed_array(py, &self.listing()?.output.points))
     }
 
     /// The recorded indices of a listing, uint32 of shape (indices,); else ``None``.
@@ -316,7 +302,7 @@ pub(crate) fn check<'py>(
     let model = one_of("tested", tested, &[("auto", false), ("model", true)])?;
     let coverage = coverage.map(|coverage| coverage.get().shared());
     let report = signals::interruptible(py, move |stop| {
-        let (file, _) = open(&path, stop).map_err(NotOpen::into_error)?;
+        let (file, _) = open(&path, stop)?;
         let tested = if file.header().kind == Kind::Listings && !model {
             Tested::Listings(strength)
         } else if strength == Strength::default() {
@@ -397,17 +383,7 @@ pub(crate) fn check_device<'py>(
 
 /// Answers of a device, at least one.
 pub(crate) fn device_answers(answers: &Bound<'_, PyAny>) -> PyResult<Vec<(Case, Tessellation)>> {
-    let mut watch = Watch::default();
-    let answers: Vec<(Case, Tessellation)> = answers
-        .try_iter()?
-        .take_while(|_| watch.goes_on())
-        .map(|answer| device_answer(&answer?))
-        .collect::<PyResult<_>>()?;
-    watch.finish()?;
-    if answers.is_empty() {
-        return Err(argument("there is no answer to check"));
-    }
-    Ok(answers)
+    all_of(answers, device_answer, "there is no answer to check")
 }
 
 /// Refuses answers for other cases than those that were asked.
