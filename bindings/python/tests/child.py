@@ -1,11 +1,13 @@
-"""Work in a forked child."""
+"""Work in other processes: forked children, and simulators."""
 
 import os
 import select
 import signal
+import subprocess
 import sys
 import traceback
-from typing import Callable
+from pathlib import Path
+from typing import Callable, Union
 
 
 def in_a_child(work: "Callable[[], bytes]", patience: float = 60) -> bytes:
@@ -37,3 +39,12 @@ def in_a_child(work: "Callable[[], bytes]", patience: float = 60) -> bytes:
     assert said is not None, f"the child hangs: it has not ended in {patience} s"
     assert said, "the child raised an exception"
     return said
+
+
+def simulated(*words: Union[str, Path]) -> "subprocess.CompletedProcess[str]":
+    """Runs Python with these words, which run a bench of cocotb."""
+    # A simulator of another interpreter's cocotb would not find this one's packages.
+    environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    # By it cocotb's runner knows pytest, and would end the script before its last line.
+    environment.pop("PYTEST_CURRENT_TEST", None)
+    return subprocess.run([sys.executable, *words], capture_output=True, text=True, env=environment)

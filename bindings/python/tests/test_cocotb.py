@@ -3,13 +3,13 @@
 import os
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 from typing import Optional
 
 import pytest
 
 import tess_model.examples.cocotb
+from child import simulated
 from tess_model import Coverage
 
 EXAMPLE = Path(tess_model.examples.cocotb.__file__).parent
@@ -27,17 +27,8 @@ def bench(
 ) -> "subprocess.CompletedProcess[str]":
     """Runs the example as it is installed, or a copy of its script."""
     arguments = ["--sim", sim, "--random", "50", "--build", str(BUILD), *options]
-    # A simulator of another interpreter's cocotb would not find this one's packages.
-    environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
-    # By it cocotb's runner knows pytest, and would end `run.py` before its last line.
-    environment.pop("PYTEST_CURRENT_TEST", None)
     program = [str(script)] if script else ["-m", "tess_model.examples.cocotb"]
-    return subprocess.run(
-        [sys.executable, *program, *arguments, "--coverage", str(tmp_path / "coverage.xml")],
-        capture_output=True,
-        text=True,
-        env=environment,
-    )
+    return simulated(*program, *arguments, "--coverage", tmp_path / "coverage.xml")
 
 
 @pytest.mark.parametrize("sim", ["verilator", "icarus"])

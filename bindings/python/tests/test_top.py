@@ -3,11 +3,12 @@
 import importlib.util
 import os
 import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from child import simulated
 
 BENCH = Path(__file__).resolve().parents[3] / "rtl" / "dv" / "cocotb"
 BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb")) / "top"
@@ -22,13 +23,8 @@ NUMBERS = {line.removeprefix("fault ").partition(" := ")[0]: str(number) for num
 
 
 def bench(tmp_path: Path, *options: str) -> "subprocess.CompletedProcess[str]":
-    # A simulator of another interpreter's cocotb would not find this one's packages.
-    environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
-    # By it cocotb's runner knows pytest, and would end `run_top.py` before its last line.
-    environment.pop("PYTEST_CURRENT_TEST", None)
     files = ["--build", str(BUILD), "--coverage", str(tmp_path / "coverage.xml")]
-    command = [sys.executable, str(BENCH / "run_top.py"), *files, *options]
-    return subprocess.run(command, capture_output=True, text=True, env=environment)
+    return simulated(BENCH / "run_top.py", *files, *options)
 
 
 def test_verilator_with_code_coverage(tmp_path: Path) -> None:

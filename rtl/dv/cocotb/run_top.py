@@ -9,15 +9,13 @@ of it, and then the functional coverage must be whole. Code is covered in Verila
 """
 
 import argparse
-import os
 import subprocess
 import sys
 from pathlib import Path
 
-from cocotb.runner import get_results, get_runner
-
 import code_coverage  # beside this file
 from tess_model import Coverage
+from tess_model.examples.cocotb import run
 
 HERE = Path(__file__).resolve().parent
 RTL = HERE.parents[1]
@@ -40,39 +38,15 @@ def arguments() -> argparse.Namespace:
 
 def simulate(options: argparse.Namespace, build: Path) -> bool:
     """Whether all tests pass."""
-    is_verilator = options.sim == "verilator"
-    runner = get_runner(options.sim)
     design = RTL
     if options.fault:
         design = build / "design"
         subprocess.run(["cargo", "xtask", "rtl", "--plant", design, str(options.fault)], check=True, cwd=RTL)
-    runner.build(
-        verilog_sources=[design / file for file in FILES],
-        includes=[design],
-        build_args=["--coverage-line", "--coverage-toggle", "-Wno-fatal"] if is_verilator else [],
-        hdl_toplevel="tess_axis",
-        build_dir=build,
-        timescale=("1ns", "1ps"),
-        always=True,  # another design may have older files
+    covers = ["--coverage-line", "--coverage-toggle", "-Wno-fatal"] if options.sim == "verilator" else []
+    sources = [design / file for file in FILES]
+    return run.simulate(
+        options, "tess_axis", HERE / "top_bench.py", sources, build, 3, includes=[design], build_args=covers
     )
-    results = runner.test(
-        test_module="top_bench",
-        testcase=options.testcase,
-        hdl_toplevel="tess_axis",
-        build_dir=build,
-        test_dir=build,
-        timescale=("1ns", "1ps"),
-        extra_env={
-            "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path]),
-            "TESS_COVERAGE": str(options.coverage.resolve()),
-            "TESS_ELEMENTS": str(options.elements),
-            "TESS_RANDOM": str(options.random),
-            "TESS_SEED": str(options.seed),
-        },
-    )
-    tests, failed = get_results(results)
-    print(f"{tests} tests, {failed} failed")
-    return bool(failed == 0 and tests == (1 if options.testcase else 3))
 
 
 def main() -> int:

@@ -11,6 +11,7 @@ equal, 1 different, 2 no design.
 import argparse
 import sys
 from pathlib import Path
+from typing import Any, Iterable
 
 from cocotb.runner import get_results, get_runner
 
@@ -39,34 +40,32 @@ def sources(rtl: Path) -> "list[Path]":
     return [rtl.resolve() / f"tess_{module}.sv" for module in PLACER]
 
 
+def simulate(
+    options: argparse.Namespace, toplevel: str, bench: Path, design: Iterable[Path], build: Path, tests: int, **more: Any
+) -> bool:
+    """Builds a design, with more arguments of cocotb's `build`, and runs a bench; whether so many tests pass."""
+    sys.path.insert(0, str(bench.parent))  # the simulator's interpreter gets this path, and looks for the bench
+    common: "dict[str, Any]" = {"hdl_toplevel": toplevel, "build_dir": build, "timescale": ("1ns", "1ps")}
+    runner = get_runner(options.sim)
+    # Another design may have older files.
+    runner.build(verilog_sources=list(design), always=True, **common, **more)
+    environment = {f"TESS_{name.upper()}": str(value) for name, value in vars(options).items()}
+    results = runner.test(
+        test_module=bench.stem,
+        testcase=options.testcase,
+        test_dir=build,
+        extra_env={**environment, "TESS_COVERAGE": str(options.coverage.resolve())},
+        **common,
+    )
+    ran, failed = get_results(results)
+    print(f"{ran} tests, {failed} failed")
+    return bool(failed == 0 and ran == (1 if options.testcase else tests))
+
+
 def main() -> int:
     options = arguments()
-    sys.path.insert(0, str(HERE))  # the simulator's interpreter gets this path, and looks for the bench
     build = (options.build / options.sim).resolve()
-    runner = get_runner(options.sim)
-    runner.build(
-        verilog_sources=sources(options.rtl),
-        hdl_toplevel="tess_placer",
-        build_dir=build,
-        timescale=("1ns", "1ps"),
-        always=True,  # another design may have older files
-    )
-    results = runner.test(
-        test_module="bench",
-        testcase=options.testcase,
-        hdl_toplevel="tess_placer",
-        build_dir=build,
-        test_dir=build,
-        timescale=("1ns", "1ps"),
-        extra_env={
-            "TESS_COVERAGE": str(options.coverage.resolve()),
-            "TESS_RANDOM": str(options.random),
-            "TESS_SEED": str(options.seed),
-        },
-    )
-    tests, failed = get_results(results)
-    print(f"{tests} tests, {failed} failed")
-    return 1 if failed or tests != (1 if options.testcase else 2) else 0
+    return 0 if simulate(options, "tess_placer", HERE / "bench.py", sources(options.rtl), build, 2) else 1
 
 
 if __name__ == "__main__":
