@@ -4,7 +4,7 @@
 //! derivatives (chapter 14), rational patches (chapter 16).
 
 use crate::curve::Curve;
-use crate::frame::{Frame, Tangents};
+use crate::frame::{Frame, Frames, Tangents};
 use crate::math::{Homogeneous, Vector, de_casteljau, lerp, plain_zero, project};
 use glam::{Vec3, Vec4};
 
@@ -40,10 +40,9 @@ pub(crate) enum Net {
 #[derive(Debug)]
 pub(crate) struct PolynomialNet([[Vec3; 4]; 4]);
 
-impl PolynomialNet {
-    /// [`BezierPatch::frame`].
+impl Frames for PolynomialNet {
     #[inline(always)]
-    pub(crate) fn frame(&self, u: f32, v: f32) -> Frame {
+    fn frame(&self, u: f32, v: f32) -> Frame {
         let (position, du, dv) = tensor(&self.0, u, v);
         Frame { position: plain_zero(position), tangents: Tangents { du, dv } }
     }
@@ -53,10 +52,9 @@ impl PolynomialNet {
 #[derive(Debug)]
 pub(crate) struct RationalNet([[Homogeneous; 4]; 4]);
 
-impl RationalNet {
-    /// [`BezierPatch::frame`].
+impl Frames for RationalNet {
     #[inline(always)]
-    pub(crate) fn frame(&self, u: f32, v: f32) -> Frame {
+    fn frame(&self, u: f32, v: f32) -> Frame {
         let (s, su, sv) = tensor(&self.0, u, v);
         let position = s.xyz / s.w;
         let du = (su.xyz - position * su.w) / s.w;

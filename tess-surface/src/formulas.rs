@@ -3,18 +3,13 @@
 //! They are methods of types, not closures: what is compiled for a CPU level is what is inlined into the
 //! level's function, and only functions can be inlined always.
 
-use crate::bezier::{Net, PolynomialNet, RationalNet};
-use crate::frame::{Frame, Tangents};
+use crate::bezier::Net;
+use crate::frame::{Frame, Frames, Tangents};
 use crate::lanes::{LANES, Vertices};
 use crate::math::{normal_or_not, plain_zero, unit_or_not};
 use crate::patch::{Surface, SurfacePatch, bilinear_frame, flat_frame};
 use crate::pn::{PnQuad, PnTriangle};
 use glam::Vec3;
-
-/// Position and tangents, without branches.
-trait Frames {
-    fn frame(&self, u: f32, v: f32) -> Frame;
-}
 
 impl Frames for [Vec3; 3] {
     #[inline(always)]
@@ -27,20 +22,6 @@ impl Frames for [Vec3; 4] {
     #[inline(always)]
     fn frame(&self, u: f32, v: f32) -> Frame {
         bilinear_frame(self, u, v)
-    }
-}
-
-impl Frames for PolynomialNet {
-    #[inline(always)]
-    fn frame(&self, u: f32, v: f32) -> Frame {
-        self.frame(u, v)
-    }
-}
-
-impl Frames for RationalNet {
-    #[inline(always)]
-    fn frame(&self, u: f32, v: f32) -> Frame {
-        self.frame(u, v)
     }
 }
 

@@ -12,6 +12,11 @@ pub struct Tangents {
     pub dv: Vec3,
 }
 
+/// Formulas of position and tangents, without branches.
+pub(crate) trait Frames {
+    fn frame(&self, u: f32, v: f32) -> Frame;
+}
+
 /// A point of a surface with its tangents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
