@@ -1,5 +1,5 @@
 //! Every number of docs/tour-gpu.md, computed from the golden model and the layouts of this crate.
-//! tess-wgpu/tests/tour.rs compares the same numbers with what a device writes.
+//! tess-wgpu/tests/batches/tour.rs compares the same numbers with what a device writes.
 
 use std::fmt::Write;
 use tess_core::{

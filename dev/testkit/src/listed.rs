@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! in tess-gpu/shaders                            the folder of the sources, or a file
-//! seen by tess-wgpu/tests/exact.rs boundaries    a file of tests, and words that select some of them
+//! seen by tess-wgpu/tests/batches exact::         a file of tests, and words that select some of them
 //! fault half factors are rounded down := (factor + 1u) >> 1u ==> factor >> 1u
 //! equivalent: REASON                             no test can see the fault
 //!

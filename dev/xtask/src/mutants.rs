@@ -68,8 +68,7 @@ const SUBJECTS: &[Subject] = &[
             },
             // The host of the shaders, on a device.
             Pass {
-                tests: "--test-package=tess-wgpu -C=--all-features -C=--test=cut -C=--test=short -C=--test=groups \
-                        -C=--test=contract -C=--test=pull",
+                tests: "--test-package=tess-wgpu -C=--all-features -C=--test=batches",
                 files: &[],
             },
         ],
@@ -77,11 +76,7 @@ const SUBJECTS: &[Subject] = &[
     Subject {
         package: "tess-wgpu",
         passes: &[
-            Pass {
-                tests: "-C=--all-features -C=--lib -C=--test=contract -C=--test=groups -C=--test=short \
-                        -C=--test=pull",
-                files: &[],
-            },
+            Pass { tests: "-C=--all-features -C=--lib -C=--test=batches", files: &[] },
             Pass { tests: "-C=--all-features -C=--test=stage", files: &[] },
         ],
     },

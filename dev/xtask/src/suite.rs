@@ -26,13 +26,13 @@ const MESSAGES: &str = "--message-format=json-render-diagnostics";
 /// The programs that take longest, which start first: what starts last then ends soon.
 const LONG: &[&str] = &[
     "tools/cli/tests/program/main.rs",
+    "tess-wgpu/tests/batches/main.rs",
     "tess-wgpu/tests/stage/main.rs",
     "tess-wgpu/tests/sequences/main.rs",
     "tools/cli/tests/shaders/main.rs",
     "tess-gpu/tests/shaders.rs",
     "tess-verify/tests/golden.rs",
     "tools/cli/src/lib.rs",
-    "tess-wgpu/tests/faults.rs",
     "tess-core/tests/no_std.rs",
     "bindings/c/tests/foreign.rs",
 ];

@@ -1,13 +1,11 @@
 //! The picture: factors, tessellation and an indexed indirect draw, recorded into one command
 //! buffer; nothing is read back before the pixels are finished.
 
-#[path = "../shared/compute.rs"]
-mod compute;
+#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
 #[path = "../shared/picture.rs"]
 pub(crate) mod picture;
 
-use compute::encode_compute;
-use picture::Scene;
+use picture::{Scene, group, whole};
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::Setup;
@@ -60,4 +58,29 @@ fn encode_factors(
     let measure = (&module, "measure_edges");
     encode_compute(gpu, encoder, measure, &buffers[..1], GRID * (GRID + 1));
     encode_compute(gpu, encoder, (&module, "gather_factors"), &buffers, GRID * GRID);
+}
+
+/// Records a compute pass of `threads` threads in workgroups of 64, over `buffers` as bindings
+/// 0, 1, ... of group 0.
+fn encode_compute(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    (module, entry_point): (&wgpu::ShaderModule, &str),
+    buffers: &[&wgpu::Buffer],
+    threads: u32,
+) {
+    let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry_point),
+        layout: None,
+        module,
+        entry_point: Some(entry_point),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    });
+    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+    pass.set_pipeline(&pipeline);
+    let layout = pipeline.get_bind_group_layout(0);
+    let group = group(&gpu.device, &layout, whole(buffers.iter().copied()));
+    pass.set_bind_group(0, &group, &[]);
+    pass.dispatch_workgroups(threads.div_ceil(64), 1, 1);
 }

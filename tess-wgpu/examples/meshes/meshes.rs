@@ -1,12 +1,15 @@
 //! The picture: the patches of all meshes in one buffer, one batch in groups, one draw for each group.
 
-#[allow(dead_code, reason = "its own picture is not drawn here")]
+#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
+#[path = "../shared/picture.rs"]
+pub(crate) mod picture;
+#[allow(dead_code, reason = "its shaders get another material here")]
 #[path = "../teapot/teapot.rs"]
 pub(crate) mod teapot;
 
+use picture::{Mesh, Scene};
 use std::error::Error;
 use teapot::PATCHES;
-use teapot::picture::{self, Mesh, Scene};
 use tess_gpu::layout::factor_words;
 use tess_gpu::surfaces;
 use tess_wgpu::Gpu;
@@ -59,7 +62,7 @@ pub(crate) fn render(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn Error>> {
         meshes: &meshes,
         // One sees into the spouts.
         cull: None,
-        background: teapot::BACKGROUND,
+        background: wgpu::Color { r: 0.93, g: 0.94, b: 0.96, a: 1.0 },
     };
     let encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     picture::render(gpu, encoder, &scene)

@@ -5,7 +5,7 @@ mod app;
 #[path = "../shared/bindings.rs"]
 mod bindings;
 mod show;
-#[allow(dead_code, reason = "the picture without the stage is for other examples and tests")]
+#[allow(dead_code, reason = "other examples and tests compute the factors on the CPU")]
 mod teapot;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

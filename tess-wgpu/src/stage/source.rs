@@ -74,7 +74,8 @@ pub(crate) fn lines(user: &str) -> u32 {
 /// user's text can have these names too. Every occurrence of such a name is renamed, members and locals
 /// included, which changes nothing within the text.
 fn with_own_names(source: &str) -> String {
-    let declared: Vec<&str> = source.lines().filter_map(declared_name).collect();
+    let declared = wgsl::declarations(source).into_iter().map(|one| one.name);
+    let declared: Vec<_> = declared.filter(|name| !name.starts_with("tess_")).collect();
     let mut renamed = String::with_capacity(source.len() * 5 / 4);
     let mut rest = source;
     while let Some(begin) = rest.find(wgsl::is_in_word) {
@@ -89,18 +90,6 @@ fn with_own_names(source: &str) -> String {
         rest = behind;
     }
     renamed + rest
-}
-
-/// The name that a line declares at module scope, if it does not have the prefix yet.
-fn declared_name(line: &str) -> Option<&str> {
-    let from_name = ["fn ", "const ", "struct "]
-        .iter()
-        .find_map(|keyword| line.strip_prefix(keyword))
-        .or_else(|| {
-            line.starts_with("@group").then(|| line.split_once("> ")).flatten().map(|s| s.1)
-        })?;
-    let name = from_name.split(|c| !wgsl::is_in_word(c)).next()?;
-    (!name.starts_with("tess_")).then_some(name)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::expected::Expected;
 use tess_core::PatchFactors;
 use tess_gpu::layout::{DrawIndexed, Status, factor_words};
-use tess_gpu::{Limits, Setup, Stage};
+use tess_gpu::{IndexType, Limits, Numbering, PointFormat, Setup, Stage};
 use tess_testkit::shader_faults;
 use tess_wgpu::{Batch, Gpu, Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
@@ -27,6 +27,22 @@ pub(crate) struct Written {
     pub(crate) draw: DrawIndexed,
     pub(crate) points: Vec<u32>,
     pub(crate) indices: Vec<u32>,
+}
+
+/// A device of this instance, with these limits.
+pub(crate) fn device_of(instance: &wgpu::Instance, required_limits: wgpu::Limits) -> Gpu {
+    pollster::block_on(async {
+        let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
+        let descriptor = wgpu::DeviceDescriptor { required_limits, ..Default::default() };
+        let (device, queue) = adapter.request_device(&descriptor).await.expect("a device");
+        Gpu { device, queue, info: adapter.get_info() }
+    })
+}
+
+/// The same, of an instance of its own.
+pub(crate) fn limited(limits: wgpu::Limits) -> Gpu {
+    let descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    device_of(&wgpu::Instance::new(descriptor), limits)
 }
 
 impl Machine {
@@ -167,5 +183,16 @@ impl Machine {
         if let Err(difference) = expected.compare(&written) {
             panic!("{setup:?}: {difference}");
         }
+    }
+
+    /// The same with points in each format and indices in each numbering, and with indices of 16 bits.
+    pub(crate) fn assert_equal_in_every_format(&mut self, setup: Setup, patches: &[PatchFactors]) {
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
+            for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
+                self.assert_equal(Setup { point_format, numbering, ..setup }, patches);
+            }
+        }
+        let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
+        self.assert_equal(Setup { numbering, index_type, ..setup }, patches);
     }
 }

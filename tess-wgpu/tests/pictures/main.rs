@@ -27,7 +27,6 @@ mod raster;
 mod reference;
 #[path = "../../examples/teapot/show.rs"]
 mod show;
-#[allow(dead_code, reason = "the picture without the stage is not drawn here")]
 #[path = "../../examples/teapot/teapot.rs"]
 mod teapot;
 #[allow(dead_code, reason = "nothing is measured here")]

@@ -1,11 +1,12 @@
 //! Errors have a type, and the user's line.
 
+use crate::common::device::{device_of, limited};
 use crate::drawing::scene;
 use crate::model::compare;
 use crate::scene::{PATCHES, Scene, source};
 use tess_core::{Domain, Partitioning, PatchFactors};
 use tess_wgpu::stage::{Factors, PatchCount, Points, Room, StageError};
-use tess_wgpu::{Error, Gpu, Stopwatch, TessellationStage, Tessellator};
+use tess_wgpu::{Error, Stopwatch, TessellationStage, Tessellator};
 use wgpu::BufferUsages as Usage;
 
 fn quads() -> Scene {
@@ -202,18 +203,6 @@ fn what_a_stage_cannot_do_is_refused() {
     });
     assert_eq!(drawn.map(|_| ()), Ok(()), "and the frame goes on");
     assert_eq!(refused, Some(StageError::NoSuchGroup { group: 0, groups: 0 }.into()));
-}
-
-/// A device with these limits.
-pub(crate) fn limited(required_limits: wgpu::Limits) -> Gpu {
-    let open = async {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
-        let descriptor = wgpu::DeviceDescriptor { required_limits, ..Default::default() };
-        let (device, queue) = adapter.request_device(&descriptor).await.expect("a device");
-        Gpu { device, queue, info: adapter.get_info() }
-    };
-    pollster::block_on(open)
 }
 
 #[test]
@@ -421,11 +410,7 @@ fn encoders_and_tessellators_of_other_devices_are_refused() {
     assert_eq!(compare(&observed, &scene.pixels(&scene.patches)), Ok(()), "the stage goes on");
     // Another device of the stage's own instance; devices of two instances can have one number.
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let open = async || {
-        let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
-        adapter.request_device(&Default::default()).await.expect("a device").0
-    };
-    let [first, second] = [0; 2].map(|_| pollster::block_on(open()));
+    let [first, second] = [0; 2].map(|_| device_of(&instance, Default::default()).device);
     let shared = Tessellator::new(&first);
     let built = scene.builder().tessellator(&shared).build(&second);
     assert_eq!(built.err(), Some(StageError::OtherDevice.into()), "a tessellator");

@@ -223,7 +223,7 @@ fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) ->
 #[test]
 fn sums_beyond_32_bits_are_seen() {
     let limits = wgpu::Limits { max_compute_workgroups_per_dimension: 2048, ..Default::default() };
-    let gpu = crate::errors::limited(limits);
+    let gpu = crate::common::device::limited(limits);
     let hull = "fn hull(number: u32) -> QuadFactors { return tess_quad_factors(vec4f(64.0)); }";
     let patches = 1 << 19;
     let room = Capacity { points: u32::MAX, primitives: 5_000_000 };

@@ -1,5 +1,6 @@
 //! Stages with one tessellator share the pipelines that do not depend on what differs. Sequences compare their output.
 
+use crate::common::device::device_of;
 use crate::scene::{FORMAT, PATCHES, source};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_wgpu::stage::StageBuilder;
@@ -12,12 +13,6 @@ fn pipelines(instance: &wgpu::Instance) -> [usize; 2] {
     [&hub.compute_pipelines, &hub.render_pipelines].map(|one| one.num_kept_from_user)
 }
 
-async fn open(instance: &wgpu::Instance) -> Gpu {
-    let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
-    let (device, queue) = adapter.request_device(&Default::default()).await.expect("a device");
-    Gpu { device, queue, info: adapter.get_info() }
-}
-
 /// As a program makes one, whose cache is there from an earlier run or not. Making wgpu's cache is `unsafe`, so that
 /// these tests have none.
 fn tessellator(device: &wgpu::Device, cache: Option<&wgpu::PipelineCache>) -> Tessellator {
@@ -28,7 +23,7 @@ fn tessellator(device: &wgpu::Device, cache: Option<&wgpu::PipelineCache>) -> Te
 #[test]
 fn a_stage_makes_the_pipelines_that_no_other_has() {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let gpu = pollster::block_on(open(&instance));
+    let gpu = device_of(&instance, Default::default());
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     let scene = crate::scene::Scene::on(gpu, Domain::Quad, config, Vec::new());
     let shared = tessellator(&scene.gpu.device, None);

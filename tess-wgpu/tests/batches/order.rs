@@ -1,8 +1,6 @@
 //! The vertex-cache order: what the model has in that order, bit for bit, whichever way a tile is made.
 
-mod common;
-
-use common::device::Machine;
+use crate::common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::CATALOGUE_PATCHES;
 use tess_gpu::{Copies, IndexType, Limits, Numbering, Order, Setup};

@@ -1,16 +1,14 @@
 //! Promises beyond equal bits: sizes, overflow, nothing silent.
 
-mod common;
-
-use common::device::{Machine, POISON};
-use common::expected::Expected;
+use crate::common::device::{Machine, POISON};
+use crate::common::expected::Expected;
 use std::iter;
 use tess_core::{
     Config, Domain, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, Patch,
     PatchFactors, ProcessedPatch, SplitOrder,
 };
 use tess_gpu::layout::{Topology, unpack_context};
-use tess_gpu::{IndexType, Numbering, PointFormat, Setup, Tap};
+use tess_gpu::{IndexType, Numbering, Setup, Tap};
 use tess_verify::generate::SplitMix64;
 
 fn quads(partitioning: Partitioning) -> Setup {
@@ -18,7 +16,7 @@ fn quads(partitioning: Partitioning) -> Setup {
 }
 
 fn uniform(factor: f32, count: usize) -> Vec<PatchFactors> {
-    vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count]
+    vec![PatchFactors::uniform(Domain::Quad, factor); count]
 }
 
 #[test]
@@ -26,14 +24,9 @@ fn formats_and_numberings() {
     let mut machine = Machine::open();
     let mut random = SplitMix64::new(3);
     for domain in Domain::ALL {
-        let patches = common::patches::random(domain, 200, &mut random);
-        for point_format in [PointFormat::Packed, PointFormat::F32] {
-            for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
-                let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
-                let setup = Setup { point_format, numbering, ..Setup::new(domain, config) };
-                machine.assert_equal(setup, &patches);
-            }
-        }
+        let patches = crate::common::patches::random(domain, 200, &mut random);
+        let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
+        machine.assert_equal_in_every_format(Setup::new(domain, config), &patches);
     }
 }
 
@@ -45,7 +38,7 @@ fn whole_outputs_say_where_each_patch_begins() {
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     for (count, index_type) in [(1, IndexType::U16), (300, IndexType::U32), (3000, IndexType::U16)]
     {
-        let patches = common::patches::random(Domain::Triangle, count, &mut random);
+        let patches = crate::common::patches::random(Domain::Triangle, count, &mut random);
         let numbering = Numbering::PerPatch;
         let setup = Setup { numbering, index_type, ..Setup::new(Domain::Triangle, config) };
         let output =
@@ -82,11 +75,11 @@ fn indices_of_16_bits() {
             let index_type = IndexType::U16;
             let setup = Setup { numbering, index_type, ..Setup::new(domain, config) };
             for count in [1, 2, 7, 500] {
-                let patches = common::patches::random(domain, count, &mut random);
+                let patches = crate::common::patches::random(domain, count, &mut random);
                 machine.assert_equal(setup, &patches);
             }
             let batch = Setup { numbering: Numbering::PerBatch, ..setup };
-            machine.assert_equal(batch, &common::patches::random(domain, 30, &mut random));
+            machine.assert_equal(batch, &crate::common::patches::random(domain, 30, &mut random));
         }
     }
 }
@@ -116,7 +109,7 @@ fn no_patches_and_culled_patches() {
     let mut mixed = uniform(-1.0, 3000);
     for (number, patch) in mixed.iter_mut().enumerate() {
         if number % 997 == 500 || number > 2990 {
-            *patch = PatchFactors::from_fn(Domain::Quad, |_| 17.5);
+            *patch = PatchFactors::uniform(Domain::Quad, 17.5);
         }
     }
     machine.assert_equal(setup, &mixed);
@@ -133,7 +126,7 @@ fn adversarial_counts() {
         let patches: Vec<PatchFactors> = (0..count)
             .map(|number| {
                 let factor = if large(number, count) { 64.0 } else { [0.0, 1.0, 2.0][number % 3] };
-                PatchFactors::from_fn(Domain::Quad, |_| factor)
+                PatchFactors::uniform(Domain::Quad, factor)
             })
             .collect();
         machine.assert_equal(setup, &patches);
@@ -240,7 +233,7 @@ fn intermediate_buffers() {
     let mut random = SplitMix64::new(4);
     for partitioning in Partitioning::ALL {
         let setup = quads(partitioning);
-        let mut patches = common::patches::random(Domain::Quad, 1000, &mut random);
+        let mut patches = crate::common::patches::random(Domain::Quad, 1000, &mut random);
         patches.extend(iter::repeat_with(|| of_ties(&mut random)).take(200));
         let batch = machine.counted(setup, &patches);
         let contexts = machine.words(batch.contexts());

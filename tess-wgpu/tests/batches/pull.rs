@@ -1,9 +1,7 @@
 //! The module for a user's own shaders: any element from its number alone.
 
-mod common;
-
-use common::device::Machine;
-use common::objects::{compute, dispatch, group, whole};
+use crate::common::device::Machine;
+use crate::common::objects::{compute, dispatch, group, whole};
 use tess_core::{Patch, SplitOrder};
 use tess_gpu::tables;
 use tess_gpu::{Pull, Setup};
@@ -40,7 +38,7 @@ fn any_element_in_every_configuration() {
     let mut random = SplitMix64::new(7);
     for (domain, config) in configurations() {
         let setup = Setup::new(domain, config);
-        let patches = common::patches::random(domain, 100, &mut random);
+        let patches = crate::common::patches::random(domain, 100, &mut random);
         let batch = machine.counted(setup, &patches);
         let mut asked = Vec::new();
         let mut expected = Vec::new();

@@ -1,11 +1,9 @@
 //! Patches unlike their neighbours, whose elements are looked up in the catalogue of topologies.
 
-mod common;
-
-use common::device::Machine;
+use crate::common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::CATALOGUE_PATCHES;
-use tess_gpu::{Copies, IndexType, Numbering, PointFormat, Setup};
+use tess_gpu::{Copies, Setup};
 use tess_verify::generate::SplitMix64;
 
 /// As many patches as a batch with a catalogue has.
@@ -46,13 +44,7 @@ fn unlike_neighbours_in_every_format() {
     for partitioning in [Partitioning::Pow2, Partitioning::FractionalEven] {
         let patches = unlike(Domain::Quad, COUNT, &SMALL);
         let setup = setup(Domain::Quad, partitioning);
-        for point_format in [PointFormat::Packed, PointFormat::F32] {
-            for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
-                machine.assert_equal(Setup { point_format, numbering, ..setup }, &patches);
-            }
-        }
-        let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
-        machine.assert_equal(Setup { numbering, index_type, ..setup }, &patches);
+        machine.assert_equal_in_every_format(setup, &patches);
     }
 }
 

@@ -1,8 +1,6 @@
 //! A comparison counts only after it has been seen to fail: damaged shaders are noticed.
 
-mod common;
-
-use common::device::Machine;
+use crate::common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::Setup;
 use tess_gpu::sizes::SHORT_PATCHES;
@@ -15,8 +13,8 @@ fn planted_faults_are_seen() {
     for (domain, partitioning, faults) in FAULTS {
         let config = Config::new(*partitioning, OutputPrimitive::TriangleCw);
         let setup = Setup::new(*domain, config);
-        let mut patches = common::patches::random(*domain, 200, &mut SplitMix64::new(5));
-        patches.push(PatchFactors::from_fn(*domain, |_| 1.0));
+        let mut patches = crate::common::patches::random(*domain, 200, &mut SplitMix64::new(5));
+        patches.push(PatchFactors::uniform(*domain, 1.0));
         machine.assert_noticed(setup, &patches, faults);
     }
 }
@@ -28,14 +26,14 @@ fn a_tile_of_another_patch_is_seen() {
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     let setup = Setup::new(Domain::Quad, config);
     let count = SHORT_PATCHES + 1;
-    let patches = common::patches::random(Domain::Quad, count, &mut SplitMix64::new(5));
+    let patches = crate::common::patches::random(Domain::Quad, count, &mut SplitMix64::new(5));
     machine.assert_noticed(setup, &patches, &["entry_of"]);
 }
 
 /// No fault of the list is left out: each is named by a test of this folder.
 #[test]
 fn every_fault_of_the_list_is_planted() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/batches");
     let files = std::fs::read_dir(folder).expect(folder).map(|entry| entry.expect(folder).path());
     let texts: Vec<String> = files.filter_map(|path| std::fs::read_to_string(path).ok()).collect();
     let is_planted = |name: &str| texts.iter().any(|text| text.contains(&format!("\"{name}\"")));

@@ -1,6 +1,6 @@
 //! The terrain of the example `batch` has no cracks, and the test would see one.
 
-#[path = "../examples/batch/batch.rs"]
+#[path = "../../examples/batch/batch.rs"]
 mod terrain;
 
 use tess_wgpu::Gpu;

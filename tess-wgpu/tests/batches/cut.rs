@@ -1,9 +1,7 @@
 //! Batches that are cut up: several portions, windows and rows of workgroups; and the prefix sums.
 
-mod common;
-
-use common::device::Machine;
-use common::expected::{Expected, by_simd};
+use crate::common::device::Machine;
+use crate::common::expected::{Expected, by_simd};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::sizes::{BLOCK, SECTION, TILE};
 use tess_gpu::{Capacity, Dispatch, IndexType, Limits, Numbering, Plan, Setup, Stage, Workgroups};
@@ -162,7 +160,7 @@ fn rows(plan: &Plan, stage: Stage) -> u32 {
 /// window, compared with tess-simd.
 #[test]
 #[ignore = "6 GiB on a device that binds 3 at once: cargo test --release -p tess-wgpu \
-            --test cut -- --ignored"]
+            --test batches cut -- --ignored"]
 fn more_workgroups_than_a_row_has() {
     let everything = Gpu::open_with(Wanted::Everything, wgpu::Features::empty());
     let gpu = pollster::block_on(everything).unwrap_or_else(|error| panic!("{error}"));

@@ -3,15 +3,9 @@
 
 #![expect(clippy::float_arithmetic, reason = "surfaces are evaluated in floating point")]
 
-#[path = "../examples/shared/compute.rs"]
-mod compute;
-#[allow(dead_code, reason = "the pictures are not drawn here")]
-#[path = "../examples/teapot/teapot.rs"]
-mod teapot;
-
-use compute::encode_compute;
+use crate::common::objects::{compute, dispatch, group, whole};
+use crate::meshes::teapot;
 use glam::{Vec3, Vec4};
-use teapot::picture;
 use tess_core::Patch;
 use tess_surface::{HalfEdge, Model};
 use tess_wgpu::{Gpu, Tessellator};
@@ -95,12 +89,11 @@ impl Teapot {
         let written = gpu
             .buffer("positions", size, Usage::STORAGE | Usage::COPY_SRC)
             .expect("the device has room");
-        let module = picture::module(gpu, &[source, EVALUATE].concat());
+        let pipeline = compute(&gpu.device, [source, EVALUATE].concat(), "evaluate", &[]);
+        let layout = pipeline.get_bind_group_layout(0);
+        let group = group(&gpu.device, &layout, whole([&nets, &points, &written]));
         let threads = u32::try_from(self.packed.len()).expect("a teapot's points");
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let buffers = [&nets, &points, &written];
-        encode_compute(gpu, &mut encoder, (&module, "evaluate"), &buffers, threads);
-        gpu.run(encoder).expect("the device finishes");
+        dispatch(gpu, &pipeline, &[&group], threads.div_ceil(64)).expect("the device finishes");
         let bytes = gpu.read(&written, size).expect("the device answers");
         let all: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
         assert!(all.iter().all(|point| point[3] > 0.0), "every position is written");

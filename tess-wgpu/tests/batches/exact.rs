@@ -1,10 +1,8 @@
 //! Everything that the shaders write against the golden model, on whatever adapter there is.
 
-mod common;
-
-use common::device::{Machine, Written};
-use common::expected::{Expected, by_simd};
-use common::patches::random;
+use crate::common::device::{Machine, Written};
+use crate::common::expected::{Expected, by_simd};
+use crate::common::patches::random;
 use tess_core::{Domain, PatchFactors};
 use tess_gpu::Setup;
 use tess_verify::Case;

@@ -1,10 +1,8 @@
 //! Short batches, which one workgroup prepares; the largest of them, and the smallest that is not.
 
-mod common;
-
-use common::device::{Machine, POISON};
-use common::expected::Expected;
-use common::patches::random;
+use crate::common::device::{Machine, POISON};
+use crate::common::expected::Expected;
+use crate::common::patches::random;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::{SHORT_ELEMENTS, SHORT_PATCHES};
 use tess_gpu::{Capacity, Limits, Plan, Setup, Stage};
@@ -80,7 +78,7 @@ fn planted_faults_are_seen() {
     let mut machine = Machine::open();
     let (setup, mut patches) = (setup(Domain::Quad), low(600));
     // So that there are more tiles than threads.
-    patches.extend(vec![PatchFactors::from_fn(Domain::Quad, |_| 20.0); 300]);
+    patches.extend(vec![PatchFactors::uniform(Domain::Quad, 20.0); 300]);
     machine.assert_noticed(
         setup,
         &patches,

@@ -1,12 +1,7 @@
 //! Batches in groups: the draw arguments of each group, wherever the batch is cut.
 
-mod common;
-#[allow(dead_code, reason = "its parts are tested elsewhere")]
-#[path = "../examples/meshes/meshes.rs"]
-mod meshes;
-
-use common::device::Machine;
-use common::patches::random;
+use crate::common::device::Machine;
+use crate::common::patches::random;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::layout::DrawIndexed;
 use tess_gpu::{Limits, Setup};
@@ -162,7 +157,7 @@ fn planted_faults_are_seen() {
 fn nothing_is_drawn_if_the_output_does_not_fit() {
     let mut machine = Machine::open();
     let setup = setup(Domain::Quad, OutputPrimitive::TriangleCcw);
-    let patches = vec![PatchFactors::from_fn(Domain::Quad, |_| 5.0); 100];
+    let patches = vec![PatchFactors::uniform(Domain::Quad, 5.0); 100];
     let [points, indices] = sums(setup, &patches)[100];
     for room in [[points - 1, indices], [points, indices - 3]] {
         let batch = run(&mut machine, setup, (&patches, &[0, 7, 50]), room);
@@ -195,7 +190,7 @@ fn misplaced_groups_are_refused() {
 #[test]
 fn each_mesh_is_drawn_with_its_material() {
     let machine = Machine::open();
-    let pixels = meshes::render(&machine.gpu).expect("it is drawn");
+    let pixels = crate::meshes::render(&machine.gpu).expect("it is drawn");
     let counts = [0, 1, 2].map(|own: usize| {
         let others = [(own + 1) % 3, (own + 2) % 3];
         let is_own = |pixel: &&[u8; 4]| others.iter().all(|&o| pixel[own] / 3 > pixel[o] / 2);

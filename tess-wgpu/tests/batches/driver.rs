@@ -1,9 +1,6 @@
 //! A fault of the software driver lavapipe, shown without tess-wgpu's shaders.
 
-#[path = "common/objects.rs"]
-mod objects;
-
-use objects::{compute, dispatch, group, whole};
+use crate::common::objects::{compute, dispatch, group, whole};
 use tess_wgpu::{Error, Gpu};
 use wgpu::BufferUsages as Usage;
 
@@ -51,7 +48,7 @@ fn growth(space: &str) -> Result<u64, Error> {
 /// batch of up to 256 patches.
 #[test]
 #[ignore = "fails on lavapipe, which keeps every shader that it compiles for a uniform's value: \
-            cargo test -p tess-wgpu --test driver -- --ignored"]
+            cargo test -p tess-wgpu --test batches driver -- --ignored"]
 fn a_branch_on_a_uniform_takes_no_memory() {
     let most = 200 * 4096;
     let storage = growth("storage, read").expect("it runs");

@@ -1,8 +1,6 @@
 //! Mistakes of callers and refusals of devices: errors, no panics.
 
-mod common;
-
-use common::device::Machine;
+use crate::common::device::{Machine, limited};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::{Resource, Setup};
 use tess_wgpu::{Error, Gpu, Outputs, Tessellator};
@@ -18,16 +16,7 @@ fn quads(factor: f32, count: usize) -> Vec<PatchFactors> {
 
 /// A device that allows buffers up to this size, in bytes.
 fn small_device(max_buffer_size: u64) -> Gpu {
-    let mut gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let adapter = pollster::block_on(instance.request_adapter(&Default::default()));
-    let descriptor = wgpu::DeviceDescriptor {
-        required_limits: wgpu::Limits { max_buffer_size, ..Default::default() },
-        ..Default::default()
-    };
-    let device = pollster::block_on(adapter.expect("an adapter").request_device(&descriptor));
-    (gpu.device, gpu.queue) = device.expect("a device");
-    gpu
+    limited(wgpu::Limits { max_buffer_size, ..Default::default() })
 }
 
 #[test]

@@ -1,11 +1,9 @@
 //! Patches of equal topology in a row, whose elements are copied; and what is not copied.
 
-mod common;
-
-use common::device::Machine;
+use crate::common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_gpu::Setup;
 use tess_gpu::sizes::{BLOCK, SHORT_PATCHES};
-use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 use tess_verify::generate::SplitMix64;
 
 /// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole
@@ -19,7 +17,7 @@ fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
             PatchFactors::from_fn(domain, |position| if position == 1 { outer } else { factor });
         all.extend(std::iter::repeat_n(like, length));
         let other = [1.0, 2.5, 7.0][random.below(3) as usize];
-        all.extend(std::iter::repeat_n(PatchFactors::from_fn(domain, |_| other), number % 2));
+        all.extend(std::iter::repeat_n(PatchFactors::uniform(domain, other), number % 2));
     }
     all
 }
@@ -59,16 +57,10 @@ fn like_patches_of_every_size_and_format() {
         let setup = Setup::new(domain, config);
         for factor in (1_u8..=19).map(f32::from) {
             let count = if factor > 4.0 { SHORT_PATCHES as usize + 1 } else { 3000 };
-            machine.assert_equal(setup, &vec![PatchFactors::from_fn(domain, |_| factor); count]);
+            machine.assert_equal(setup, &vec![PatchFactors::uniform(domain, factor); count]);
         }
         let patches = runs(domain, &[(1.0, 3560), (6.0, 680), (2.0, 1430)]);
-        for point_format in [PointFormat::Packed, PointFormat::F32] {
-            for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
-                machine.assert_equal(Setup { point_format, numbering, ..setup }, &patches);
-            }
-        }
-        let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
-        machine.assert_equal(Setup { numbering, index_type, ..setup }, &patches);
+        machine.assert_equal_in_every_format(setup, &patches);
     }
 }
 
@@ -95,8 +87,7 @@ fn blocks_know_whether_their_patches_are_alike() {
     let mut machine = Machine::open();
     let setup =
         Setup::new(Domain::Quad, Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw));
-    let of =
-        |factor: f32, count: usize| vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count];
+    let of = |factor: f32, count: usize| vec![PatchFactors::uniform(Domain::Quad, factor); count];
     let patches = [
         of(2.0, 256),
         of(5.0, 255),

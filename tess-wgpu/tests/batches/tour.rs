@@ -1,9 +1,7 @@
 //! The numbers of docs/tour-gpu.md as a device writes them; tess-gpu/tests/tour.rs computes the same from the model.
 
-mod common;
-
-use common::device::Machine;
-use common::expected::Expected;
+use crate::common::device::Machine;
+use crate::common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, QuadFactors};
 use tess_gpu::layout::PackedPoint;
 use tess_gpu::{Setup, Stage};
