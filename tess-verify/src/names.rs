@@ -53,7 +53,7 @@ pub(crate) const fn way_of(patch: &Patch) -> &'static str {
     }
 }
 
-/// An enum whose values stand each beside its name.
+/// An enum whose values stand each beside its name, or the names of one that is defined elsewhere.
 macro_rules! named {
     ($(#[$of_type:meta])* $visible:vis enum $type:ident: $what:literal {
         $($(#[$of_value:meta])* $value:ident = $name:literal,)*
@@ -61,6 +61,9 @@ macro_rules! named {
         $(#[$of_type])*
         $visible enum $type { $($(#[$of_value])* $value,)* }
 
+        $crate::names::named!($type: $what { $($value = $name,)* });
+    };
+    ($type:ident: $what:literal { $($value:ident = $name:literal,)* }) => {
         impl $crate::names::Named for $type {
             const WHAT: &'static str = $what;
             const NAMES: &'static [(&'static str, Self)] = &[$(($name, Self::$value)),*];
@@ -69,53 +72,23 @@ macro_rules! named {
 }
 pub(crate) use named;
 
-impl Named for Domain {
-    const WHAT: &'static str = "domain";
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("isoline", Self::Isoline), ("tri", Self::Triangle), ("quad", Self::Quad)];
-}
-
-impl Named for Partitioning {
-    const WHAT: &'static str = "partitioning";
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("integer", Self::Integer),
-        ("pow2", Self::Pow2),
-        ("fractional_odd", Self::FractionalOdd),
-        ("fractional_even", Self::FractionalEven),
-    ];
-}
-
-impl Named for OutputPrimitive {
-    const WHAT: &'static str = "output primitive";
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("point", Self::Point),
-        ("line", Self::Line),
-        ("triangle_cw", Self::TriangleCw),
-        ("triangle_ccw", Self::TriangleCcw),
-    ];
-}
-
-impl Named for SplitOrder {
-    const WHAT: &'static str = "split order";
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("ruler", Self::Ruler), ("center", Self::Center)];
-}
-
-impl Named for Parity {
-    const WHAT: &'static str = "parity";
-    const NAMES: &'static [(&'static str, Self)] = &[("even", Self::Even), ("odd", Self::Odd)];
-}
-
-impl Named for Reduction {
-    const WHAT: &'static str = "reduction";
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("min", Self::Min), ("max", Self::Max), ("average", Self::Average)];
-}
-
-impl Named for QuadAxes {
-    const WHAT: &'static str = "axis";
-    const NAMES: &'static [(&'static str, Self)] = &[("1", Self::One), ("2", Self::Two)];
-}
+named!(Domain: "domain" { Isoline = "isoline", Triangle = "tri", Quad = "quad", });
+named!(Partitioning: "partitioning" {
+    Integer = "integer",
+    Pow2 = "pow2",
+    FractionalOdd = "fractional_odd",
+    FractionalEven = "fractional_even",
+});
+named!(OutputPrimitive: "output primitive" {
+    Point = "point",
+    Line = "line",
+    TriangleCw = "triangle_cw",
+    TriangleCcw = "triangle_ccw",
+});
+named!(SplitOrder: "split order" { Ruler = "ruler", Center = "center", });
+named!(Parity: "parity" { Even = "even", Odd = "odd", });
+named!(Reduction: "reduction" { Min = "min", Max = "max", Average = "average", });
+named!(QuadAxes: "axis" { One = "1", Two = "2", });
 
 #[cfg(test)]
 mod tests {
