@@ -2,6 +2,7 @@
 
 use super::OnePatch;
 use serde::Serialize;
+use tess_core::DomainPoint;
 use tess_verify::Named;
 
 #[derive(Serialize)]
@@ -36,7 +37,14 @@ struct Point {
 pub(super) fn render(patch: &OnePatch) -> String {
     let case = patch.case();
     let named = case.domain().factor_names().iter().zip(case.factors.iter());
-    let factor = |(name, value): (&&'static str, f32)| Factor { name, bits: hex(value), value };
+    let factor = |(name, value): (&&'static str, f32)| {
+        let bits = format!("0x{:08x}", value.to_bits());
+        Factor { name, bits, value }
+    };
+    let point = |point: &DomainPoint| {
+        let [u, v] = point.to_f32().map(f64::from);
+        Point { u_bits: point.u.to_bits(), v_bits: point.v.to_bits(), u, v }
+    };
     let document = Document {
         domain: case.domain().name(),
         partitioning: case.config.partitioning.name(),
@@ -44,20 +52,8 @@ pub(super) fn render(patch: &OnePatch) -> String {
         split: case.config.split.name(),
         backend: patch.backend,
         factors: named.map(factor).collect(),
-        points: points(patch),
+        points: patch.output().points.iter().map(point).collect(),
         primitives: patch.listing.primitives().collect(),
     };
     crate::output::json(&document)
-}
-
-fn points(patch: &OnePatch) -> Vec<Point> {
-    let point = |point: &tess_core::DomainPoint| {
-        let [u, v] = point.to_f32().map(f64::from);
-        Point { u_bits: point.u.to_bits(), v_bits: point.v.to_bits(), u, v }
-    };
-    patch.output().points.iter().map(point).collect()
-}
-
-fn hex(factor: f32) -> String {
-    format!("0x{:08x}", factor.to_bits())
 }
