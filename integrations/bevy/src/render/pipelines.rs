@@ -134,7 +134,7 @@ fn of_a_mesh(
     descriptor
 }
 
-/// Bevy's pipeline for the main pass: its MaterialPipelineSpecializer, which others cannot make.
+/// Bevy's pipeline for the main pass: its `MaterialPipelineSpecializer`, which others cannot make.
 fn lit(
     own: &Own<'_>,
     key: MeshPipelineKey,

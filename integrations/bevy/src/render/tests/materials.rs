@@ -7,6 +7,7 @@ use bevy::asset::RenderAssetUsages;
 use bevy::core_pipeline::prepass::{DepthPrepass, NormalPrepass};
 use bevy::image::ImageSampler;
 use bevy::light::NotShadowReceiver;
+use bevy::math::ops;
 use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 use std::f32::consts::FRAC_PI_2;
@@ -129,7 +130,7 @@ fn bumpy(world: &mut World, normal: Option<[u8; 4]>, has_prepass: bool) {
     });
     let material = StandardMaterial { normal_map_texture, perceptual_roughness: 0.9, ..default() };
     let material = add(world, material);
-    let height = |at: u16| (0.4 * f32::from(at % 16)).sin() * (0.3 * f32::from(at / 16)).cos();
+    let height = |at: u16| ops::sin(0.4 * f32::from(at % 16)) * ops::cos(0.3 * f32::from(at / 16));
     let hills = HeightField::new(UVec2::splat(16), (0..256).map(height).collect()).expect("256");
     let hills = Tessellated::new(hills.with_size(Vec3::new(1.0, 0.1, 1.0)));
     world.spawn((hills, material, Transform::from_rotation(Quat::from_rotation_x(FRAC_PI_2))));
