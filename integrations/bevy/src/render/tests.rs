@@ -46,6 +46,7 @@ fn app() -> App {
             .disable::<WinitPlugin>()
             .disable::<PipelinedRenderingPlugin>(),
         TessPlugin,
+        MaterialPlugin::<materials::Tinted>::default(),
     ));
     while app.plugins_state() == PluginsState::Adding {
         bevy::tasks::tick_global_task_pools_on_main_thread();

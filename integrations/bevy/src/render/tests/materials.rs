@@ -1,15 +1,16 @@
 //! Materials: textures, normal maps, alpha, the same on the GPU and on the CPU.
 
 use super::passes::square;
-use super::{SIZE, app, picture, run};
+use super::{SIZE, SURFACE, Wall, app, middle, picture, run};
 use crate::{Backend, HeightField, TessSettings, Tessellated};
 use bevy::asset::RenderAssetUsages;
 use bevy::core_pipeline::prepass::{DepthPrepass, NormalPrepass};
 use bevy::image::ImageSampler;
 use bevy::light::NotShadowReceiver;
 use bevy::math::ops;
+use bevy::pbr::{ExtendedMaterial, MaterialExtension};
 use bevy::prelude::*;
-use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
+use bevy::render::render_resource::{AsBindGroup, Extent3d, TextureDimension, TextureFormat};
 use std::f32::consts::FRAC_PI_2;
 
 /// An image of two texels, left and right.
@@ -157,4 +158,44 @@ fn normal_maps_bend_the_light() {
     let near = |(a, b): (&u8, &u8)| a.abs_diff(*b) <= 4;
     let is_same = through_prepass.iter().zip(&along_u).all(near);
     assert!(is_same, "from the prepass: {through_prepass:?}, {along_u:?}");
+}
+
+/// What a material of one's own adds to Bevy's.
+#[derive(Asset, AsBindGroup, Clone, Debug, TypePath)]
+pub(super) struct Tint {
+    #[uniform(100)]
+    color: LinearRgba,
+}
+
+impl MaterialExtension for Tint {}
+
+pub(super) type Tinted = ExtendedMaterial<StandardMaterial, Tint>;
+
+const TINTED: &str = "
+@group(3) @binding(100) var<uniform> tint: vec4<f32>;
+
+@fragment
+fn fragment(in: Vertex) -> @location(0) vec4<f32> {
+    var pbr = tess_pbr_input(in);
+    pbr.material.base_color *= tint;
+    return tess_lit(pbr);
+}
+";
+
+#[test]
+fn an_extended_material_has_its_bindings() {
+    let mut app = app();
+    let base_color = Color::linear_rgb(1.0, 0.5, 0.0);
+    let base = StandardMaterial { base_color, unlit: true, ..default() };
+    let extension = Tint { color: LinearRgba::rgb(0.0, 1.0, 1.0) };
+    let tinted = ExtendedMaterial { base, extension };
+    let world = app.world_mut();
+    let tinted = world.resource_mut::<Assets<Tinted>>().add(tinted);
+    let wall = Tessellated::new(Wall { surface: SURFACE, fragment: TINTED });
+    let mut wall = world.spawn((wall, MeshMaterial3d(tinted)));
+    wall.remove::<MeshMaterial3d<StandardMaterial>>();
+    run(&mut app);
+    let [red, green, blue, _] = middle(&mut app);
+    assert!(green.abs_diff(188) <= 1, "half of the green is left: {green}");
+    assert_eq!([red, blue], [0; 2], "and nothing else");
 }
