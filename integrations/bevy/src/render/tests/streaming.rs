@@ -144,9 +144,7 @@ fn no_frame_is_a_hitch() {
     for _ in 0..2 {
         for few in shapes.chunks(2) {
             let new = few.iter().zip(there.len() as u32..);
-            let new: Vec<_> = new
-                .map(|(shape, n)| spawn(&mut app, n, Arc::clone(shape)))
-                .collect();
+            let new: Vec<_> = new.map(|(shape, n)| spawn(&mut app, n, Arc::clone(shape))).collect();
             there.extend(new);
             times.push(frame(&mut app));
         }
