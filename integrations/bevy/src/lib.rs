@@ -6,6 +6,8 @@ mod cpu;
 mod detail;
 mod eye;
 mod height_field;
+#[cfg(feature = "picking")]
+mod picking;
 mod point_normal;
 mod program;
 mod render;
@@ -21,12 +23,16 @@ pub use shape::{CpuShape, DEFAULT_FRAGMENT, Shape, ShapeVertex};
 pub use tess_core;
 pub use tess_surface;
 
+#[cfg(feature = "picking")]
+use bevy::app::PreUpdate;
 use bevy::app::{App, Plugin, PostUpdate};
 use bevy::asset::{AssetEventSystems, Assets};
 use bevy::camera::primitives::Aabb;
 use bevy::camera::visibility::VisibilitySystems;
 use bevy::ecs::prelude::*;
 use bevy::pbr::StandardMaterial;
+#[cfg(feature = "picking")]
+use bevy::picking::{PickingSystems, backend::ray::RayMap};
 use bevy::render::renderer::RenderDevice;
 use bevy::transform::TransformSystems;
 use component::Backend as Chosen;
@@ -55,6 +61,11 @@ impl Plugin for TessPlugin {
         app.init_resource::<Casting>()
             .init_resource::<program::Programs>()
             .init_resource::<cpu::Tessellators>();
+        #[cfg(feature = "picking")]
+        app.add_systems(
+            PreUpdate,
+            picking::pick.in_set(PickingSystems::Backend).run_if(resource_exists::<RayMap>),
+        );
         render::build(app);
     }
 }

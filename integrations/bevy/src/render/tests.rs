@@ -3,6 +3,8 @@
 
 mod materials;
 mod passes;
+#[cfg(feature = "picking")]
+mod picking;
 mod streaming;
 mod values;
 
