@@ -3,10 +3,15 @@
 use crate::bezier::quad_factors;
 use crate::eye::Eye;
 use crate::shape::{CpuShape, Shape, ShapeVertex};
+use bevy::asset::Handle;
 use bevy::camera::primitives::Aabb;
+use bevy::color::{Color, ColorToComponents};
+use bevy::ecs::error::BevyError;
+use bevy::image::Image;
 use bevy::math::{UVec2, Vec2, Vec3};
 use std::borrow::Cow;
 use std::fmt;
+use std::sync::Arc;
 use tess_core::{Domain, OutputPrimitive, PatchFactors, QuadFactors};
 use tess_surface::{Address, HeightError, HeightMap, glam};
 
@@ -20,6 +25,8 @@ pub struct HeightField {
     patches: UVec2,
     size: Vec3,
     colors: GroundColors,
+    /// And whether the heights are its.
+    image: Option<(Handle<Image>, bool)>,
 }
 
 /// Linear colours of the ground, which multiply the material's base colour. All are white by default.
@@ -45,6 +52,16 @@ impl Default for GroundColors {
 pub enum HeightFieldError {
     /// The heights are no image.
     Image(HeightError),
+    /// A pixel of the image cannot be read.
+    Unreadable {
+        /// Bevy's reason.
+        reason: String,
+    },
+    /// A pixel of the image is not grey.
+    NotGrey {
+        /// Its place.
+        at: UVec2,
+    },
     /// There are no patches along a side, or more than [`HeightField::MOST_PATCHES`].
     WrongPatches {
         /// Patches along x and z.
@@ -56,6 +73,14 @@ impl fmt::Display for HeightFieldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Image(error) => write!(f, "the heights are no image: {error}"),
+            Self::Unreadable { reason } => write!(
+                f,
+                "the image cannot be read: {reason}; load grey pixels of 8 or 16 bits or floats, in 2D, and keep them in \
+                 RenderAssetUsages::MAIN_WORLD"
+            ),
+            Self::NotGrey { at } => {
+                write!(f, "the image is not grey: its pixel at {at} has unlike channels")
+            }
             Self::WrongPatches { got } => write!(
                 f,
                 "{} x {} patches; each side has 1 to {}; use several entities for more",
@@ -90,7 +115,16 @@ impl HeightField {
             .texels()
             .iter()
             .fold([f32::MAX, f32::MIN], |[low, high], &h| [low.min(h), high.max(h)]);
-        Ok(Self { texels, heights, range, patches, size: Vec3::ONE, colors })
+        Ok(Self { texels, heights, range, patches, size: Vec3::ONE, colors, image: None })
+    }
+
+    /// The same field, with the heights of a grey image once it is loaded, and again whenever it changes: its
+    /// [`AssetEvent`](bevy::asset::AssetEvent)s say so. Black is 0 and white 1, whatever the colour space; floats
+    /// are heights. Until then it has the heights that it has.
+    #[must_use]
+    pub fn with_image(mut self, image: Handle<Image>) -> Self {
+        self.image = Some((image, false));
+        self
     }
 
     /// The same field with this extent along x and z; heights are multiplied by the extent along y.
@@ -221,9 +255,38 @@ impl Shape for HeightField {
         words
     }
 
+    fn image(&self) -> Option<(&Handle<Image>, bool)> {
+        self.image.as_ref().map(|(image, is_read)| (image, *is_read))
+    }
+
+    fn of_image(&self, image: &Image) -> Result<Arc<dyn Shape>, BevyError> {
+        let read = Self::new(image.size(), heights(image)?)?;
+        let (size, colors, patches) = (self.size, self.colors, self.patches);
+        let image = self.image.clone().map(|(image, _)| (image, true));
+        Ok(Arc::new(Self { size, colors, patches, image, ..read }))
+    }
+
     fn on_cpu(&self) -> Option<&dyn CpuShape> {
         Some(self)
     }
+}
+
+/// The heights of a grey image, row by row.
+fn heights(image: &Image) -> Result<Vec<f32>, HeightFieldError> {
+    let size = image.size();
+    let height = |at: UVec2| {
+        let color = image.get_color_at(at.x, at.y);
+        let color =
+            color.map_err(|error| HeightFieldError::Unreadable { reason: error.to_string() })?;
+        let [red, green, blue, _] = match color {
+            Color::Srgba(color) => color.to_f32_array(),
+            color => color.to_linear().to_f32_array(),
+        };
+        // NaN is not equal to itself, and named as what it is later.
+        let is_grey = [green, blue].map(f32::to_bits) == [red.to_bits(); 2];
+        if is_grey { Ok(red) } else { Err(HeightFieldError::NotGrey { at }) }
+    };
+    (0..size.y).flat_map(|y| (0..size.x).map(move |x| UVec2::new(x, y))).map(height).collect()
 }
 
 impl CpuShape for HeightField {

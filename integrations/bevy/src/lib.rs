@@ -6,6 +6,7 @@ mod cpu;
 mod detail;
 mod eye;
 mod height_field;
+mod images;
 #[cfg(feature = "picking")]
 mod picking;
 mod point_normal;
@@ -50,6 +51,7 @@ impl Plugin for TessPlugin {
         app.add_systems(
             PostUpdate,
             (
+                images::follow.before(set_bounds).before(program::register),
                 set_bounds.before(VisibilitySystems::CalculateBounds),
                 program::register.before(VisibilitySystems::CalculateBounds),
                 (eye::find_casting, cpu::tessellate)

@@ -1,9 +1,13 @@
 //! Shapes: their patches, their WGSL, and the Rust form of it.
 
 use crate::eye::Eye;
+use bevy::asset::Handle;
 use bevy::camera::primitives::Aabb;
+use bevy::ecs::error::BevyError;
+use bevy::image::Image;
 use std::borrow::Cow;
 use std::fmt::Debug;
+use std::sync::Arc;
 use tess_core::{Domain, OutputPrimitive, PatchFactors};
 
 /// The default fragment shader: Bevy's lighting of the entity's material.
@@ -41,6 +45,20 @@ pub trait Shape: Debug + Send + Sync + 'static {
     /// The words that `surface` reads with `tess_uint` and `tess_float`. They are uploaded once; a shape
     /// that changes is another shape, or has [`TessValues`](crate::TessValues).
     fn words(&self) -> Vec<u32>;
+
+    /// The image that it is made of, and whether it has been. [`Self::of_image`] is called when the image is loaded and
+    /// whenever it changes.
+    fn image(&self) -> Option<(&Handle<Image>, bool)> {
+        None
+    }
+
+    /// The same shape of its image as that is now.
+    ///
+    /// # Errors
+    /// What is wrong with the image; the shape then stays as it is.
+    fn of_image(&self, _: &Image) -> Result<Arc<dyn Shape>, BevyError> {
+        Err("the shape is not made of an image".into())
+    }
 
     /// The Rust form of `hull` and `domain`, for devices without compute. Without it the shape is not
     /// drawn there, and the log says so.

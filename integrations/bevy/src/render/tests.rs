@@ -1,6 +1,7 @@
 //! Whole frames without a window: the domain points equal the CPU's, user shaders are drawn, and what is
 //! wrong with them does not end the program.
 
+mod images;
 mod materials;
 mod passes;
 #[cfg(feature = "picking")]
