@@ -152,7 +152,8 @@ impl<'a> Counted<'a> {
         let points = points.first(counts.points, 0)?;
         let indices = first(indices, Buffer::Indices, counts.indices, 0)?;
         let Self { level, settings, batch, slicing, slices, kept, .. } = *self;
-        let part = Part { batch, points, indices, ranges, first: Offsets::default() };
+        let first = Offsets::default();
+        let part = Part { batch, points, indices, ranges, first, run: slices[0].run };
         let share = Share { part, slice: slicing.patches, counts: slices };
         self.workspaces.emit(Job { level, settings, numbering, kept }, share);
         Ok(counts)

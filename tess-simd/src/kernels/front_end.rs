@@ -27,16 +27,19 @@ pub(crate) fn process(config: Config, batch: &Batch<'_>, packets: &mut [Packet; 
 pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
     let mut sums = Sums::default();
     let mut chunk = Chunk::EMPTY;
-    let (mut first, domain) = (0, batch.domain());
+    let (mut first, mut run, domain) = (0, 0, batch.domain());
     while first < batch.len() {
         let Stretch { patches, times } = Stretch::new(batch, first);
+        if first == 0 {
+            run = times;
+        }
         chunk.load(&batch.slice(&(first..first + patches)));
         for number in 0..patches.div_ceil(LANES) {
             sums.add(&packet_counts(config, domain, &chunk.packet(number)), times);
         }
         first += patches * times;
     }
-    sums.total()
+    PartCounts { run, ..sums.total() }
 }
 
 /// [`process`], then the output sizes of these patches together.
@@ -108,6 +111,7 @@ impl Sums {
             points: self.points.into_iter().sum(),
             indices: self.indices.into_iter().sum(),
             largest: self.largest.into_iter().max().unwrap_or(0),
+            run: 0,
         }
     }
 }

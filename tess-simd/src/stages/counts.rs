@@ -18,6 +18,8 @@ pub(crate) struct PartCounts {
     pub(crate) indices: u64,
     /// Points of its largest patch.
     pub(crate) largest: u32,
+    /// How many patches, from its first one on, are to be written as copies; 1 or less if that is not known.
+    pub(crate) run: usize,
 }
 
 impl PartCounts {
@@ -27,6 +29,7 @@ impl PartCounts {
             points: sum.points + part.points,
             indices: sum.indices + part.indices,
             largest: sum.largest.max(part.largest),
+            run: 0,
         })
     }
 

@@ -37,6 +37,8 @@ pub(crate) struct Part<'a, P, I> {
     pub(crate) indices: &'a mut [I],
     pub(crate) ranges: Ranges<'a>,
     pub(crate) first: Offsets,
+    /// [`PartCounts::run`](crate::stages::counts::PartCounts::run).
+    pub(crate) run: usize,
 }
 
 /// The memory that a thread keeps from batch to batch, made when it is first used. Two threads' workspaces share no
@@ -162,7 +164,7 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
     part: Part<'_, P, I>,
     workspace: &mut Workspace,
 ) {
-    let Part { ref batch, mut points, mut indices, mut ranges, mut first } = part;
+    let Part { ref batch, mut points, mut indices, mut ranges, mut first, run } = part;
     let WorkspaceMemory { lookup, caches, chunk, .. } = workspace.memory();
     let own = &mut **chunk.get_or_insert_with(ChunkMemory::new);
     let Job { level, settings, numbering, kept } = job;
@@ -171,7 +173,11 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
         let (Stretch { patches, times }, packets) = if let Some(kept) = kept {
             (Stretch { patches: all, times: 1 }, kept)
         } else {
-            let stretch = levels::stretch(level, batch, start);
+            let stretch = if start == 0 && run > 1 {
+                Stretch { patches: 1, times: run }
+            } else {
+                levels::stretch(level, batch, start)
+            };
             let batch = batch.slice(&(start..start + stretch.patches));
             levels::process(level, settings.config, &batch, &mut own.packets);
             (stretch, &own.packets)

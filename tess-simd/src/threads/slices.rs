@@ -65,7 +65,7 @@ impl<'a, P: PointRoom, I> Share<'a, P, I> {
         let Self { part, slice, counts } = self;
         let mut rest = Some(part);
         counts.iter().filter_map(move |counts| {
-            let Part { batch, points, indices, ranges, first } = rest.take()?;
+            let Part { batch, points, indices, ranges, first, .. } = rest.take()?;
             let (one, others) = cut(batch, slice);
             let (points, more_points) = points.split_at(counts.points as usize);
             let (indices, more_indices) = indices.split_at_mut(counts.indices as usize);
@@ -80,8 +80,9 @@ impl<'a, P: PointRoom, I> Share<'a, P, I> {
                 indices: more_indices,
                 ranges: more_ranges,
                 first: next,
+                run: 0,
             });
-            Some(Part { batch: one, points, indices, ranges, first })
+            Some(Part { batch: one, points, indices, ranges, first, run: counts.run })
         })
     }
 }

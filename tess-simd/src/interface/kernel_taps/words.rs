@@ -62,7 +62,7 @@ impl Tap {
             _ => {}
         }
         if matches!(self.kernel, Kernel::Count | Kernel::CountAndKeep) {
-            let PartCounts { points, indices, largest } = self.part;
+            let PartCounts { points, indices, largest, .. } = self.part;
             words.extend([points, indices, largest.into()].map(|n| u32::try_from(n).unwrap_or(!0)));
         }
     }
