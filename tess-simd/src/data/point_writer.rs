@@ -120,6 +120,6 @@ impl<P: OutputPoint> PointWriter for Writer<'_, P> {
 
     #[inline(always)]
     fn repeat(self, period: usize, times: usize) {
-        Writer::repeat(self, period, times, |point, _| point);
+        Writer::copy(self, period, times);
     }
 }

@@ -10,6 +10,11 @@ use core::sync::atomic::{Ordering, compiler_fence};
 /// Bytes that are copied at a time: so few that they are read from the first cache.
 const COPIED: usize = 4096;
 
+/// From so many bytes on, output that leaves the caches is copied by `memcpy` in pieces as large as this: it need not
+/// read what it overwrites.
+const LARGE: usize = 1 << 20;
+const LARGE_COPIED: usize = 32 << 10;
+
 /// A slice that is written from front to back.
 #[derive(Debug)]
 pub(crate) struct Writer<'a, T> {
@@ -130,7 +135,21 @@ impl<'a, T: Copy> Writer<'a, T> {
     /// element from the one that stands this many periods before it.
     #[inline(always)]
     pub(crate) fn repeat(self, period: usize, times: usize, moved: impl Fn(T, u32) -> T) {
-        fill(self.out, period, times, moved);
+        fill(self.out, period, times, COPIED, |to, from, patches| {
+            for (to, &from) in to.iter_mut().zip(from) {
+                *to = moved(from, patches);
+            }
+        });
+    }
+
+    /// [`Self::repeat`] of elements that stay as they are.
+    #[inline(always)]
+    pub(crate) fn copy(self, period: usize, times: usize) {
+        if period * times * size_of::<T>() < LARGE {
+            self.repeat(period, times, |element, _| element);
+        } else {
+            fill(self.out, period, times, LARGE_COPIED, |to, from, _| to.copy_from_slice(from));
+        }
     }
 }
 
@@ -170,21 +189,27 @@ fn write_cut_blocks<S: Copy, T: Copy, const N: usize>(
     }
 }
 
-/// [`Writer::repeat`].
+/// [`Writer::repeat`], at most `copied` bytes or a period at a time: `copy` is given room for them, what they are made
+/// from, and how many periods it stands before.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
-fn fill<T: Copy>(all: &mut [T], period: usize, times: usize, moved: impl Fn(T, u32) -> T) {
+fn fill<T>(
+    all: &mut [T],
+    period: usize,
+    times: usize,
+    copied: usize,
+    copy: impl Fn(&mut [T], &[T], u32),
+) {
     let Some(all) = all.get_mut(..period * times) else { return };
-    let most = (COPIED / size_of::<T>()).max(period);
+    let most = (copied / size_of::<T>()).max(period);
     let mut made = period;
     while made < all.len() {
         let (source, rest) = all.split_at_mut(made);
         let periods = made.min(most) / period;
         let patches = (made / period) as u32;
-        for (to, &from) in rest.iter_mut().zip(&source[..periods * period]) {
-            *to = moved(from, patches);
-        }
-        made += rest.len().min(periods * period);
+        let length = rest.len().min(periods * period);
+        copy(&mut rest[..length], &source[..length], patches);
+        made += length;
     }
 }
 
@@ -193,4 +218,23 @@ fn fill<T: Copy>(all: &mut [T], period: usize, times: usize, moved: impl Fn(T, u
 #[inline(always)]
 pub(crate) fn separate_blocks() {
     compiler_fence(Ordering::AcqRel);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec::Vec;
+
+    /// Periods that are copied together, and one that is copied alone.
+    #[test]
+    fn large_copies() {
+        for period in [7, LARGE_COPIED / 8 + 1] {
+            let times = LARGE / 8 / period + 1;
+            let mut all: Vec<u64> = (0..=period * times).map(|i| i as u64).collect();
+            Writer::new(&mut all).copy(period, times);
+            let last = all.pop();
+            assert!((0..).zip(&all).all(|(i, &made)| made == i % period as u64), "{period}");
+            assert_eq!(last, Some((period * times) as u64), "what is behind them");
+        }
+    }
 }

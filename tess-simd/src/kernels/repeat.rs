@@ -28,14 +28,14 @@ pub(crate) fn repeat<W: PointWriter, I: IndexFormat>(
 ) -> Offsets {
     let Repeat { range, times, numbering } = repeat;
     let (point_count, index_count) = (range.points as usize, range.indices as usize);
-    let step = match numbering {
-        Numbering::PerPatch => 0,
-        Numbering::PerBatch { .. } => range.points,
-    };
     points.repeat(point_count, times);
-    Writer::new(indices).repeat(index_count, times, |index, patches| {
-        index.wrapping_add(I::wrapping_from(step.wrapping_mul(patches)))
-    });
+    let indices = Writer::new(indices);
+    match numbering {
+        Numbering::PerPatch => indices.copy(index_count, times),
+        Numbering::PerBatch { .. } => indices.repeat(index_count, times, |index, patches| {
+            index.wrapping_add(I::wrapping_from(range.points.wrapping_mul(patches)))
+        }),
+    }
     ranges.repeat(range, times - 1);
     let end = |first: u32, period: usize| first + (period * times) as u32;
     Offsets {

@@ -83,8 +83,8 @@ impl PointWriter for ApartWriter<'_> {
 
     #[inline(always)]
     fn repeat(self, period: usize, times: usize) {
-        self.u.repeat(period, times, |u, _| u);
-        self.v.repeat(period, times, |v, _| v);
+        self.u.copy(period, times);
+        self.v.copy(period, times);
     }
 }
 
