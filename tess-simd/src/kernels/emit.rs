@@ -42,9 +42,10 @@
 //!
 //! # The simpler form
 //!
-//! A packet of compact patches alone goes stage by stage: all look-ups, then all points, then all indices. Patch by
-//! patch, a branch that is predicted wrongly in one stage also discards the begun work of the next. Together with
-//! permutes this took `meshes/quads` from 0.16 to 0.25 of a fill (`docs/experiments.md`).
+//! A packet of compact patches alone goes stage by stage: all look-ups, then, with integer factors, all points before all
+//! indices. Patch by patch, a branch that is predicted wrongly in one stage also discards the begun work of the next.
+//! Together with permutes this took `meshes/quads` from 0.16 to 0.25 of a fill (`docs/experiments.md`). Fractional
+//! points take so long to compute that the stores of the indices before them cost nothing meanwhile.
 
 use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::lanes::LANES;
@@ -195,8 +196,8 @@ pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     true
 }
 
-/// Writes a packet of compact patches, stage by stage, so that a wrongly predicted branch in one stage discards no
-/// work of another.
+/// Writes a packet of compact patches that are all looked up first, so that a wrongly predicted branch discards no
+/// look-up.
 #[inline(always)]
 fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,
@@ -218,18 +219,16 @@ fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
             let (patch, points) = (packet.patch(lane), templates.get(starts[lane]).points);
             out.points.map::<_, 24>(patch.points() as usize, points, long);
         }
-    } else {
-        for (lane, _) in lanes.clone() {
-            compact_points.emit(
-                packet.patch(lane),
-                templates.get(starts[lane]).points,
-                &mut out.points,
-            );
+        for (lane, range) in lanes {
+            let base = numbering.base(range.first_point);
+            indices_of(packet.patch(lane), templates.get(starts[lane]), base, &mut out.indices);
         }
-    }
-    for (lane, range) in lanes {
-        let base = numbering.base(range.first_point);
-        indices_of(packet.patch(lane), templates.get(starts[lane]), base, &mut out.indices);
+    } else {
+        for (lane, range) in lanes {
+            let (patch, template) = (packet.patch(lane), templates.get(starts[lane]));
+            compact_points.emit(patch, template.points, &mut out.points);
+            indices_of(patch, template, numbering.base(range.first_point), &mut out.indices);
+        }
     }
 }
 
