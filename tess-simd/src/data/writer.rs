@@ -13,7 +13,7 @@ const COPIED: usize = 4096;
 /// From so many bytes on, output that leaves the caches is copied by `memcpy` in pieces as large as this: it need not
 /// read what it overwrites.
 const LARGE: usize = 1 << 20;
-const LARGE_COPIED: usize = 32 << 10;
+const LARGE_COPIED: usize = 16 << 10;
 
 /// A slice that is written from front to back.
 #[derive(Debug)]
