@@ -91,7 +91,7 @@ impl TessStats {
         self.0[0].load(Ordering::Relaxed)
     }
 
-    /// Bytes of shapes, places, looks and values that the last frame uploaded; 0 on the CPU. It uploads the view of each
+    /// Bytes of shapes, places, materials and values that the last frame uploaded; 0 on the CPU. It uploads the view of each
     /// camera too, and 4 bytes an entity if entities came or went.
     #[must_use]
     pub fn uploaded(&self) -> u64 {
