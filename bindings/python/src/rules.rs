@@ -8,11 +8,10 @@ use crate::vectors::{device_answers, open};
 use pyo3::prelude::*;
 use pyo3::types::{PyString, PyTuple};
 use std::path::PathBuf;
-use tess_core::Tessellation;
+use tess_verify::Named;
 use tess_verify::check::CheckError;
 use tess_verify::rules::{Checker, RuleRow, RulesReport, Specification};
 use tess_verify::vectors::{Kind, Record};
-use tess_verify::{Case, Named};
 
 /// Judges outputs by what a standard demands of them, without the model (docs/rules.md).
 ///
@@ -43,20 +42,12 @@ pub(crate) fn check_rules<'py>(
         let answers = device_answers(answers)?;
         let mut watch = Watch::default();
         let answers = answers.into_iter().take_while(|_| watch.goes_on());
-        let found = py.detach(|| judge(answers, specification));
+        let mut checker = Checker::new(specification);
+        py.detach(|| answers.for_each(|(case, output)| checker.add(&case, &output)));
         watch.finish()?;
-        found
+        checker.report()
     };
     report(py, &found)
-}
-
-fn judge(
-    answers: impl Iterator<Item = (Case, Tessellation)>,
-    specification: Specification,
-) -> RulesReport {
-    let mut checker = Checker::new(specification);
-    answers.for_each(|(case, output)| checker.add(&case, &output));
-    checker.report()
 }
 
 fn of_file(file: crate::vectors::Reader, specification: Specification) -> PyResult<RulesReport> {

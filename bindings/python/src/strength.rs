@@ -7,6 +7,11 @@ use tess_verify::check::{Conversion, Denormals, Elements, ListOrder, Strength};
 /// The orders that `tess check` knows.
 const ORDERS: [(&str, ListOrder); 3] =
     [("exact", ListOrder::Exact), ("sequence", ListOrder::Sequence), ("any", ListOrder::Any)];
+const ELEMENTS: [(&str, Elements); 2] =
+    [("primitives", Elements::Primitives), ("points", Elements::Points)];
+const CONVERSIONS: [(&str, Conversion); 2] =
+    [("exact", Conversion::Exact), ("0.6ulp", Conversion::Within06Ulp)];
+const DENORMALS: [(&str, Denormals); 2] = [("keep", Denormals::Keep), ("flush", Denormals::Flush)];
 
 /// Values that `tess check` takes as `--order`, `--points`, `--conversion` and `--denormals`.
 pub(crate) fn strength(
@@ -17,21 +22,9 @@ pub(crate) fn strength(
 ) -> PyResult<Strength> {
     Ok(Strength {
         order: one_of("order", order, &ORDERS)?,
-        elements: one_of(
-            "elements",
-            elements,
-            &[("primitives", Elements::Primitives), ("points", Elements::Points)],
-        )?,
-        conversion: one_of(
-            "conversion",
-            conversion,
-            &[("exact", Conversion::Exact), ("0.6ulp", Conversion::Within06Ulp)],
-        )?,
-        denormals: one_of(
-            "denormals",
-            denormals,
-            &[("keep", Denormals::Keep), ("flush", Denormals::Flush)],
-        )?,
+        elements: one_of("elements", elements, &ELEMENTS)?,
+        conversion: one_of("conversion", conversion, &CONVERSIONS)?,
+        denormals: one_of("denormals", denormals, &DENORMALS)?,
     })
 }
 
