@@ -28,38 +28,23 @@ pub(crate) fn checked(given: TessContext) -> Result<FactorContext, TessStatus> {
         .ok_or(TESS_NOT_A_CONTEXT)
 }
 
-/// The signals of the placement of one point, in the order in which hardware computes them
-/// (specification, section 5).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct PlaceSteps {
-    /// 1 on the second half of the edge, else 0.
-    pub(crate) flip: u32,
-    /// The position on the half edge, 0..32; equal to `half_points` in the exact middle.
-    pub(crate) position: u32,
-    /// The place in the coarser subdivision; in the exact middle 0.
-    pub(crate) coarse: u32,
-    /// The place in the finer subdivision; in the exact middle 0.
-    pub(crate) fine: u32,
-    /// The location on the half edge, rounded; in the exact middle one half.
-    pub(crate) half_location: u32,
-    /// The location, 0..0x10000.
-    pub(crate) location: u32,
-}
-
-/// The steps that lead to point `p` of an edge.
-pub(crate) fn place_steps(context: &FactorContext, p: u32) -> Result<PlaceSteps, TessStatus> {
+/// The signals of the placement of point `p` of an edge, in the order in which hardware computes them
+/// (specification, section 5):
+///
+/// - flip: 1 on the second half of the edge, else 0,
+/// - the position on the half edge, 0..32; equal to `half_points` in the exact middle,
+/// - the place in the coarser subdivision; in the exact middle 0,
+/// - the place in the finer subdivision; in the exact middle 0,
+/// - the location on the half edge, rounded; in the exact middle one half,
+/// - the location, 0..0x10000.
+pub(crate) fn place_steps(context: &FactorContext, p: u32) -> Result<[u32; 6], TessStatus> {
     if p >= context.points {
         return Err(TESS_OUT_OF_RANGE);
     }
     let steps = place::steps(context, p);
-    Ok(PlaceSteps {
-        flip: u32::from(steps.flip),
-        position: steps.position,
-        coarse: steps.blend.map_or(0, |blend| blend.coarse),
-        fine: steps.blend.map_or(0, |blend| blend.fine),
-        half_location: steps.half_location,
-        location: steps.location.to_bits(),
-    })
+    let (coarse, fine) = steps.blend.map_or((0, 0), |blend| (blend.coarse, blend.fine));
+    let (flip, location) = (u32::from(steps.flip), steps.location.to_bits());
+    Ok([flip, steps.position, coarse, fine, steps.half_location, location])
 }
 
 #[cfg(test)]
@@ -111,7 +96,7 @@ mod tests {
         for context in contexts() {
             for p in 0..context.points {
                 let steps = place_steps(&context, p).expect("a point of this edge");
-                let PlaceSteps { flip, position, coarse, fine, half_location, location } = steps;
+                let [flip, position, coarse, fine, half_location, location] = steps;
                 let blend = if position == context.half_points {
                     HALF
                 } else {

@@ -64,8 +64,7 @@ imported! {
     tess_dpi_place(factor, parity_number, split_order, p)
         -> [flip, position, coarse, fine, half_location, location],
     {
-        let s = place_steps(&context(factor, parity_number, split_order)?, p)?;
-        [s.flip, s.position, s.coarse, s.fine, s.half_location, s.location]
+        place_steps(&context(factor, parity_number, split_order)?, p)?
     }
 }
 
