@@ -59,9 +59,6 @@ function playBuild() {
 export function play({ line, from, to, seconds }) {
   set({ line, view: "", built: "" });
   element("animation").open = true;
-  Object.assign(element("animate-from"), { value: from });
-  Object.assign(element("animate-to"), { value: to });
-  Object.assign(element("animate-seconds"), { value: seconds });
-  element("animate-factor").value = "all";
+  for (const [name, value] of Object.entries({ from, to, seconds, factor: "all" })) element(`animate-${name}`).value = value;
   if (!running.factor) playFactor();
 }

@@ -40,13 +40,8 @@ export class View {
 
   // x and y of all points.
   toScreenAll(points) {
-    const { alongU: a, alongV: b } = this.layout;
-    const s = this.scale, places = new Float64Array(points.length);
-    for (let k = 0; k < points.length; k += 2) {
-      const du = points[k] - this.u, dv = points[k + 1] - this.v;
-      places[k] = this.width / 2 + s * (a[0] * du + b[0] * dv);
-      places[k + 1] = this.height / 2 + s * (a[1] * du + b[1] * dv);
-    }
+    const places = new Float64Array(points.length);
+    for (let k = 0; k < points.length; k += 2) places.set(this.toScreen(points[k], points[k + 1]), k);
     return places;
   }
 
