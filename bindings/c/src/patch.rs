@@ -22,12 +22,10 @@ pub unsafe extern "C" fn tess_count(
     factor_count: usize,
     counts: *mut TessCounts,
 ) -> TessStatus {
-    answer(|| {
-        // SAFETY: `config` and `factors` are readable, as the caller promises.
-        let patch = unsafe { types::patch(config, factors, factor_count) }?;
-        // SAFETY: `counts` is writable, as the caller promises.
-        unsafe { boundary::write(counts, patch.counts().into()) }
-    })
+    // SAFETY: as this function asks for it.
+    unsafe {
+        types::of_patch((config, factors, factor_count), counts, |patch| Some(patch.counts()))
+    }
 }
 
 /// Tessellates a patch: points and indices to the start of the caller's buffers.

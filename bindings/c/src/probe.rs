@@ -144,13 +144,8 @@ pub unsafe extern "C" fn tess_point(
     i: u32,
     point: *mut TessPoint,
 ) -> TessStatus {
-    answer(|| {
-        // SAFETY: `config` and `factors` are readable, as the caller promises.
-        let patch = unsafe { types::patch(config, factors, factor_count) }?;
-        let value = patch.point(i).ok_or(TESS_OUT_OF_RANGE)?;
-        // SAFETY: `point` is writable, as the caller promises.
-        unsafe { boundary::write(point, value.into()) }
-    })
+    // SAFETY: as this function asks for it.
+    unsafe { types::of_patch((config, factors, factor_count), point, |patch| patch.point(i)) }
 }
 
 /// Primitive `t` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
@@ -168,13 +163,10 @@ pub unsafe extern "C" fn tess_primitive(
     t: u32,
     primitive: *mut TessPrimitive,
 ) -> TessStatus {
-    answer(|| {
-        // SAFETY: `config` and `factors` are readable, as the caller promises.
-        let patch = unsafe { types::patch(config, factors, factor_count) }?;
-        let value = patch.primitive(t).ok_or(TESS_OUT_OF_RANGE)?;
-        // SAFETY: `primitive` is writable, as the caller promises.
-        unsafe { boundary::write(primitive, value.into()) }
-    })
+    // SAFETY: as this function asks for it.
+    unsafe {
+        types::of_patch((config, factors, factor_count), primitive, |patch| patch.primitive(t))
+    }
 }
 
 /// The origin of point `i` of a patch; `TESS_OUT_OF_RANGE` if it has fewer points.
@@ -192,13 +184,10 @@ pub unsafe extern "C" fn tess_locate_point(
     i: u32,
     origin: *mut TessPointOrigin,
 ) -> TessStatus {
-    answer(|| {
-        // SAFETY: `config` and `factors` are readable, as the caller promises.
-        let patch = unsafe { types::patch(config, factors, factor_count) }?;
-        let value = patch.locate_point(i).ok_or(TESS_OUT_OF_RANGE)?;
-        // SAFETY: `origin` is writable, as the caller promises.
-        unsafe { boundary::write(origin, value.into()) }
-    })
+    // SAFETY: as this function asks for it.
+    unsafe {
+        types::of_patch((config, factors, factor_count), origin, |patch| patch.locate_point(i))
+    }
 }
 
 /// The origin of primitive `t` of a patch; `TESS_OUT_OF_RANGE` if it has fewer primitives.
@@ -216,13 +205,10 @@ pub unsafe extern "C" fn tess_locate_primitive(
     t: u32,
     origin: *mut TessPrimitiveOrigin,
 ) -> TessStatus {
-    answer(|| {
-        // SAFETY: `config` and `factors` are readable, as the caller promises.
-        let patch = unsafe { types::patch(config, factors, factor_count) }?;
-        let value = patch.locate_primitive(t).ok_or(TESS_OUT_OF_RANGE)?;
-        // SAFETY: `origin` is writable, as the caller promises.
-        unsafe { boundary::write(origin, value.into()) }
-    })
+    // SAFETY: as this function asks for it.
+    unsafe {
+        types::of_patch((config, factors, factor_count), origin, |patch| patch.locate_primitive(t))
+    }
 }
 
 impl From<tess_core::Primitive> for TessPrimitive {

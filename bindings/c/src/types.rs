@@ -1,7 +1,9 @@
 //! The structures and numbers that cross the boundary, and their Rust counterparts.
 
 use crate::boundary;
-use crate::status::{TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus};
+use crate::status::{
+    TESS_OUT_OF_RANGE, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus, answer,
+};
 use tess_core::{
     Config, Counts, Domain, DomainPoint, FactorContext, OutputPrimitive, Parity, Partitioning,
     Patch, PatchFactors, SplitOrder,
@@ -196,6 +198,24 @@ pub(crate) unsafe fn patch(
     // SAFETY: `factor_count` readable floats, as the caller promises.
     let factors = unsafe { factors(domain, factor_values, factor_count) }?;
     Ok(Patch::new(config, factors))
+}
+
+/// Writes what the patch that a caller describes gives; `TESS_OUT_OF_RANGE` if it gives nothing.
+///
+/// # Safety
+/// - As for [`patch`]; `out`, if not null and aligned, must be valid for writing one structure.
+pub(crate) unsafe fn of_patch<T: Copy, V: Into<T>>(
+    (config, factors, factor_count): (*const TessConfig, *const f32, usize),
+    out: *mut T,
+    value: impl FnOnce(&Patch) -> Option<V>,
+) -> TessStatus {
+    answer(|| {
+        // SAFETY: `config` and `factors` are readable, as the caller promises.
+        let patch = unsafe { patch(config, factors, factor_count) }?;
+        let value = value(&patch).ok_or(TESS_OUT_OF_RANGE)?;
+        // SAFETY: `out` is writable, as the caller promises.
+        unsafe { boundary::write(out, value.into()) }
+    })
 }
 
 #[cfg(test)]
