@@ -29,7 +29,19 @@ impl SurfaceView {
     /// The surface `flat`, `teapot` or `terrain`, with factors of 1. Errors: another name.
     #[wasm_bindgen(constructor)]
     pub fn new(name: &str) -> Result<Self, JsError> {
-        Self::named(name).map_err(thrown)
+        let model = match name {
+            "flat" => Model::polygons(grid(4, |_, _| 0.0), Style::Flat)?,
+            "teapot" => Model::bezier(teapot::patches())?,
+            "terrain" => Model::polygons(grid(16, hills), Style::PointNormal)?,
+            other => {
+                return Err(thrown(format!("unknown surface {other}: flat, teapot or terrain")));
+            }
+        };
+        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+        let (factors, vertices, indices) = (Vec::new(), Vec::new(), Vec::new());
+        let mut view = Self { model, config, factors, vertices, indices };
+        view.set_factors(Partitioning::Integer.name(), FactorRule::Uniform(1.0))?;
+        Ok(view)
     }
 
     /// Centre and radius of a sphere around the model.
@@ -46,7 +58,7 @@ impl SurfaceView {
 
     /// Gives all patches one factor everywhere. Errors: an unknown partitioning.
     pub fn uniform(&mut self, partitioning: &str, factor: f32) -> Result<(), JsError> {
-        self.set_factors(partitioning, FactorRule::Uniform(factor)).map_err(thrown)
+        self.set_factors(partitioning, FactorRule::Uniform(factor))
     }
 
     /// Gives all patches factors by the distance from an eye; `scale` is the factor at distance 1. Errors: an unknown
@@ -60,12 +72,17 @@ impl SurfaceView {
         z: f32,
     ) -> Result<(), JsError> {
         let eye = Vec3::new(x, y, z);
-        self.set_factors(partitioning, FactorRule::Distance { eye, scale }).map_err(thrown)
+        self.set_factors(partitioning, FactorRule::Distance { eye, scale })
     }
 
     /// Tessellates on the CPU, and evaluates every point. Errors: the output is too large for this machine.
     pub fn tessellate(&mut self) -> Result<(), JsError> {
-        self.tessellate_here().map_err(thrown)
+        let mut output = ExactOutput::new();
+        let numbering = Numbering::PerBatch { base_vertex: 0 };
+        Tessellator::new(self.config).tessellate(&self.factors, numbering, &mut output)?;
+        self.evaluate(&output);
+        self.indices = output.indices().to_vec();
+        Ok(())
     }
 
     /// x, y and z of each vertex.
@@ -166,37 +183,11 @@ fn net(surface: &Surface) -> Vec<Vec4> {
 }
 
 impl SurfaceView {
-    fn named(name: &str) -> Result<Self, String> {
-        let error = |error: tess_surface::MeshError| error.to_string();
-        let model = match name {
-            "flat" => Model::polygons(grid(4, |_, _| 0.0), Style::Flat).map_err(error)?,
-            "teapot" => Model::bezier(teapot::patches()).map_err(error)?,
-            "terrain" => Model::polygons(grid(16, hills), Style::PointNormal).map_err(error)?,
-            other => return Err(format!("unknown surface {other}: flat, teapot or terrain")),
-        };
-        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-        let (factors, vertices, indices) = (Vec::new(), Vec::new(), Vec::new());
-        let mut view = Self { model, config, factors, vertices, indices };
-        view.set_factors(Partitioning::Integer.name(), FactorRule::Uniform(1.0))?;
-        Ok(view)
-    }
-
-    fn set_factors(&mut self, partitioning: &str, rule: FactorRule) -> Result<(), String> {
-        let partitioning = Partitioning::from_name(partitioning).map_err(|e| e.to_string())?;
+    fn set_factors(&mut self, partitioning: &str, rule: FactorRule) -> Result<(), JsError> {
+        let partitioning = Partitioning::from_name(partitioning).map_err(thrown)?;
         let of_patch = |number| rule.factors(&self.model, number, partitioning);
         self.factors = (0..self.model.len()).map(of_patch).collect();
         self.config = Config::new(partitioning, OutputPrimitive::TriangleCw);
-        Ok(())
-    }
-
-    fn tessellate_here(&mut self) -> Result<(), String> {
-        let mut output = ExactOutput::new();
-        let numbering = Numbering::PerBatch { base_vertex: 0 };
-        Tessellator::new(self.config)
-            .tessellate(&self.factors, numbering, &mut output)
-            .map_err(|error| error.to_string())?;
-        self.evaluate(&output);
-        self.indices = output.indices().to_vec();
         Ok(())
     }
 
@@ -255,11 +246,11 @@ mod tests {
     #[test]
     fn every_surface_has_triangles_of_its_vertices() {
         for name in ["flat", "teapot", "terrain"] {
-            let mut view = SurfaceView::named(name).expect("a surface");
+            let mut view = SurfaceView::new(name).expect("a surface");
             let eye = Vec3::new(3.0, 1.0, 2.0);
             for rule in [FactorRule::Uniform(3.0), FactorRule::Distance { eye, scale: 20.0 }] {
                 view.set_factors("fractional_odd", rule).expect("a partitioning");
-                view.tessellate_here().expect("tessellates");
+                view.tessellate().expect("tessellates");
                 let count = view.vertices.len();
                 assert!(!view.indices.is_empty(), "{name} has triangles");
                 assert!(view.indices.iter().all(|&i| (i as usize) < count), "{name}");
@@ -272,7 +263,7 @@ mod tests {
     #[test]
     fn every_surface_is_its_net() {
         for name in ["flat", "teapot", "terrain"] {
-            let view = SurfaceView::named(name).expect("a surface");
+            let view = SurfaceView::new(name).expect("a surface");
             for number in 0..view.model.len() {
                 let patch = view.model.patch(number);
                 let points = net(patch.surface());
