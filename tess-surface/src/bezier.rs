@@ -32,30 +32,24 @@ struct Jet {
 /// The control points of a patch in the form that they are evaluated in.
 #[derive(Debug)]
 pub(crate) enum Net {
-    Polynomial(PolynomialNet),
-    Rational(RationalNet),
+    Polynomial([[Vec3; 4]; 4]),
+    Rational([[Homogeneous; 4]; 4]),
 }
 
 /// The control points of a patch whose weights are all 1.
-#[derive(Debug)]
-pub(crate) struct PolynomialNet([[Vec3; 4]; 4]);
-
-impl Frames for PolynomialNet {
+impl Frames for [[Vec3; 4]; 4] {
     #[inline(always)]
     fn frame(&self, u: f32, v: f32) -> Frame {
-        let (position, du, dv) = tensor(&self.0, u, v);
+        let (position, du, dv) = tensor(self, u, v);
         Frame { position: plain_zero(position), tangents: Tangents { du, dv } }
     }
 }
 
 /// The control points of any patch.
-#[derive(Debug)]
-pub(crate) struct RationalNet([[Homogeneous; 4]; 4]);
-
-impl Frames for RationalNet {
+impl Frames for [[Homogeneous; 4]; 4] {
     #[inline(always)]
     fn frame(&self, u: f32, v: f32) -> Frame {
-        let (s, su, sv) = tensor(&self.0, u, v);
+        let (s, su, sv) = tensor(self, u, v);
         let position = s.xyz / s.w;
         let du = (su.xyz - position * su.w) / s.w;
         let dv = (sv.xyz - position * sv.w) / s.w;
@@ -102,9 +96,9 @@ impl BezierPatch {
     /// The control points in the form that they are evaluated in.
     pub(crate) fn net(&self) -> Net {
         if self.is_polynomial() {
-            Net::Polynomial(PolynomialNet(self.points.map(|row| row.map(Vec4::truncate))))
+            Net::Polynomial(self.points.map(|row| row.map(Vec4::truncate)))
         } else {
-            Net::Rational(RationalNet(self.points.map(|row| row.map(Homogeneous::from))))
+            Net::Rational(self.points.map(|row| row.map(Homogeneous::from)))
         }
     }
 

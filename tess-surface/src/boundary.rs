@@ -83,33 +83,29 @@ trait Along {
 }
 
 /// The ends.
-struct EdgeLine([Vec3; 2]);
-/// The control points of a cubic whose weights are all 1.
-struct Polynomial([Vec3; 4]);
-/// The control points of any cubic.
-struct Rational([Homogeneous; 4]);
-
-impl Along for EdgeLine {
+impl Along for [Vec3; 2] {
     #[inline(always)]
     fn position(&self, t: f32) -> Vec3 {
-        let [a, b] = self.0;
+        let [a, b] = *self;
         at_ends(t, a, lerp(a, b, t), b)
     }
 }
 
-impl Along for Polynomial {
+/// The control points of a cubic whose weights are all 1.
+impl Along for [Vec3; 4] {
     #[inline(always)]
     fn position(&self, t: f32) -> Vec3 {
-        let [a, .., d] = self.0;
-        at_ends(t, a, de_casteljau(self.0, t).0, d)
+        let [a, .., d] = *self;
+        at_ends(t, a, de_casteljau(*self, t).0, d)
     }
 }
 
-impl Along for Rational {
+/// The control points of any cubic.
+impl Along for [Homogeneous; 4] {
     #[inline(always)]
     fn position(&self, t: f32) -> Vec3 {
-        let [a, .., d] = self.0;
-        let point = de_casteljau(self.0, t).0;
+        let [a, .., d] = *self;
+        let point = de_casteljau(*self, t).0;
         at_ends(t, a.xyz / a.w, point.xyz / point.w, d.xyz / d.w)
     }
 }
@@ -244,14 +240,12 @@ impl SurfacePatch {
 fn curve_positions(vertices: &mut Vertices, number: usize, edge: &Edge, t: &Lanes) {
     let is_one = |point: &Vec4| point.w.to_bits() == 1.0f32.to_bits();
     match edge.curve {
-        Curve::Line(ends) => along(vertices, number, edge.direction, t, &EdgeLine(ends)),
+        Curve::Line(ends) => along(vertices, number, edge.direction, t, &ends),
         Curve::Cubic(points) if points.iter().all(is_one) => {
-            let curve = Polynomial(points.map(Vec4::truncate));
-            along(vertices, number, edge.direction, t, &curve);
+            along(vertices, number, edge.direction, t, &points.map(Vec4::truncate));
         }
         Curve::Cubic(points) => {
-            let curve = Rational(points.map(Homogeneous::from));
-            along(vertices, number, edge.direction, t, &curve);
+            along(vertices, number, edge.direction, t, &points.map(Homogeneous::from));
         }
     }
 }

@@ -264,18 +264,14 @@ impl Anchors8 {
 /// 2^-45, which brings the fourth powers of tangents of 2^32 to 2^58 into range.
 const SMALLER: f32 = 1.0 / 35_184_372_088_832.0;
 
-/// The normal over heights with these slopes along u and v.
+/// The normal over heights with these slopes along u and v: Blinn's N' = N + hu (n x Sv) + hv (Su x n), with
+/// N = Su x Sv taken along the shading normal.
 #[inline(always)]
 fn wrinkled_normal(normal: Vec3, Tangents { du, dv }: Tangents, [hu, hv]: [f32; 2]) -> Vec3 {
     // The area is a square root of fourth powers. Where these overflow, so does it, and the
     // whole is computed in smaller units of length.
     let units = if length(du.cross(dv)) < f32::INFINITY { 1.0 } else { SMALLER };
-    wrinkled(normal, [du * units, dv * units], [hu * units, hv * units])
-}
-
-/// Blinn's N' = N + hu (n x Sv) + hv (Su x n), with N = Su x Sv taken along the shading normal.
-#[inline(always)]
-fn wrinkled(normal: Vec3, [du, dv]: [Vec3; 2], [hu, hv]: [f32; 2]) -> Vec3 {
+    let (du, dv, hu, hv) = (du * units, dv * units, hu * units, hv * units);
     let area = length(du.cross(dv));
     let is_flat = area <= 1e-6 * du.dot(du).max(dv.dot(dv));
     let (wrinkled, exists) =

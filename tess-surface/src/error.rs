@@ -136,9 +136,3 @@ pub enum HeightError {
         scale: f32,
     },
 }
-
-impl MeshError {
-    pub(crate) const fn face(face: usize, fault: MeshFault) -> Self {
-        Self::Face { face, fault }
-    }
-}

@@ -7,21 +7,28 @@ use crate::bezier::Net;
 use crate::frame::{Frame, Frames, Tangents};
 use crate::lanes::{LANES, Vertices};
 use crate::math::{normal_or_not, plain_zero, unit_or_not};
-use crate::patch::{Surface, SurfacePatch, bilinear_frame, flat_frame};
+use crate::patch::{Surface, SurfacePatch};
 use crate::pn::{PnQuad, PnTriangle};
 use glam::Vec3;
 
+/// Position and tangents on the plane through three corners.
 impl Frames for [Vec3; 3] {
     #[inline(always)]
     fn frame(&self, u: f32, v: f32) -> Frame {
-        flat_frame(self, u, v)
+        let [a, b, c] = *self;
+        let tangents = Tangents { du: a - c, dv: b - c };
+        Frame { position: c + (a - c) * u + (b - c) * v, tangents }
     }
 }
 
+/// Position and tangents on the bilinear surface of four corners.
 impl Frames for [Vec3; 4] {
     #[inline(always)]
     fn frame(&self, u: f32, v: f32) -> Frame {
-        bilinear_frame(self, u, v)
+        let [a, b, c, d] = *self;
+        let (low, high) = (a + (b - a) * u, d + (c - d) * u);
+        let tangents = Tangents { du: (b - a) * (1.0 - v) + (c - d) * v, dv: high - low };
+        Frame { position: low + (high - low) * v, tangents }
     }
 }
 

@@ -46,7 +46,7 @@ impl PolygonMesh {
     pub fn check(&self) -> Result<(), MeshError> {
         crate::topology::check_count(self.faces.len())?;
         for (number, face) in self.faces.iter().enumerate() {
-            self.check_face(face).map_err(|fault| MeshError::face(number, fault))?;
+            self.check_face(face).map_err(|fault| MeshError::Face { face: number, fault })?;
         }
         Ok(())
     }
@@ -131,10 +131,8 @@ fn gather<T: Copy>(
     if found != corners {
         return Err(MeshFault::WrongCount { what, found, corners });
     }
-    let fault = MeshFault::OutOfRange { what, count: values.len() };
-    let known = |index: &u32| (*index as usize) < values.len();
-    if !indices.as_slice().iter().all(known) {
-        return Err(fault);
+    if indices.as_slice().iter().any(|&index| index as usize >= values.len()) {
+        return Err(MeshFault::OutOfRange { what, count: values.len() });
     }
     Ok(indices.map(|index| values[index as usize]))
 }

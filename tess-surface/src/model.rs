@@ -4,7 +4,7 @@ use crate::bezier::BezierPatch;
 use crate::curve::{Direction, Edge};
 use crate::error::{MeshError, MeshFault};
 use crate::math::{is_in_range, unit};
-use crate::mesh::{Face, PolygonMesh};
+use crate::mesh::PolygonMesh;
 use crate::patch::{Surface, SurfacePatch};
 use crate::pn::{PnCorner, PnQuad, PnTriangle, edge_points};
 use crate::sides::{Sides, edge_corners, runs_onwards};
@@ -50,7 +50,11 @@ impl Model {
         let vertices = weld(&mesh.positions);
         let lacks_normals = mesh.faces.iter().any(|face| face.normals.is_none());
         let normals = if lacks_normals { mesh.smooth_normals(&vertices) } else { Vec::new() };
-        let ends = |half: HalfEdge| polygon_edge(&mesh.faces[half.patch], half.edge, &vertices);
+        let ends = |half: HalfEdge| {
+            let corners = &mesh.faces[half.patch].positions;
+            let ends = edge_corners(corners)[half.edge];
+            ends.map(|corner| vertices[corners.as_slice()[corner] as usize])
+        };
         let key = |half| {
             let [a, b] = ends(half);
             (u64::from(a.min(b)) << 32) | u64::from(a.max(b))
@@ -81,7 +85,7 @@ impl Model {
         check_count(patches.len())?;
         let mut hashes = Vec::with_capacity(patches.len() * 4);
         for (number, patch) in patches.iter().enumerate() {
-            check_patch(patch).map_err(|fault| MeshError::face(number, fault))?;
+            check_patch(patch).map_err(|fault| MeshError::Face { face: number, fault })?;
             for (edge, curve) in patch.boundary().into_iter().enumerate() {
                 if curve.collapsed_to().is_none() {
                     let bits = Edge::new(curve).curve.key();
@@ -123,7 +127,7 @@ impl Model {
     /// way. So the surfaces that touch there have no cracks, but they may be divided differently.
     #[must_use]
     pub const fn crowded_edges(&self) -> usize {
-        self.topology.crowded()
+        self.topology.crowded
     }
 
     /// The shape of patch `number`, triangle or quad, without its surface.
@@ -149,7 +153,10 @@ impl Model {
             ModelSource::Polygons { mesh, style, .. } => {
                 let face = &mesh.faces[number];
                 let surface = match style {
-                    Style::Flat => flat(mesh.corners(face)),
+                    Style::Flat => match mesh.corners(face) {
+                        Sides::Triangle(corners) => Surface::FlatTriangle(corners),
+                        Sides::Quad(corners) => Surface::Bilinear(corners),
+                    },
                     Style::PointNormal => self.point_normal(number),
                 };
                 let patch = SurfacePatch::new(surface);
@@ -220,18 +227,6 @@ impl Model {
             };
             PnCorner { position: mesh.positions[position as usize], normal }
         })
-    }
-}
-
-fn polygon_edge(face: &Face, edge: usize, vertices: &[u32]) -> [u32; 2] {
-    let ends = edge_corners(&face.positions)[edge];
-    ends.map(|corner| vertices[face.positions.as_slice()[corner] as usize])
-}
-
-fn flat(corners: Sides<Vec3>) -> Surface {
-    match corners {
-        Sides::Triangle(corners) => Surface::FlatTriangle(corners),
-        Sides::Quad(corners) => Surface::Bilinear(corners),
     }
 }
 

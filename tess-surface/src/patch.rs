@@ -7,7 +7,7 @@
 use crate::bezier::BezierPatch;
 use crate::curve::{Curve, Direction, Edge};
 use crate::error::WrongDomain;
-use crate::frame::{Frame, Tangents};
+use crate::frame::{Frame, Frames, Tangents};
 use crate::math::{plain_zero, unit};
 use crate::pn::{PnQuad, PnTriangle, normal_along};
 use crate::sides::{Place, Sides, corner_coordinates, edge_corners};
@@ -134,8 +134,8 @@ impl SurfacePatch {
     #[must_use]
     pub fn frame(&self, u: f32, v: f32) -> Frame {
         let frame = match &self.surface {
-            Surface::FlatTriangle(corners) => flat_frame(corners, u, v),
-            Surface::Bilinear(corners) => bilinear_frame(corners, u, v),
+            Surface::FlatTriangle(corners) => corners.frame(u, v),
+            Surface::Bilinear(corners) => corners.frame(u, v),
             Surface::Bezier(patch) => patch.frame(u, v),
             Surface::PnTriangle(triangle) => triangle.frame(u, v),
             Surface::PnQuad(quad) => quad.patch.frame(u, v),
@@ -164,25 +164,20 @@ impl SurfacePatch {
     }
 
     fn normal_in(&self, tangents: impl Fn() -> Tangents, place: Place, u: f32, v: f32) -> Vec3 {
+        let on_edge = |normals: &[[Vec3; 3]], edge: usize, t: f32| {
+            normal_in_direction(self.edges.as_slice()[edge].direction, normals[edge], t)
+        };
         let normal = match &self.surface {
             Surface::FlatTriangle(_) | Surface::Bilinear(_) => tangents().normal(),
             Surface::Bezier(patch) => tangents().normal().or_else(|| patch.limit_normal(u, v)),
             Surface::PnTriangle(triangle) => unit(match place {
                 Place::Inside => triangle.normal(u, v),
-                Place::Edge(edge, t) => normal_in_direction(
-                    self.edges.as_slice()[edge].direction,
-                    triangle.boundary_normals()[edge],
-                    t,
-                ),
+                Place::Edge(edge, t) => on_edge(&triangle.boundary_normals(), edge, t),
                 Place::Corner(corner) => triangle.corners[corner].normal,
             }),
             Surface::PnQuad(quad) => unit(match place {
                 Place::Inside => quad.normal(u, v),
-                Place::Edge(edge, t) => normal_in_direction(
-                    self.edges.as_slice()[edge].direction,
-                    quad.boundary_normals()[edge],
-                    t,
-                ),
+                Place::Edge(edge, t) => on_edge(&quad.boundary_normals(), edge, t),
                 Place::Corner(corner) => quad.corner_normals[corner],
             }),
         };
@@ -249,19 +244,4 @@ fn boundary(surface: &Surface) -> Sides<Curve> {
             Sides::Triangle([curve(w, u0, v), curve(w, v0, u), curve(v, w0, u)])
         }
     }
-}
-
-/// Position and tangents on the plane through three corners.
-#[inline(always)]
-pub(crate) fn flat_frame(&[a, b, c]: &[Vec3; 3], u: f32, v: f32) -> Frame {
-    let tangents = Tangents { du: a - c, dv: b - c };
-    Frame { position: c + (a - c) * u + (b - c) * v, tangents }
-}
-
-/// Position and tangents on the bilinear surface of four corners.
-#[inline(always)]
-pub(crate) fn bilinear_frame(&[a, b, c, d]: &[Vec3; 4], u: f32, v: f32) -> Frame {
-    let (low, high) = (a + (b - a) * u, d + (c - d) * u);
-    let tangents = Tangents { du: (b - a) * (1.0 - v) + (c - d) * v, dv: high - low };
-    Frame { position: low + (high - low) * v, tangents }
 }

@@ -20,7 +20,7 @@ pub(crate) struct Topology {
     /// Indexed by slot; `ALONE` for edges of the model's border and collapsed edges.
     twins: Vec<u32>,
     /// How many edges have more than two sides.
-    crowded: usize,
+    pub(crate) crowded: usize,
 }
 
 const ALONE: u32 = u32::MAX;
@@ -95,7 +95,7 @@ impl Topology {
             sides.iter().partition(|&&half| is_forward(half));
         if forward.len() != backward.len() {
             let fault = MeshFault::NonManifold { others: [first.patch, second.patch] };
-            return Err(MeshError::face(third.patch, fault));
+            return Err(MeshError::Face { face: third.patch, fault });
         }
         self.crowded += 1;
         forward.into_iter().zip(backward).for_each(|(one, other)| self.connect(one, other));
@@ -105,11 +105,6 @@ impl Topology {
     fn connect(&mut self, one: HalfEdge, other: HalfEdge) {
         self.twins[one.slot() as usize] = other.slot();
         self.twins[other.slot() as usize] = one.slot();
-    }
-
-    /// How many edges have more than two sides.
-    pub(crate) const fn crowded(&self) -> usize {
-        self.crowded
     }
 
     /// The other side of an edge, if there is one.
