@@ -123,90 +123,59 @@ impl Setup {
     pub(crate) fn prelude(&self) -> String {
         let Config { partitioning, output, split } = self.config;
         let setup = [
-            ("DOMAIN", position(&Domain::ALL, self.domain)),
-            ("PARTITIONING", position(&Partitioning::ALL, partitioning)),
-            ("OUTPUT", position(&OutputPrimitive::ALL, output)),
-            ("SPLIT", position(&SplitOrder::ALL, split)),
+            ("DOMAIN", self.domain as u32),
+            ("PARTITIONING", partitioning as u32),
+            ("OUTPUT", output as u32),
+            ("SPLIT", split as u32),
             ("POINT_FORMAT", self.point_format as u32),
             ("NUMBERING", self.numbering as u32),
             ("FACTORS", self.factors()),
             ("COPIES", u32::from(self.copies == Copies::WhereAlike)),
             ("ORDER", self.order as u32),
         ];
-        constants(&setup) + &constants(&SHARED) + &constants(&values())
+        constants(&setup) + &constants(&SHARED) + &constants(&VALUES)
     }
 }
 
+/// Lists constants of modules: names and values.
+macro_rules! named {
+    ($($module:ident: $($name:ident)*;)*) => { [$($((stringify!($name), $module::$name),)*)*] };
+}
+
 /// The constants of [`sizes`] and [`tables`], which every shader has.
-const SHARED: [(&str, u32); 30] = [
-    ("COLUMN", cache_order::COLUMN),
-    ("WORKGROUP", sizes::WORKGROUP),
-    ("ROUND", sizes::ROUND),
-    ("SUMMED", sizes::SUMMED),
-    ("BLOCK", sizes::BLOCK),
-    ("BLOCK_BITS", sizes::BLOCK.ilog2()),
-    ("SECTION_BLOCKS", sizes::SECTION_BLOCKS),
-    ("SECTION_BLOCK_BITS", sizes::SECTION_BLOCKS.ilog2()),
-    ("SECTION", sizes::SECTION),
-    ("SECTION_BITS", sizes::SECTION.ilog2()),
-    ("DISPATCHES_AT", sizes::DISPATCHES_AT),
-    ("SLOT_BITS", sizes::SLOT_BITS),
-    ("SLOTS", sizes::SLOTS),
-    ("CATALOGUE_POINTS", sizes::CATALOGUE_POINTS),
-    ("CATALOGUE_TRIANGLES", sizes::CATALOGUE_TRIANGLES),
-    ("LISTED_POINTS", sizes::LISTED_POINTS),
-    ("LISTED_PRIMITIVES", sizes::LISTED_PRIMITIVES),
-    ("USED_AT", sizes::USED_AT),
-    ("TILE", sizes::TILE),
-    ("PLACES_AT", sizes::PLACES_AT),
-    ("POINTS_AT", sizes::POINTS_AT),
-    ("TRIANGLES_AT", sizes::TRIANGLES_AT),
-    ("RECIPROCALS_AT", tables::RECIPROCALS_AT),
-    ("STITCHES_AT", tables::STITCHES_AT),
-    ("STITCH_WORDS", tables::STITCH_WORDS),
-    ("TRANSITION_STRIDE", tables::TRANSITION_STRIDE),
-    ("FAN_STITCH", tables::FAN_STITCH),
-    ("RING_STITCH", tables::RING_STITCH),
-    ("MIRRORED_STRIP", tables::MIRRORED_STRIP),
-    ("PLAIN_STRIP", tables::PLAIN_STRIP),
-];
+const SHARED: [(&str, u32); 30] = named! {
+    cache_order: COLUMN;
+    sizes: WORKGROUP ROUND SUMMED BLOCK BLOCK_BITS SECTION_BLOCKS SECTION_BLOCK_BITS SECTION SECTION_BITS
+        DISPATCHES_AT SLOT_BITS SLOTS CATALOGUE_POINTS CATALOGUE_TRIANGLES LISTED_POINTS LISTED_PRIMITIVES
+        USED_AT TILE PLACES_AT POINTS_AT TRIANGLES_AT;
+    tables: RECIPROCALS_AT STITCHES_AT STITCH_WORDS TRANSITION_STRIDE FAN_STITCH RING_STITCH MIRRORED_STRIP
+        PLAIN_STRIP;
+};
 
 /// The values that the setup's constants can have, by name.
-fn values() -> [(&'static str, u32); 19] {
-    use OutputPrimitive::{Line, Point, TriangleCcw, TriangleCw};
-    let domain = |value| position(&Domain::ALL, value);
-    let partitioning = |value| position(&Partitioning::ALL, value);
-    let output = |value| position(&OutputPrimitive::ALL, value);
-    let split = |value| position(&SplitOrder::ALL, value);
-    [
-        ("ISOLINE", domain(Domain::Isoline)),
-        ("TRIANGLE", domain(Domain::Triangle)),
-        ("QUAD", domain(Domain::Quad)),
-        ("INTEGER", partitioning(Partitioning::Integer)),
-        ("POW2", partitioning(Partitioning::Pow2)),
-        ("FRACTIONAL_ODD", partitioning(Partitioning::FractionalOdd)),
-        ("FRACTIONAL_EVEN", partitioning(Partitioning::FractionalEven)),
-        ("OUTPUT_POINT", output(Point)),
-        ("OUTPUT_LINE", output(Line)),
-        ("OUTPUT_TRIANGLE_CW", output(TriangleCw)),
-        ("OUTPUT_TRIANGLE_CCW", output(TriangleCcw)),
-        ("RULER", split(SplitOrder::Ruler)),
-        ("CENTER", split(SplitOrder::Center)),
-        ("PACKED", PointFormat::Packed as u32),
-        ("F32", PointFormat::F32 as u32),
-        ("SPECIFICATION", Order::Specification as u32),
-        ("VERTEX_CACHE", Order::VertexCache as u32),
-        ("PER_BATCH", Numbering::PerBatch as u32),
-        ("PER_PATCH", Numbering::PerPatch as u32),
-    ]
-}
+const VALUES: [(&str, u32); 19] = [
+    ("ISOLINE", Domain::Isoline as u32),
+    ("TRIANGLE", Domain::Triangle as u32),
+    ("QUAD", Domain::Quad as u32),
+    ("INTEGER", Partitioning::Integer as u32),
+    ("POW2", Partitioning::Pow2 as u32),
+    ("FRACTIONAL_ODD", Partitioning::FractionalOdd as u32),
+    ("FRACTIONAL_EVEN", Partitioning::FractionalEven as u32),
+    ("OUTPUT_POINT", OutputPrimitive::Point as u32),
+    ("OUTPUT_LINE", OutputPrimitive::Line as u32),
+    ("OUTPUT_TRIANGLE_CW", OutputPrimitive::TriangleCw as u32),
+    ("OUTPUT_TRIANGLE_CCW", OutputPrimitive::TriangleCcw as u32),
+    ("RULER", SplitOrder::Ruler as u32),
+    ("CENTER", SplitOrder::Center as u32),
+    ("PACKED", PointFormat::Packed as u32),
+    ("F32", PointFormat::F32 as u32),
+    ("SPECIFICATION", Order::Specification as u32),
+    ("VERTEX_CACHE", Order::VertexCache as u32),
+    ("PER_BATCH", Numbering::PerBatch as u32),
+    ("PER_PATCH", Numbering::PerPatch as u32),
+];
 
 /// Declarations of constants.
 pub(crate) fn constants(all: &[(&str, u32)]) -> String {
     all.iter().map(|(name, value)| format!("const {name} = {value}u;\n")).collect()
-}
-
-/// The number of a value in the list of all values.
-fn position<T: PartialEq>(all: &[T], value: T) -> u32 {
-    (0..).zip(all).find(|&(_, other)| *other == value).map_or(0, |(number, _)| number)
 }

@@ -20,10 +20,13 @@ pub(crate) const ROUND: u32 = 128;
 pub(crate) const SUMMED: u32 = 256;
 /// Patches of a block.
 pub const BLOCK: u32 = SUMMED;
+pub(crate) const BLOCK_BITS: u32 = BLOCK.ilog2();
 /// Blocks of a section.
 pub(crate) const SECTION_BLOCKS: u32 = SUMMED;
+pub(crate) const SECTION_BLOCK_BITS: u32 = SECTION_BLOCKS.ilog2();
 /// Patches of a section.
 pub const SECTION: u32 = SECTION_BLOCKS * BLOCK;
+pub(crate) const SECTION_BITS: u32 = SECTION.ilog2();
 /// The most patches of a portion.
 pub(crate) const MAX_PORTION: u32 = SUMMED * SECTION;
 /// The most patches of a short batch, for which one workgroup does everything in front of the expansion.

@@ -39,15 +39,10 @@ impl Plan {
             _ if self.is_short() => &[Stage::Short],
             _ => &[Stage::Factors, Stage::Scan, Stage::Totals],
         };
-        let list = self.has_catalogue().then_some(Dispatch {
-            plan,
-            stage: Stage::List,
-            portion: 0,
-            part: JobPart::Whole,
-        });
         let groups: &[Stage] = if self.groups == 0 { &[] } else { &[Stage::Groups] };
         let whole =
             move |portion| move |&stage| Dispatch { plan, stage, portion, part: JobPart::Whole };
+        let list = self.has_catalogue().then(|| whole(0)(&Stage::List));
         let counting =
             portions.clone().flat_map(move |portion| counting.iter().map(whole(portion)));
         let groups = portions.flat_map(move |portion| groups.iter().map(whole(portion)));
