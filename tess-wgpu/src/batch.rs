@@ -36,20 +36,11 @@ impl Batch {
 
     /// Records everything, from factors to draw arguments, into one compute pass.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        self.record(encoder, |_, _| {});
+        self.encode_each(encoder, |_, _| {});
     }
 
     /// The same, with a call of `after` behind each dispatch, to time stages one by one.
-    #[cfg(feature = "measure")]
     pub(crate) fn encode_each(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        after: impl FnMut(&mut wgpu::ComputePass<'_>, Stage),
-    ) {
-        self.record(encoder, after);
-    }
-
-    fn record(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         mut after: impl FnMut(&mut wgpu::ComputePass<'_>, Stage),
@@ -98,9 +89,8 @@ impl Batch {
         self.buffers.of(Resource::Draws)
     }
 
-    /// The first patch of each group.
-    pub(crate) fn groups(&self) -> &wgpu::Buffer {
-        self.buffers.of(Resource::Groups)
+    pub(crate) const fn buffers(&self) -> &Buffers {
+        &self.buffers
     }
 
     /// The [`tess_gpu::layout::Topology`] of each patch, after the batch has run.

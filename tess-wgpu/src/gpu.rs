@@ -39,8 +39,7 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
     pub async fn open_with(wanted: Wanted, optional: wgpu::Features) -> Result<Self, Error> {
-        let (device, queue, info) = open::first(wanted, optional).await?;
-        Ok(Self { device, queue, info })
+        open::first(wanted, optional).await
     }
 
     /// The name and driver of the adapter, for messages.

@@ -1,5 +1,6 @@
 //! The choice of an adapter.
 
+use crate::Gpu;
 use crate::error::Error;
 use wgpu::Backends;
 
@@ -12,12 +13,9 @@ pub enum Wanted {
     Everything,
 }
 
-/// A device with its queue, and its adapter.
-type Opened = (wgpu::Device, wgpu::Queue, wgpu::AdapterInfo);
-
 /// Opens the first adapter that gives a device: those of OpenGL come last, since wgpu would prefer an old GPU
 /// with too little of OpenGL to a Vulkan driver in software.
-pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Opened, Error> {
+pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Gpu, Error> {
     let asked = Backends::from_env();
     let backends = asked.unwrap_or_else(wgpu::Instance::enabled_backend_features);
     let mut reasons = Vec::new();
@@ -42,11 +40,7 @@ pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Op
 }
 
 /// Opens the first adapter of these backends, or says why not.
-async fn of(
-    backends: Backends,
-    wanted: Wanted,
-    optional: wgpu::Features,
-) -> Result<Opened, String> {
+async fn of(backends: Backends, wanted: Wanted, optional: wgpu::Features) -> Result<Gpu, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
     // WGPU_DEBUG=0 leaves out of shaders what debuggers want, which takes drivers long to read.
@@ -78,7 +72,7 @@ async fn of(
     };
     let device = adapter.request_device(&descriptor).await;
     let (device, queue) = device.map_err(|error| format!("{}: {error}", name(&info)))?;
-    Ok((device, queue, info))
+    Ok(Gpu { device, queue, info })
 }
 
 /// The name and driver of an adapter.

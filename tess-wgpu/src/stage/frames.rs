@@ -5,7 +5,7 @@ use super::output::{StageOutput, Stored};
 use super::{PatchCount, Room, StageError, TessellationStage, fit, locked};
 use crate::error::Error;
 use crate::{Gpu, gpu};
-use tess_gpu::Capacity;
+use tess_gpu::{Capacity, Resource};
 use wgpu::BufferUsages as Usage;
 
 impl TessellationStage {
@@ -51,7 +51,8 @@ impl TessellationStage {
             }
             let batch = &self.output.batch;
             if let Some(begins) = &self.begins {
-                encoder.copy_buffer_to_buffer(begins, 0, batch.groups(), 0, begins.size());
+                let groups = batch.buffers().of(Resource::Groups);
+                encoder.copy_buffer_to_buffer(begins, 0, groups, 0, begins.size());
             }
             batch.encode(encoder);
             let of = (batch, self.fit.as_ref());

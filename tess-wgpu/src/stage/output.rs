@@ -1,13 +1,14 @@
 //! The parts that depend on the room: the batch, and the buffers that it writes.
 
+use super::DrawBuffers;
 use super::choices::Points;
 use super::gl;
 use super::room::Form;
 use crate::error::Error;
 use crate::pipeline::group;
 use crate::{Batch, Outputs, Tessellator, gpu};
-use tess_gpu::layout::{DrawIndexed, Job};
-use tess_gpu::{Capacity, Pull, Resource};
+use tess_gpu::layout::Job;
+use tess_gpu::{Capacity, Pull, Resource, Span};
 use wgpu::BufferUsages as Usage;
 
 /// A batch with room for its output.
@@ -84,7 +85,7 @@ impl StageOutput {
         let (arguments, offset) = match of_group {
             None => (self.batch.draw_arguments(), 0),
             Some(group) => {
-                (self.batch.group_arguments(), u64::from(group) * size_of::<DrawIndexed>() as u64)
+                (self.batch.group_arguments(), u64::from(group) * DrawBuffers::GROUP_BYTES)
             }
         };
         if let Some(points) = self.stored.points.as_ref().or(self.stored.unread.as_ref()) {
@@ -111,18 +112,11 @@ fn bind(
     layout: &wgpu::BindGroupLayout,
     batch: &Batch,
 ) -> Result<wgpu::BindGroup, Error> {
-    let tables = tessellator.pipelines().tables(form.setup.config.split)?;
     let bound = |resource| match resource {
-        Resource::Job => wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: batch.jobs(),
-            offset: 0,
-            size: std::num::NonZeroU64::new(size_of::<Job>() as u64),
-        }),
-        Resource::Topologies => batch.topologies().as_entire_binding(),
-        Resource::Contexts => batch.contexts().as_entire_binding(),
-        Resource::Offsets => batch.offsets().as_entire_binding(),
-        Resource::Tiles => batch.tiles().as_entire_binding(),
-        _ => tables.as_entire_binding(),
+        Resource::Job => {
+            batch.buffers().bound(resource, Span { offset: 0, size: size_of::<Job>() as u64 })
+        }
+        _ => batch.buffers().of(resource).as_entire_binding(),
     };
     let bindings = Pull { group: 0, first_binding: 0 }
         .bindings(form.setup)
