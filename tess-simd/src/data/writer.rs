@@ -10,8 +10,8 @@ use core::sync::atomic::{Ordering, compiler_fence};
 /// Bytes that are copied at a time: so few that they are read from the first cache.
 const COPIED: usize = 4096;
 
-/// From so many bytes on, output that leaves the caches is copied by `memcpy` in pieces as large as this: it need not
-/// read what it overwrites.
+/// From so many bytes on, output that leaves the caches is copied by `memcpy`, which need not read what it overwrites, in
+/// pieces as large as this: both sides of a copy fit the first cache.
 const LARGE: usize = 1 << 20;
 const LARGE_COPIED: usize = 16 << 10;
 
