@@ -24,7 +24,7 @@ pub use draws::DRAW_VERTICES;
 pub use error::Error;
 pub use info::Info;
 pub use judge::Judge;
-pub use probe::probe;
+pub use probe::{probe, probe_known};
 pub use report::{ExplainedBy, First, ProbeReport, ProbeRow, Unexplained};
 pub use rules::rules;
 pub use tess_verify::check::Way;

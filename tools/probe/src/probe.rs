@@ -8,13 +8,26 @@ use std::sync::Arc;
 use tess_verify::Case;
 use tess_verify::check::{Known, Strength};
 
-/// Asks a device every case and compares what it gives; a case that differs does not count as different if
-/// that is `known`. The first different case is asked again by itself. `progress` is called with the number of
-/// cases that were compared since its last call.
+/// Asks a device every case and compares what it gives. `progress` is called with the number of cases
+/// that were compared since its last call.
 ///
 /// # Errors
 /// The device fails.
 pub fn probe(
+    prober: &mut Prober,
+    cases: &[Case],
+    strength: Strength,
+    progress: impl FnMut(u64),
+) -> Result<ProbeReport, Error> {
+    probe_known(prober, cases, strength, &Arc::default(), progress)
+}
+
+/// [`probe`], where a case that differs does not count as different if that is `known`. The first different case is asked again
+/// by itself.
+///
+/// # Errors
+/// The device fails.
+pub fn probe_known(
     prober: &mut Prober,
     cases: &[Case],
     strength: Strength,

@@ -4,7 +4,6 @@
 #![expect(clippy::print_stderr, reason = "a test that cannot run says so")]
 
 use std::process::Command;
-use std::sync::Arc;
 use tess_core::{Domain, Partitioning};
 use tess_probe::{ProbeReport, Prober, cases, list, probe};
 use tess_verify::Case;
@@ -27,7 +26,7 @@ fn in_any_order() -> Strength {
 }
 
 fn report(prober: &mut Prober, cases: &[Case], strength: Strength) -> ProbeReport {
-    let report = probe(prober, cases, strength, &Arc::default(), |_| {}).expect("the device works");
+    let report = probe(prober, cases, strength, |_| {}).expect("the device works");
     assert_eq!(report.patches, cases.len() as u64, "every patch is compared");
     report
 }

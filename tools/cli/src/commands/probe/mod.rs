@@ -13,7 +13,7 @@ use crate::output::form;
 use crate::output::{OutputArgs, Role, json, note, progress, refuse_shared};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tess_probe::{First, ProbeReport, ProbeRow, Prober, cases, list, probe};
+use tess_probe::{First, ProbeReport, ProbeRow, Prober, cases, list, probe_known};
 use tess_verify::check::{Conversion, Denormals, Known, ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::rules::Specification;
@@ -155,7 +155,7 @@ impl Args {
             open(args.device).map_err(Failure::unavailable)?.with_draw_vertices(args.draw_vertices);
         let bar = progress(cases.len() as u64, "patches");
         let strength = args.strength();
-        let report = probe(&mut prober, &cases, strength, known, |patches| bar.inc(patches));
+        let report = probe_known(&mut prober, &cases, strength, known, |patches| bar.inc(patches));
         bar.finish_and_clear();
         let report = report.map_err(Failure::unavailable)?;
         recorder.update(|record| note_parts(record, &report));
