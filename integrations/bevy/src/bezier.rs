@@ -119,7 +119,8 @@ impl CpuShape for BezierPatches {
 }
 
 /// The factors of a quad by its edges u = 0, v = 0, u = 1, v = 1, as `tess_quad_factors` of the WGSL.
-pub(crate) fn quad_factors(edges: [f32; 4]) -> QuadFactors {
+#[must_use]
+pub fn quad_factors(edges: [f32; 4]) -> QuadFactors {
     let ([u0, v0, u1, v1], [inside_u, inside_v]) = (edges, inside_quad(edges));
     QuadFactors { u0, v0, u1, v1, inside_u, inside_v }
 }

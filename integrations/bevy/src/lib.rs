@@ -14,7 +14,7 @@ mod program;
 mod render;
 mod shape;
 
-pub use bezier::{BezierError, BezierPatches, Net};
+pub use bezier::{BezierError, BezierPatches, Net, quad_factors};
 pub use component::{Backend, TessSettings, TessStats, TessValues, Tessellated};
 pub use detail::LevelOfDetail;
 pub use eye::Eye;

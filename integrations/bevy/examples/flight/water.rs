@@ -2,9 +2,8 @@
 
 use bevy::camera::primitives::Aabb;
 use bevy::math::{UVec2, Vec2, Vec3, Vec4, Vec4Swizzles, ops};
-use bevy_tess::tess_core::{Domain, OutputPrimitive, PatchFactors, QuadFactors};
-use bevy_tess::tess_surface::factors::inside_quad;
-use bevy_tess::{CpuShape, Eye, Shape, ShapeVertex};
+use bevy_tess::tess_core::{Domain, OutputPrimitive, PatchFactors};
+use bevy_tess::{CpuShape, Eye, Shape, ShapeVertex, quad_factors};
 use std::borrow::Cow;
 
 const PATCHES: u32 = 16;
@@ -58,8 +57,7 @@ impl CpuShape for Water {
             eye.to_world(Vec3::new(x, 0.0, z))
         });
         let edges = [eye.edge(a, d), eye.edge(a, b), eye.edge(b, c), eye.edge(d, c)];
-        let ([u0, v0, u1, v1], [inside_u, inside_v]) = (edges, inside_quad(edges));
-        PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
+        PatchFactors::Quad(quad_factors(edges))
     }
 
     fn vertices(
