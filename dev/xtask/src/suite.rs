@@ -18,7 +18,7 @@ use std::process::Command;
 const ALL: &str = "test --workspace --all-features --no-fail-fast";
 
 /// The packages that have no part in [`Extent::Comparisons`], and bring much that nothing else needs to compile.
-const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-benches"];
+const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-benches", "tess-examples"];
 
 /// Has cargo list what it built on its standard output.
 const MESSAGES: &str = "--message-format=json-render-diagnostics";
@@ -38,11 +38,8 @@ const LONG: &[&str] = &[
 ];
 
 /// The programs that need more than the model, the CPU and Vulkan, with the names of the tests that do; none are all.
-const BEYOND: &[(&str, &[&str])] = &[
-    ("tess-wgpu/tests/gl/main.rs", &[]),
-    ("tess-wgpu/tests/window.rs", &[]),
-    ("bindings/c/tests/foreign.rs", &["rtl_", "uvm_"]),
-];
+const BEYOND: &[(&str, &[&str])] =
+    &[("tess-wgpu/tests/gl/main.rs", &[]), ("bindings/c/tests/foreign.rs", &["rtl_", "uvm_"])];
 
 /// Which tests are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -143,7 +140,7 @@ fn base(extent: Extent, part: &Part<'_>) -> Result<String, String> {
     let packages = packages::all()?;
     let below = |path: &&str| {
         let folder = workspace().join(path);
-        packages.iter().filter(move |package| package.folder().starts_with(&folder))
+        packages::of(&packages, &folder).filter(move |it| it.folder().starts_with(&folder))
     };
     if part.paths.iter().all(|path| below(path).next().is_some()) {
         let chosen = part.paths.iter().flat_map(below);
@@ -181,8 +178,8 @@ fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
     let mut chosen = Vec::new();
     let packages = packages::all()?;
     for path in paths {
-        let targets = packages.iter().flat_map(|package| &package.targets);
         let prefix = workspace().join(path);
+        let targets = packages::of(&packages, &prefix).flat_map(|package| &package.targets);
         let before = chosen.len();
         chosen.extend(targets.filter(|target| target.test && target.src_path.starts_with(&prefix)));
         if chosen.len() == before {
@@ -273,6 +270,8 @@ mod tests {
         let core = "test --package tess-core --all-features --no-fail-fast";
         assert_eq!(base(&["tess-core"]), core, "one package");
         assert_eq!(base(&["tess-core", "golden"]), core, "a word that is a folder too");
+        let stage = base(&["tess-wgpu"]);
+        assert_eq!(stage, core.replace("core", "wgpu"), "without the package of its examples");
         assert_eq!(base(&["tess-core", "tess-core/tests/golden.rs"]), ALL, "a file");
         assert!(base(&["bindings"]).contains(" --package tess-capi "), "a folder of packages");
         let part = Part::of(&["tess-core", "tess-core/src", "ring", "tess-gpu"]);

@@ -1,11 +1,9 @@
-//! The picture: factors, tessellation and an indexed indirect draw, recorded into one command
-//! buffer; nothing is read back before the pixels are finished.
+//! Factors, tessellation and an indexed indirect draw, recorded into one command buffer; nothing is
+//! read back.
 
-#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
-#[path = "../shared/picture.rs"]
-pub(crate) mod picture;
-
-use picture::{Scene, group, whole};
+use crate::app::{Args, Show, View};
+use crate::bindings::{group, whole};
+use crate::scene::{self, Drawn, Scene};
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::Setup;
@@ -13,74 +11,99 @@ use tess_wgpu::Gpu;
 use wgpu::BufferUsages as Usage;
 
 /// No part of the terrain has this colour.
-pub(crate) const BACKGROUND: [u8; 4] = [255, 0, 255, 255];
 const MAGENTA: wgpu::Color = wgpu::Color { r: 1.0, g: 0.0, b: 1.0, a: 1.0 };
 
 const FACTORS: &str = include_str!("factors.wgsl");
 const DRAW: &str = include_str!("draw.wgsl");
 const GRID: u32 = 32;
 
-/// Renders the terrain; `wrong_patch` gets one wrong edge factor. The pixels are RGBA, row by row.
-pub(crate) fn render(gpu: &Gpu, wrong_patch: Option<u32>) -> Result<Vec<u8>, Box<dyn Error>> {
-    let edges = gpu.buffer("edges", 2 * 4 * u64::from(GRID * (GRID + 1)), Usage::STORAGE)?;
-    let factors = gpu.buffer("factors", 24 * u64::from(GRID * GRID), Usage::STORAGE)?;
-    let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
-    let scene = Scene {
-        setup: Setup::new(Domain::Quad, config),
-        patches: GRID * GRID,
-        factors: &factors,
-        room: [16 << 20, 48 << 20],
-        source: DRAW,
-        read: None,
-        meshes: &[],
-        // The underside is not drawn, so a crack shows the background through it.
-        cull: Some(wgpu::Face::Back),
-        background: MAGENTA,
-    };
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encode_factors(gpu, &mut encoder, [&edges, &factors], wrong_patch);
-    picture::render(gpu, encoder, &scene)
+/// The terrain. `--wrong PATCH` gives one patch one wrong edge factor.
+pub(crate) struct Batch {
+    /// The passes that compute the factors.
+    passes: [Compute; 2],
+    drawn: Drawn,
 }
 
-/// How many pixels show the background.
-pub(crate) fn background_pixels(pixels: &[u8]) -> usize {
-    pixels.chunks_exact(4).filter(|&pixel| pixel == BACKGROUND).count()
+impl Show for Batch {
+    const BACKGROUND: wgpu::Color = MAGENTA;
+
+    fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>> {
+        let edges = gpu.buffer("edges", 2 * 4 * u64::from(GRID * (GRID + 1)), Usage::STORAGE)?;
+        let factors = gpu.buffer("factors", 24 * u64::from(GRID * GRID), Usage::STORAGE)?;
+        let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
+        let scene = Scene {
+            setup: Setup::new(Domain::Quad, config),
+            patches: GRID * GRID,
+            factors: &factors,
+            room: [16 << 20, 48 << 20],
+            source: DRAW,
+            read: None,
+            meshes: &[],
+            // The underside is not drawn, so a crack shows the background through it.
+            cull: Some(wgpu::Face::Back),
+        };
+        let wrong = args.number("wrong", u32::MAX)?;
+        let module = scene::module(gpu, &FACTORS.replace("0xffffffffu", &format!("{wrong}u")));
+        let measure = Compute::new(gpu, (&module, "measure_edges"), &[&edges], GRID * (GRID + 1));
+        let gather = (&module, "gather_factors");
+        let gather = Compute::new(gpu, gather, &[&edges, &factors], GRID * GRID);
+        Ok(Self { passes: [measure, gather], drawn: Drawn::new(gpu, format, &scene)? })
+    }
+
+    fn prepare(
+        &mut self,
+        _: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        _: View,
+    ) -> Result<(), Box<dyn Error>> {
+        for compute in &self.passes {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&compute.pipeline);
+            pass.set_bind_group(0, &compute.group, &[]);
+            pass.dispatch_workgroups(compute.workgroups, 1, 1);
+        }
+        self.drawn.prepare(encoder);
+        Ok(())
+    }
+
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        self.drawn.draw(pass);
+    }
+
+    fn check(&self, gpu: &Gpu) -> Result<(), Box<dyn Error>> {
+        self.drawn.check(gpu)
+    }
+
+    fn title(&self) -> String {
+        "batch".to_owned()
+    }
 }
 
-fn encode_factors(
-    gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
-    buffers: [&wgpu::Buffer; 2],
-    wrong_patch: Option<u32>,
-) {
-    let wrong = wrong_patch.unwrap_or(u32::MAX);
-    let module = picture::module(gpu, &FACTORS.replace("0xffffffffu", &format!("{wrong}u")));
-    let measure = (&module, "measure_edges");
-    encode_compute(gpu, encoder, measure, &buffers[..1], GRID * (GRID + 1));
-    encode_compute(gpu, encoder, (&module, "gather_factors"), &buffers, GRID * GRID);
+/// A compute pass.
+struct Compute {
+    pipeline: wgpu::ComputePipeline,
+    group: wgpu::BindGroup,
+    workgroups: u32,
 }
 
-/// Records a compute pass of `threads` threads in workgroups of 64, over `buffers` as bindings
-/// 0, 1, ... of group 0.
-fn encode_compute(
-    gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
-    (module, entry_point): (&wgpu::ShaderModule, &str),
-    buffers: &[&wgpu::Buffer],
-    threads: u32,
-) {
-    let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(entry_point),
-        layout: None,
-        module,
-        entry_point: Some(entry_point),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    });
-    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-    pass.set_pipeline(&pipeline);
-    let layout = pipeline.get_bind_group_layout(0);
-    let group = group(&gpu.device, &layout, whole(buffers.iter().copied()));
-    pass.set_bind_group(0, &group, &[]);
-    pass.dispatch_workgroups(threads.div_ceil(64), 1, 1);
+impl Compute {
+    /// One of `threads` threads in workgroups of 64, over `buffers` as bindings 0, 1, ... of group 0.
+    fn new(
+        gpu: &Gpu,
+        (module, entry_point): (&wgpu::ShaderModule, &str),
+        buffers: &[&wgpu::Buffer],
+        threads: u32,
+    ) -> Self {
+        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry_point),
+            layout: None,
+            module,
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        let layout = pipeline.get_bind_group_layout(0);
+        let group = group(&gpu.device, &layout, whole(buffers.iter().copied()));
+        Self { pipeline, group, workgroups: threads.div_ceil(64) }
+    }
 }

@@ -1,22 +1,16 @@
-//! The picture: the patches of all meshes in one buffer, one batch in groups, one draw for each group.
+//! The patches of all meshes in one buffer, one batch in groups, one draw for each group.
 
-#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
-#[path = "../shared/picture.rs"]
-pub(crate) mod picture;
-#[allow(dead_code, reason = "its shaders get another material here")]
-#[path = "../teapot/teapot.rs"]
-pub(crate) mod teapot;
-
-use picture::{Mesh, Scene};
+use crate::app::{Args, Show, View};
+use crate::scene::{Drawn, Mesh, Scene};
+use crate::teapot::{self, PATCHES};
 use std::error::Error;
-use teapot::PATCHES;
 use tess_gpu::layout::factor_words;
 use tess_gpu::surfaces;
 use tess_wgpu::Gpu;
 use wgpu::BufferUsages as Usage;
 
 /// Where each teapot stands, and its colour.
-pub(crate) const TEAPOTS: [([f32; 3], [f32; 4]); 3] = [
+const TEAPOTS: [([f32; 3], [f32; 4]); 3] = [
     ([-1.9, -0.6, 0.2], [0.80, 0.15, 0.10, 1.0]),
     ([0.3, 1.4, 0.9], [0.10, 0.60, 0.15, 1.0]),
     ([2.3, -0.4, 0.2], [0.10, 0.20, 0.80, 1.0]),
@@ -25,7 +19,6 @@ pub(crate) const TEAPOTS: [([f32; 3], [f32; 4]); 3] = [
 const SCALE: f32 = 0.45;
 
 /// The control nets of all teapots, one after another.
-#[expect(clippy::float_arithmetic, reason = "control points are floats")]
 fn nets() -> Vec<[f32; 4]> {
     let nets = teapot::nets();
     let placed = |at: [f32; 3]| {
@@ -37,33 +30,57 @@ fn nets() -> Vec<[f32; 4]> {
     TEAPOTS.iter().flat_map(|&(at, _)| placed(at)).collect()
 }
 
-/// Renders the teapots. The pixels are RGBA, row by row.
-pub(crate) fn render(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn Error>> {
-    let words = factor_words(&teapot::factors()?).repeat(TEAPOTS.len());
-    let factors = gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE)?;
-    let nets = gpu.upload("nets", bytemuck::cast_slice(&nets()), Usage::STORAGE)?;
-    let colours = TEAPOTS
-        .iter()
-        .map(|(_, colour)| gpu.upload("colour", bytemuck::cast_slice(colour), Usage::UNIFORM));
-    let colours = colours.collect::<Result<Vec<_>, _>>()?;
-    let meshes: Vec<Mesh<'_>> = (0..)
-        .zip(&colours)
-        .map(|(number, material)| Mesh { first_patch: number * PATCHES, material })
-        .collect();
-    let source =
-        [surfaces::BEZIER, include_str!("../teapot/draw.wgsl"), include_str!("material.wgsl")];
-    let scene = Scene {
-        setup: teapot::setup(),
-        patches: PATCHES * u32::try_from(TEAPOTS.len())?,
-        factors: &factors,
-        room: [6 << 20, 12 << 20],
-        source: &source.join("\n"),
-        read: Some(&nets),
-        meshes: &meshes,
-        // One sees into the spouts.
-        cull: None,
-        background: wgpu::Color { r: 0.93, g: 0.94, b: 0.96, a: 1.0 },
-    };
-    let encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    picture::render(gpu, encoder, &scene)
+/// The teapots.
+pub(crate) struct Meshes(Drawn);
+
+impl Show for Meshes {
+    fn new(gpu: &Gpu, format: wgpu::TextureFormat, _: &Args) -> Result<Self, Box<dyn Error>> {
+        let words = factor_words(&teapot::factors()?).repeat(TEAPOTS.len());
+        let factors = gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE)?;
+        let nets = gpu.upload("nets", bytemuck::cast_slice(&nets()), Usage::STORAGE)?;
+        let colours = TEAPOTS
+            .iter()
+            .map(|(_, colour)| gpu.upload("colour", bytemuck::cast_slice(colour), Usage::UNIFORM));
+        let colours = colours.collect::<Result<Vec<_>, _>>()?;
+        let meshes: Vec<Mesh<'_>> = (0..)
+            .zip(&colours)
+            .map(|(number, material)| Mesh { first_patch: number * PATCHES, material })
+            .collect();
+        let source =
+            [surfaces::BEZIER, include_str!("../teapot/draw.wgsl"), include_str!("material.wgsl")];
+        let scene = Scene {
+            setup: teapot::setup(),
+            patches: PATCHES * u32::try_from(TEAPOTS.len())?,
+            factors: &factors,
+            room: [6 << 20, 12 << 20],
+            source: &source.join("\n"),
+            read: Some(&nets),
+            meshes: &meshes,
+            // One sees into the spouts.
+            cull: None,
+        };
+        Ok(Self(Drawn::new(gpu, format, &scene)?))
+    }
+
+    fn prepare(
+        &mut self,
+        _: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        _: View,
+    ) -> Result<(), Box<dyn Error>> {
+        self.0.prepare(encoder);
+        Ok(())
+    }
+
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        self.0.draw(pass);
+    }
+
+    fn check(&self, gpu: &Gpu) -> Result<(), Box<dyn Error>> {
+        self.0.check(gpu)
+    }
+
+    fn title(&self) -> String {
+        "meshes".to_owned()
+    }
 }

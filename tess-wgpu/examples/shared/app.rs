@@ -1,20 +1,17 @@
-//! Runs an example: in a window, or without one into a PNG file.
+//! What an example is, its options and its picture.
 
-#[path = "png_of.rs"]
-mod png_of;
-#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
 #[path = "target.rs"]
 mod target;
-#[path = "window.rs"]
-mod window;
 
 use std::error::Error;
-#[allow(unused_imports, reason = "each example uses its part")]
 pub(crate) use target::{DEPTH, copy_pixels, depth, image, texture, view_of};
 use tess_wgpu::Gpu;
 
 /// An example's content.
 pub(crate) trait Show: Sized {
+    /// The colour behind everything.
+    const BACKGROUND: wgpu::Color = BACKGROUND;
+
     /// Makes everything, for a picture of this format.
     fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>>;
 
@@ -29,6 +26,11 @@ pub(crate) trait Show: Sized {
     /// Draws the frame.
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>);
 
+    /// Whether a frame that was drawn is whole. It may wait for the device.
+    fn check(&self, _gpu: &Gpu) -> Result<(), Box<dyn Error>> {
+        Ok(())
+    }
+
     /// A key was pressed.
     fn press(&mut self, _gpu: &Gpu, _key: &str) -> Result<(), Box<dyn Error>> {
         Ok(())
@@ -39,7 +41,6 @@ pub(crate) trait Show: Sized {
 }
 
 /// A frame's moment and size.
-#[allow(dead_code, reason = "not every example moves")]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
     pub(crate) seconds: f32,
@@ -52,8 +53,7 @@ pub(crate) struct View {
 pub(crate) struct Args(Vec<(String, String)>);
 
 impl Args {
-    pub(crate) fn from_command_line() -> Result<Self, String> {
-        let mut all = std::env::args().skip(1);
+    pub(crate) fn new(mut all: impl Iterator<Item = String>) -> Result<Self, String> {
         let mut pairs = Vec::new();
         while let Some(name) = all.next() {
             let name = name.strip_prefix("--").ok_or_else(|| {
@@ -66,7 +66,6 @@ impl Args {
     }
 
     /// The same options with this one, in place of its own value if there is one.
-    #[allow(dead_code, reason = "not every example measures")]
     pub(crate) fn with(&self, name: &str, value: &str) -> Self {
         let mut pairs = self.0.clone();
         pairs.insert(0, (name.to_owned(), value.to_owned()));
@@ -74,7 +73,6 @@ impl Args {
     }
 
     /// The same options with this one if it is not among them.
-    #[allow(dead_code, reason = "not every example measures")]
     pub(crate) fn or(&self, name: &str, value: &str) -> Self {
         if self.text(name).is_some() { self.clone() } else { self.with(name, value) }
     }
@@ -88,22 +86,6 @@ impl Args {
     pub(crate) fn number<T: std::str::FromStr>(&self, name: &str, or: T) -> Result<T, String> {
         let Some(text) = self.text(name) else { return Ok(or) };
         text.parse().map_err(|_| format!("--{name} {text} is no such number"))
-    }
-}
-
-/// Runs an example by its options: `--screenshot FILE` draws one frame into a file
-/// (`--width PIXELS`, `--seconds S`), otherwise there is a
-/// window, which closes after `--frames COUNT` frames if that is given.
-pub(crate) fn run<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
-    match args.text("screenshot") {
-        Some(path) => {
-            let gpu = pollster::block_on(Gpu::open())?;
-            let width = args.number("width", 960_u32)?.next_multiple_of(64);
-            let size = [width, width * 3 / 4];
-            let pixels = picture::<S>(&gpu, &args, size)?;
-            png_of::write(path, size, &pixels)
-        }
-        None => window::run::<S>(args),
     }
 }
 
@@ -127,11 +109,12 @@ pub(crate) fn picture<S: Show>(
         draw(&show, &mut encoder, [&color, &depth].map(view_of));
         copy_pixels(&mut encoder, &color, &pixels);
         gpu.run(encoder)?;
+        show.check(gpu)?;
     }
     Ok(gpu.read(&pixels, pixels.size())?)
 }
 
-/// The colour behind everything.
+/// The colour behind most examples.
 pub(crate) const BACKGROUND: wgpu::Color = wgpu::Color { r: 0.93, g: 0.94, b: 0.96, a: 1.0 };
 
 /// Records the render pass of a frame into a colour and a depth target.
@@ -140,6 +123,6 @@ pub(crate) fn draw<S: Show>(
     encoder: &mut wgpu::CommandEncoder,
     [color, depth]: [wgpu::TextureView; 2],
 ) {
-    let mut pass = target::begin_pass(encoder, [&color, &depth], BACKGROUND);
+    let mut pass = target::begin_pass(encoder, [&color, &depth], S::BACKGROUND);
     show.draw(&mut pass);
 }

@@ -1,6 +1,6 @@
 //! A window that shows an example frame after frame.
 
-use super::{Args, DEPTH, Show, View, draw, texture, view_of};
+use crate::app::{Args, DEPTH, Show, View, draw, texture, view_of};
 use std::error::Error;
 use std::sync::Arc;
 use std::time::Instant;
@@ -12,7 +12,7 @@ use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
 
 /// Opens a window and stays until it is closed.
-pub(super) fn run<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
     let frames = args.number("frames", u64::MAX)?;
     let mut app = App::<S> { args, frames, open: None, failure: None };
     EventLoop::new()?.run_app(&mut app)?;

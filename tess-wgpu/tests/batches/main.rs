@@ -5,18 +5,17 @@ mod catalogue;
 #[path = "../common/mod.rs"]
 mod common;
 mod contract;
-mod cracks;
 mod cut;
 mod driver;
 mod exact;
 mod faults;
 mod groups;
 mod hostile;
-#[allow(dead_code, reason = "its parts are tested")]
-#[path = "../../examples/meshes/meshes.rs"]
-mod meshes;
 mod order;
 mod pull;
 mod short;
 mod surface;
+#[allow(dead_code, reason = "it is not drawn here")]
+#[path = "../../examples/teapot/teapot.rs"]
+mod teapot;
 mod tour;

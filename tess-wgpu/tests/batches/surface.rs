@@ -4,7 +4,7 @@
 #![expect(clippy::float_arithmetic, reason = "surfaces are evaluated in floating point")]
 
 use crate::common::objects::{compute, dispatch, group, whole};
-use crate::meshes::teapot;
+use crate::teapot;
 use glam::{Vec3, Vec4};
 use tess_core::Patch;
 use tess_surface::{HalfEdge, Model};

@@ -8,13 +8,17 @@
     reason = "pictures are made of floats, and of bytes"
 )]
 
-#[allow(dead_code, reason = "its command line and its window are not used here")]
+#[allow(dead_code, reason = "its command line is not used here")]
 #[path = "../../examples/shared/app.rs"]
 mod app;
+#[path = "../../examples/batch/batch.rs"]
+mod batch;
 #[path = "../../examples/shared/bindings.rs"]
 mod bindings;
 #[path = "../../examples/shared/camera.rs"]
 mod camera;
+#[path = "../../examples/meshes/meshes.rs"]
+mod meshes;
 #[allow(dead_code, reason = "only its picture is used here")]
 #[path = "../../examples/passes/show.rs"]
 mod passes;
@@ -25,6 +29,8 @@ mod quickstart;
 #[path = "../../../tools/cli/src/commands/mesh/output/raster.rs"]
 mod raster;
 mod reference;
+#[path = "../../examples/shared/scene.rs"]
+mod scene;
 #[path = "../../examples/teapot/show.rs"]
 mod show;
 #[path = "../../examples/teapot/teapot.rs"]
@@ -39,6 +45,9 @@ use tess_wgpu::Gpu;
 /// Pixels across and down; a row has a multiple of 256 bytes.
 const SIZE: [u32; 2] = [512, 384];
 
+/// Those of the pictures in which single pixels count.
+const LARGE: [u32; 2] = [960, 720];
+
 /// A pixel differs if a channel is further off than this. Devices round colours and positions in ways of
 /// their own.
 const CHANNEL: i16 = 12;
@@ -50,7 +59,11 @@ fn gpu() -> Gpu {
 }
 
 fn picture<S: Show>(gpu: &Gpu, args: &Args) -> Vec<u8> {
-    app::picture::<S>(gpu, args, SIZE).unwrap_or_else(|error| panic!("{error}"))
+    picture_of::<S>(gpu, args, SIZE)
+}
+
+fn picture_of<S: Show>(gpu: &Gpu, args: &Args, size: [u32; 2]) -> Vec<u8> {
+    app::picture::<S>(gpu, args, size).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// How many pixels of a thousand differ.
@@ -103,4 +116,33 @@ fn the_terrain_is_the_same_without_buffers() {
     assert!(colours.len() > 5000, "{} colours of a terrain", colours.len());
     assert!(of("pull") == stored, "without points");
     assert!(of("none") == stored, "without points and indices");
+}
+
+/// The red, green and blue teapots of the example are all there, and only they.
+#[test]
+fn each_mesh_is_drawn_with_its_material() {
+    let pixels = picture_of::<meshes::Meshes>(&gpu(), &Args::default(), LARGE);
+    let counts = [0, 1, 2].map(|own: usize| {
+        let others = [(own + 1) % 3, (own + 2) % 3];
+        let is_own = |pixel: &&[u8; 4]| others.iter().all(|&o| pixel[own] / 3 > pixel[o] / 2);
+        pixels.as_chunks::<4>().0.iter().filter(is_own).count()
+    });
+    assert!(counts.iter().all(|&count| count > 3000), "{counts:?} pixels of each colour");
+}
+
+/// How many pixels of the terrain of the example `batch` show the background, which it has nowhere.
+fn background_pixels(gpu: &Gpu, args: &Args) -> usize {
+    let pixels = picture_of::<batch::Batch>(gpu, args, LARGE);
+    pixels.as_chunks::<4>().0.iter().filter(|&pixel| *pixel == [255, 0, 255, 255]).count()
+}
+
+#[test]
+fn the_terrain_of_a_batch_has_no_cracks() {
+    let gpu = gpu();
+    assert_eq!(background_pixels(&gpu, &Args::default()), 0, "background inside the surface");
+    // Patches in the middle of the picture, each with one factor of its own.
+    for patch in [6 * 32 + 16, 8 * 32 + 15, 9 * 32 + 17] {
+        let wrong = Args::default().with("wrong", &patch.to_string());
+        assert!(background_pixels(&gpu, &wrong) > 0, "patch {patch} shows no crack");
+    }
 }

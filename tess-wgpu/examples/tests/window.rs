@@ -1,7 +1,6 @@
 //! An example in a real window, on an X server without a screen.
 
 use std::io::{BufRead, BufReader};
-use std::path::PathBuf;
 use std::process::{Child, Command, Output, Stdio};
 
 /// An X server, which ends with this.
@@ -35,19 +34,13 @@ impl Drop for Server {
     }
 }
 
-/// The example, which `cargo test` builds beside the tests.
-fn example() -> PathBuf {
-    let own = std::env::current_exe().expect("a test has a path");
-    let folder = own.ancestors().nth(2).expect("tests are in target/PROFILE/deps");
-    let path = folder.join("examples/quickstart");
-    assert!(path.exists(), "{} is missing: cargo build -p tess-wgpu --examples", path.display());
-    path
-}
-
 /// Shows five frames on a display.
 fn show(display: &str) -> Output {
-    let mut example = Command::new(example());
-    example.args(["--frames", "5"]).env("DISPLAY", display).env_remove("WAYLAND_DISPLAY");
+    let mut example = Command::new(env!("CARGO_BIN_EXE_tess-examples"));
+    example
+        .args(["quickstart", "--frames", "5"])
+        .env("DISPLAY", display)
+        .env_remove("WAYLAND_DISPLAY");
     example.output().expect("it starts")
 }
 

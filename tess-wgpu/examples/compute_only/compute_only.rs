@@ -1,12 +1,12 @@
 //! Patches in, points and indices out: see README.md beside this file.
-#![expect(clippy::print_stdout, reason = "an example that prints what it made")]
 
+use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, TriangleFactors};
 use tess_gpu::Setup;
 use tess_gpu::layout::PackedPoint;
 use tess_wgpu::{Gpu, Tessellator};
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     let gpu = pollster::block_on(Gpu::open())?;
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     let setup = Setup::new(Domain::Triangle, config);
