@@ -1,6 +1,4 @@
 //! The examples of `tess-wgpu`: `cargo example NAME`. The folder NAME has it, and a README.
-#![expect(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "heights are floats")]
-#![expect(clippy::print_stdout, reason = "some print what they made or measured")]
 
 #[path = "shared/app.rs"]
 mod app;

@@ -2,7 +2,7 @@
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
-use crate::{features, fuzz, levels, publish, script, test};
+use crate::{examples, features, fuzz, levels, publish, script, test};
 
 /// Formatting, traceability, unused public items, lints, documentation, features, the fuzz targets, other
 /// compilers and processors, packages, then every test.
@@ -19,6 +19,7 @@ pub(crate) fn run() -> Result<(), String> {
     command::run(
         cargo("doc --workspace --no-deps --all-features").env("RUSTDOCFLAGS", "-D warnings"),
     )?;
+    examples::lint()?;
     features::check(&[])?;
     command::lock_versions(&command::workspace(), "fuzz")?;
     command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;

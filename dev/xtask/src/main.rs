@@ -6,7 +6,7 @@
 //! tests that are not Rust    python, explorer, integrations (Bevy), mesa
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! scripts in Python          script (checks of texts; records of measurements, tables and charts)
-//! for users                  install (header, libraries, tess.pc), dist (a release's archives)
+//! for users                  install (header, libraries, tess.pc), dist (a release's archives), examples (of tess-wgpu)
 //! with the kit compiled in   rtl (the circuit: bench, stages, faults, proofs, cost)
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
 //! ```
@@ -19,6 +19,7 @@
 mod ci;
 mod command;
 mod dist;
+mod examples;
 mod explorer;
 mod features;
 mod fuzz;
@@ -56,6 +57,8 @@ usage: cargo xtask <command>
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
   setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
           Icarus Verilog, Python
+  example NAME [OPTION...]
+          run an example of tess-wgpu; so does `cargo example`
   python [--program PROGRAM]
           build the Python package's wheel, install it in a fresh virtual environment, check its
           types and run its tests, which compare it with `tess` or with PROGRAM; `test all` includes it.
@@ -140,6 +143,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["test", ref arguments @ ..] => test::run(arguments),
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
+        ["example", ref words @ ..] => examples::run(words),
         ["public" | "traceability"] => script::run(script::CHECKS, words),
         ["features", ref names @ ..] => features::check(names),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),

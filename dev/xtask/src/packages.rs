@@ -74,15 +74,6 @@ pub(crate) fn all() -> Result<Vec<Package>, String> {
     Ok(metadata.packages)
 }
 
-/// The package whose folder this is, without those inside it; or else all of them.
-pub(crate) fn of<'a>(
-    packages: &'a [Package],
-    folder: &Path,
-) -> impl Iterator<Item = &'a Package> + use<'a> {
-    let own = packages.iter().find(|package| package.folder() == folder);
-    packages.iter().filter(move |package| own.is_none_or(|own| own.name == package.name))
-}
-
 /// The packages that are published.
 ///
 /// # Errors

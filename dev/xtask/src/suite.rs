@@ -18,7 +18,7 @@ use std::process::Command;
 const ALL: &str = "test --workspace --all-features --no-fail-fast";
 
 /// The packages that have no part in [`Extent::Comparisons`], and bring much that nothing else needs to compile.
-const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-benches", "tess-examples"];
+const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-benches"];
 
 /// Has cargo list what it built on its standard output.
 const MESSAGES: &str = "--message-format=json-render-diagnostics";
@@ -103,7 +103,7 @@ pub(crate) fn jobs(extent: Extent, part: &Part<'_>) -> Result<Vec<Job>, String> 
     println!("\n$ {}", command::shown(build.arg("--no-run")));
     let root = workspace();
     let selected = match (extent, &part.paths[..]) {
-        // Not the examples either, of which each links a window system.
+        // Not the examples either, whose sources are in tests.
         (Extent::Comparisons, []) => vec!["--tests".to_owned()],
         (_, paths) => selection(paths)?,
     };
@@ -140,7 +140,7 @@ fn base(extent: Extent, part: &Part<'_>) -> Result<String, String> {
     let packages = packages::all()?;
     let below = |path: &&str| {
         let folder = workspace().join(path);
-        packages::of(&packages, &folder).filter(move |it| it.folder().starts_with(&folder))
+        packages.iter().filter(move |package| package.folder().starts_with(&folder))
     };
     if part.paths.iter().all(|path| below(path).next().is_some()) {
         let chosen = part.paths.iter().flat_map(below);
@@ -178,8 +178,8 @@ fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
     let mut chosen = Vec::new();
     let packages = packages::all()?;
     for path in paths {
+        let targets = packages.iter().flat_map(|package| &package.targets);
         let prefix = workspace().join(path);
-        let targets = packages::of(&packages, &prefix).flat_map(|package| &package.targets);
         let before = chosen.len();
         chosen.extend(targets.filter(|target| target.test && target.src_path.starts_with(&prefix)));
         if chosen.len() == before {
@@ -270,8 +270,6 @@ mod tests {
         let core = "test --package tess-core --all-features --no-fail-fast";
         assert_eq!(base(&["tess-core"]), core, "one package");
         assert_eq!(base(&["tess-core", "golden"]), core, "a word that is a folder too");
-        let stage = base(&["tess-wgpu"]);
-        assert_eq!(stage, core.replace("core", "wgpu"), "without the package of its examples");
         assert_eq!(base(&["tess-core", "tess-core/tests/golden.rs"]), ALL, "a file");
         assert!(base(&["bindings"]).contains(" --package tess-capi "), "a folder of packages");
         let part = Part::of(&["tess-core", "tess-core/src", "ring", "tess-gpu"]);

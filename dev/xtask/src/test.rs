@@ -2,7 +2,7 @@
 
 use crate::suite::{self, Extent, Part};
 use crate::tally::{Job, Report};
-use crate::{command, dist, explorer, levels, python, setup};
+use crate::{command, dist, examples, explorer, levels, python, setup};
 
 /// The rule where no browser can be had.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -43,6 +43,7 @@ pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     let mut jobs = suite::jobs(Extent::All, &Part::default())?;
     let program = command::built_program();
     jobs.insert(0, Job::new(python::in_a_process(&program)?));
+    jobs.insert(0, Job::new(examples::cargo("test")?));
     let lacking = explorer::lacking();
     if let Some(lacking) = &lacking {
         if browser == Browser::Demanded {
