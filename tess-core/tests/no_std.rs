@@ -5,7 +5,11 @@ use std::process::Command;
 
 #[test]
 fn a_program_without_the_standard_library_links_and_runs() {
-    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../dev/nostd-proof/Cargo.toml");
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let manifest = &format!("{root}/dev/nostd-proof/Cargo.toml");
+    // A workspace of its own, with the versions of this one.
+    std::fs::copy(format!("{root}/Cargo.lock"), format!("{root}/dev/nostd-proof/Cargo.lock"))
+        .expect("the versions");
     let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/nostd-proof");
     let mut build = Command::new(env!("CARGO"));
     build.args(["build", "--quiet", "--manifest-path", manifest, "--target-dir", target]);
