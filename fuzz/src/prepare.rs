@@ -6,7 +6,7 @@
 use crate::fault_is_planted;
 use crate::input::Bytes;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
-use tess_core::{Domain, Partitioning, PatchFactors};
+use tess_core::{Domain, Partitioning};
 use tess_verify::Case;
 
 /// Compares the unrounded and the rounded factors of one request. Errors: the first factor that differs.
@@ -16,12 +16,7 @@ pub fn check(data: &[u8]) -> Result<(), String> {
     let reduction = bytes.one_of([Reduction::Min, Reduction::Max, Reduction::Average]);
     let axes = bytes.one_of([QuadAxes::One, QuadAxes::Two]);
     let factors = bytes.factors(domain);
-    let request = match factors {
-        PatchFactors::Isoline(factors) => Request::Isoline(factors),
-        PatchFactors::Triangle(factors) => Request::Triangle(factors),
-        PatchFactors::Quad(factors) => Request::Quad(factors, axes),
-    };
-    let prepared = prepare(config.partitioning, reduction, request);
+    let prepared = prepare(config.partitioning, reduction, Request::new(factors, axes));
     let second = Second { partitioning: config.partitioning, reduction, axes };
     let [unrounded, rounded] = second.prepare(domain, &factors.iter().collect::<Vec<_>>());
     for (result, observed, expected) in [

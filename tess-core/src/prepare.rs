@@ -44,6 +44,18 @@ pub enum Request {
     Quad(QuadFactors, QuadAxes),
 }
 
+impl Request {
+    /// The request for these factors, which hold scales inside; the axes are a quad's.
+    #[must_use]
+    pub const fn new(factors: PatchFactors, axes: QuadAxes) -> Self {
+        match factors {
+            PatchFactors::Isoline(factors) => Self::Isoline(factors),
+            PatchFactors::Triangle(factors) => Self::Triangle(factors),
+            PatchFactors::Quad(factors) => Self::Quad(factors, axes),
+        }
+    }
+}
+
 /// The factors of one patch before and after rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared {

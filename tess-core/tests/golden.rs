@@ -9,8 +9,7 @@ use recorded::{RecordedLines, config, digest, factors, hex_words, text};
 use shown::shown;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{
-    DomainPoint, FactorContext, FixedFactor, Parity, Patch, PatchFactors, Primitive, SplitOrder,
-    place,
+    DomainPoint, FactorContext, FixedFactor, Parity, Patch, Primitive, SplitOrder, place,
 };
 
 type Elements = (Vec<DomainPoint>, Vec<u32>);
@@ -130,15 +129,6 @@ fn contexts_and_locations() {
     }
 }
 
-fn request(domain: &str, axis: &str, input: &[&str]) -> Request {
-    match factors(domain, input) {
-        PatchFactors::Isoline(factors) => Request::Isoline(factors),
-        PatchFactors::Triangle(factors) => Request::Triangle(factors),
-        PatchFactors::Quad(factors) if axis == "1" => Request::Quad(factors, QuadAxes::One),
-        PatchFactors::Quad(factors) => Request::Quad(factors, QuadAxes::Two),
-    }
-}
-
 #[test]
 fn factor_preparation() {
     for row in text("hlsl.csv").lines().skip(2) {
@@ -153,7 +143,9 @@ fn factor_preparation() {
             _ => Reduction::Average,
         };
         let input: Vec<&str> = fields[5].split(' ').collect();
-        let prepared = prepare(config.partitioning, reduction, request(domain, axis, &input));
+        let axes = if axis == "1" { QuadAxes::One } else { QuadAxes::Two };
+        let request = Request::new(factors(domain, &input), axes);
+        let prepared = prepare(config.partitioning, reduction, request);
         assert_eq!(hex_words(&prepared.unrounded), fields[6], "{row}: unrounded");
         assert_eq!(hex_words(&prepared.rounded), fields[7], "{row}: rounded");
     }

@@ -86,18 +86,13 @@ proptest! {
         axes in prop::sample::select(&[QuadAxes::One, QuadAxes::Two][..]),
         factors in common::factors(),
     ) {
-        let request = match factors {
-            PatchFactors::Isoline(factors) => Request::Isoline(factors),
-            PatchFactors::Triangle(factors) => Request::Triangle(factors),
-            PatchFactors::Quad(factors) => Request::Quad(factors, axes),
-        };
         let outer_count = match factors {
             PatchFactors::Isoline(_) => 2,
             PatchFactors::Triangle(_) => 3,
             PatchFactors::Quad(_) => 4,
         };
         let raw = list(&factors);
-        let prepared = prepare(partitioning, reduction, request);
+        let prepared = prepare(partitioning, reduction, Request::new(factors, axes));
         let (unrounded, rounded) = (list(&prepared.unrounded), list(&prepared.rounded));
         if raw[..outer_count].iter().any(|factor| factor.is_nan() || *factor <= 0.0) {
             let bits = |factors: &[f32]| factors.iter().map(|f| f.to_bits()).collect::<Vec<_>>();

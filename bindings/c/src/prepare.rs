@@ -66,20 +66,12 @@ pub unsafe extern "C" fn tess_prepare(
         let requested = unsafe { types::factors(domain, requested, factor_count) }?;
         boundary::check(unrounded)?;
         boundary::check(rounded)?;
-        let prepared = prepare(partitioning, reduction, request(requested, axes));
+        let prepared = prepare(partitioning, reduction, Request::new(requested, axes));
         // SAFETY: writable for the factors of the domain, which `factor_count` was checked to be.
         unsafe { store(prepared.unrounded, unrounded) }?;
         // SAFETY: as above.
         unsafe { store(prepared.rounded, rounded) }
     })
-}
-
-fn request(requested: PatchFactors, axes: QuadAxes) -> Request {
-    match requested {
-        PatchFactors::Isoline(factors) => Request::Isoline(factors),
-        PatchFactors::Triangle(factors) => Request::Triangle(factors),
-        PatchFactors::Quad(factors) => Request::Quad(factors, axes),
-    }
 }
 
 /// Writes factors in the specification's order.

@@ -13,7 +13,7 @@ use crate::case::{Case, CaseError};
 use std::fmt;
 use std::io::BufRead;
 use std::ops::RangeInclusive;
-use tess_core::prepare::{Prepared, QuadAxes, Request};
+use tess_core::prepare::{Prepared, Request};
 use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, PatchFactors, SplitOrder};
 
 /// One record.
@@ -186,17 +186,8 @@ fn preparation_row(row: &Row<'_>) -> Result<PreparationRow, VectorError> {
     Ok(PreparationRow {
         config: Config::new(row.named("partitioning")?, row.named("output")?),
         reduction: row.named("reduction")?,
-        request: request(row, domain)?,
+        request: Request::new(factors(row, "input_f32_hex", domain)?, row.named("axis")?),
         prepared,
         output: sizes(row)?,
-    })
-}
-
-fn request(row: &Row<'_>, domain: Domain) -> Result<Request, VectorError> {
-    let axes: QuadAxes = row.named("axis")?;
-    Ok(match factors(row, "input_f32_hex", domain)? {
-        PatchFactors::Isoline(factors) => Request::Isoline(factors),
-        PatchFactors::Triangle(factors) => Request::Triangle(factors),
-        PatchFactors::Quad(factors) => Request::Quad(factors, axes),
     })
 }

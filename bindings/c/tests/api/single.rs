@@ -187,11 +187,7 @@ fn preparation() {
             for (axes_number, axes) in (0..).zip(AXES) {
                 let domain = Domain::ALL[s.config.domain as usize];
                 let partitioning = Partitioning::ALL[s.config.partitioning as usize];
-                let request = match patch_factors(domain, &s.factors) {
-                    PatchFactors::Isoline(factors) => Request::Isoline(factors),
-                    PatchFactors::Triangle(factors) => Request::Triangle(factors),
-                    PatchFactors::Quad(factors) => Request::Quad(factors, axes),
-                };
+                let request = Request::new(patch_factors(domain, &s.factors), axes);
                 let model = prepare(partitioning, reduction, request);
                 let preparation = TessPreparation {
                     domain: s.config.domain,
