@@ -20,6 +20,15 @@ pub enum Numbering {
 }
 
 impl Numbering {
+    /// That of the part of a batch which begins at this point.
+    #[must_use]
+    pub const fn behind(self, first_point: u32) -> Self {
+        match self {
+            Self::PerPatch => self,
+            Self::PerBatch { .. } => Self::PerBatch { base_vertex: self.base(first_point) },
+        }
+    }
+
     /// The number of a patch's first point, which is this point of the batch.
     #[inline(always)]
     pub(crate) const fn base(self, first_point: u32) -> u32 {

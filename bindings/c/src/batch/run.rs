@@ -100,13 +100,7 @@ fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
         let mut counted = tessellator.count(part.batch()).map_err(|error| status_of(&error))?;
         let counts = counted.counts();
         let (now, later) = room.split_at(counts).ok_or(crate::status::TESS_INTERNAL)?;
-        let numbering = match numbering {
-            Numbering::PerBatch { base_vertex } => {
-                Numbering::PerBatch { base_vertex: base_vertex.wrapping_add(first.first_point) }
-            }
-            Numbering::PerPatch => numbering,
-        };
-        let ranges = now.receive(&mut counted, numbering)?;
+        let ranges = now.receive(&mut counted, numbering.behind(first.first_point))?;
         first = shift(ranges, first);
         room = later;
     }

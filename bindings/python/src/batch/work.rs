@@ -122,13 +122,8 @@ fn write_part<P: OutputPoint, I: IndexFormat>(
     if bytes::<P, I>(counts) > 2 * MOST_BYTES && counts.patches > 1 {
         return Ok(None);
     }
-    let numbering = match numbering {
-        Numbering::PerBatch { base_vertex } => {
-            Numbering::PerBatch { base_vertex: base_vertex.wrapping_add(first.first_point) }
-        }
-        Numbering::PerPatch => numbering,
-    };
     let ArrayRoom { points, indices, ranges } = room;
+    let numbering = numbering.behind(first.first_point);
     counted.write(numbering, Buffers::new(points, indices).with_ranges(&mut *ranges))?;
     for range in &mut ranges[..counts.patches] {
         range.first_point += first.first_point;
