@@ -1,7 +1,7 @@
 //! Factors, tessellation and an indexed indirect draw, recorded into one command buffer; nothing is
 //! read back.
 
-use crate::app::{Args, Show, View};
+use crate::app::{Args, Frame, Show};
 use crate::bindings::{group, whole};
 use crate::scene::{self, Drawn, Scene};
 use std::error::Error;
@@ -50,19 +50,15 @@ impl Show for Batch {
         Ok(Self { passes: [measure, gather], drawn: Drawn::new(gpu, format, &scene)? })
     }
 
-    fn prepare(
-        &mut self,
-        _: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        _: View,
-    ) -> Result<(), Box<dyn Error>> {
+    fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
         for compute in &self.passes {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            let mut pass =
+                frame.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(&compute.pipeline);
             pass.set_bind_group(0, &compute.group, &[]);
             pass.dispatch_workgroups(compute.workgroups, 1, 1);
         }
-        self.drawn.prepare(encoder);
+        self.drawn.prepare(frame.encoder);
         Ok(())
     }
 

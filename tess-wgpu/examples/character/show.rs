@@ -1,6 +1,6 @@
 //! A toy animal of PN triangles in the tessellation stage.
 
-use crate::app::{self, Args, Show, View};
+use crate::app::{self, Args, Frame, Show};
 use crate::bindings::{Bound, bind};
 use crate::camera::Camera;
 use crate::gltf;
@@ -48,21 +48,16 @@ impl Show for Character {
         Ok(Self { stage, frame, triangles })
     }
 
-    fn prepare(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        view: View,
-    ) -> Result<(), Box<dyn Error>> {
+    fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
         let target = Vec3::new(0.5, 0.1, 1.7);
-        let angle = 0.6 * view.seconds - 2.1;
+        let angle = 0.6 * frame.seconds - 2.1;
         let eye = target + Vec3::new(5.6 * libm::cosf(angle), 5.6 * libm::sinf(angle), 1.2);
         let camera = Camera { eye, target, up: Vec3::Z, zoom: 2.7 };
-        let [width, height] = view.size.map(|size| size as f32);
+        let [width, height] = frame.size.map(|size| size as f32);
         let mut words = camera.clip_from_world(width / height).to_cols_array().to_vec();
         words.extend(eye.extend(0.5 * height * camera.zoom).to_array());
-        gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        Ok(self.stage.prepare(encoder, self.triangles)?)
+        frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
+        Ok(self.stage.prepare(frame.encoder, self.triangles)?)
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {

@@ -1,6 +1,6 @@
 //! The patches of all meshes in one buffer, one batch in groups, one draw for each group.
 
-use crate::app::{Args, Show, View};
+use crate::app::{Args, Frame, Show};
 use crate::scene::{Drawn, Mesh, Scene};
 use crate::teapot::{self, PATCHES};
 use std::error::Error;
@@ -62,13 +62,8 @@ impl Show for Meshes {
         Ok(Self(Drawn::new(gpu, format, &scene)?))
     }
 
-    fn prepare(
-        &mut self,
-        _: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        _: View,
-    ) -> Result<(), Box<dyn Error>> {
-        self.0.prepare(encoder);
+    fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
+        self.0.prepare(frame.encoder);
         Ok(())
     }
 

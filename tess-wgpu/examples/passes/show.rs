@@ -1,6 +1,6 @@
 //! Hills, tessellated once and drawn five times.
 
-use crate::app::{self, Args, DEPTH, Show, View};
+use crate::app::{self, Args, DEPTH, Frame, Show};
 use crate::bindings::{Bound, bind};
 use crate::camera::Camera;
 use glam::{Mat4, Vec3};
@@ -98,23 +98,18 @@ impl Show for Passes {
         })
     }
 
-    fn prepare(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        view: View,
-    ) -> Result<(), Box<dyn Error>> {
-        self.size = view.size;
-        let [left, right] = cameras(0.5 * view.size[0] as f32 / view.size[1] as f32);
+    fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
+        self.size = frame.size;
+        let [left, right] = cameras(0.5 * frame.size[0] as f32 / frame.size[1] as f32);
         let mut words: Vec<f32> =
             [left, right, sun()].iter().flat_map(Mat4::to_cols_array).collect();
         words.extend(toward_sun().extend(0.0).to_array());
-        gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
+        frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
         // Once, for all passes that follow.
-        self.stage.prepare(encoder, PATCHES)?;
+        self.stage.prepare(frame.encoder, PATCHES)?;
         let depth_ops =
             wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store };
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        let mut pass = frame.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.shadows.0,
                 depth_ops: Some(depth_ops),

@@ -1,6 +1,6 @@
 //! A sea in the tessellation stage.
 
-use crate::app::{self, Args, Show, View};
+use crate::app::{self, Args, Frame, Show};
 use crate::bindings::{Bound, bind};
 use crate::camera::Camera;
 use glam::Vec3;
@@ -31,20 +31,15 @@ impl Show for Quickstart {
         Ok(Self { stage, frame })
     }
 
-    fn prepare(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        view: View,
-    ) -> Result<(), Box<dyn Error>> {
+    fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
         let (eye, target) = (Vec3::new(8.0, -3.0, 2.5), Vec3::new(8.0, 4.0, 0.0));
         let camera = Camera { eye, target, up: Vec3::Z, zoom: 1.6 };
-        let [width, height] = view.size.map(|size| size as f32);
+        let [width, height] = frame.size.map(|size| size as f32);
         let mut words = camera.clip_from_world(width / height).to_cols_array().to_vec();
-        words.extend(eye.extend(view.seconds).to_array());
+        words.extend(eye.extend(frame.seconds).to_array());
         words.extend([0.5 * height * camera.zoom, 0.0, 0.0, 0.0]);
-        gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        Ok(self.stage.prepare(encoder, PATCHES)?)
+        frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
+        Ok(self.stage.prepare(frame.encoder, PATCHES)?)
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {

@@ -15,13 +15,8 @@ pub(crate) trait Show: Sized {
     /// Makes everything, for a picture of this format.
     fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>>;
 
-    /// Records the compute passes of a frame, `seconds` after the first one.
-    fn prepare(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        view: View,
-    ) -> Result<(), Box<dyn Error>>;
+    /// Records the compute passes of a frame.
+    fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>>;
 
     /// Draws the frame.
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>);
@@ -40,9 +35,11 @@ pub(crate) trait Show: Sized {
     fn title(&self) -> String;
 }
 
-/// A frame's moment and size.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct View {
+/// A frame, and what records it.
+pub(crate) struct Frame<'a> {
+    pub(crate) gpu: &'a Gpu,
+    pub(crate) encoder: &'a mut wgpu::CommandEncoder,
+    /// Since the first frame.
     pub(crate) seconds: f32,
     /// Pixels across and down.
     pub(crate) size: [u32; 2],
@@ -104,8 +101,8 @@ pub(crate) fn picture<S: Show>(
     let pixels = gpu.buffer("pixels", u64::from(4 * width * height), usage)?;
     for _ in 0..3 {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let view = View { seconds: args.number("seconds", 0.0)?, size };
-        show.prepare(gpu, &mut encoder, view)?;
+        let seconds = args.number("seconds", 0.0)?;
+        show.prepare(Frame { gpu, encoder: &mut encoder, seconds, size })?;
         draw(&show, &mut encoder, [&color, &depth].map(view_of));
         copy_pixels(&mut encoder, &color, &pixels);
         gpu.run(encoder)?;

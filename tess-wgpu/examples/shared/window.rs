@@ -1,6 +1,6 @@
 //! A window that shows an example frame after frame.
 
-use crate::app::{Args, DEPTH, Show, View, draw, texture, view_of};
+use crate::app::{Args, DEPTH, Frame, Show, draw, texture, view_of};
 use std::error::Error;
 use std::sync::Arc;
 use std::time::Instant;
@@ -147,8 +147,8 @@ impl<S: Show> Open<S> {
         };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let seconds = self.begin.elapsed().as_secs_f32();
-        let view = View { seconds, size: [self.config.width, self.config.height] };
-        self.show.prepare(&self.gpu, &mut encoder, view)?;
+        let size = [self.config.width, self.config.height];
+        self.show.prepare(Frame { gpu: &self.gpu, encoder: &mut encoder, seconds, size })?;
         draw(&self.show, &mut encoder, [view_of(&target.texture), self.depth.clone()]);
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();

@@ -1,6 +1,6 @@
 //! The teapot in the tessellation stage.
 
-use crate::app::{self, Args, Show, View};
+use crate::app::{self, Args, Frame, Show};
 use crate::bindings::{Bound, bind};
 use crate::teapot;
 use std::error::Error;
@@ -36,13 +36,8 @@ impl Show for Teapot {
         Ok(Self(stage))
     }
 
-    fn prepare(
-        &mut self,
-        _: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        _: View,
-    ) -> Result<(), Box<dyn Error>> {
-        Ok(self.0.prepare(encoder, teapot::PATCHES)?)
+    fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
+        Ok(self.0.prepare(frame.encoder, teapot::PATCHES)?)
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {

@@ -1,6 +1,6 @@
 //! How long `prepare` and `draw` take for a number of triangles, by the device's timestamps.
 
-use crate::app::{self, Args, Show, View};
+use crate::app::{self, Args, Frame, Show};
 use crate::terrain::Terrain;
 use std::error::Error;
 use std::time::Instant;
@@ -8,7 +8,6 @@ use tess_wgpu::{Gpu, Stopwatch, Wanted};
 
 /// Pixels across and down.
 const SIZE: [u32; 2] = [960, 720];
-const VIEW: View = View { seconds: 0.0, size: SIZE };
 
 /// `--bench FRAMES`, with `--triangles N,N,...`, `--points stored,pull,none` and `--grid N`: the median of so
 /// many frames of each.
@@ -93,7 +92,7 @@ impl<'a> Bench<'a> {
         let Self { gpu, watch, terrain, color, depth } = self;
         let mut outcome = Ok(());
         let prepare = timed(gpu, *watch, |encoder| {
-            outcome = terrain.prepare(gpu, encoder, VIEW);
+            outcome = terrain.prepare(Frame { gpu, encoder, seconds: 0.0, size: SIZE });
         })?;
         outcome?;
         let targets = [color.clone(), depth.clone()];

@@ -3,7 +3,7 @@
 #[path = "../shared/hills.rs"]
 mod hills;
 
-use crate::app::{self, Args, Show, View};
+use crate::app::{self, Args, Frame, Show};
 use crate::bindings::{Bound, bind};
 use crate::camera::Camera;
 use glam::Vec3;
@@ -47,19 +47,14 @@ impl Show for Terrain {
         Ok(Self { stage, frame, bound, format, grid, most_bytes, points, wireframe, segment })
     }
 
-    fn prepare(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        view: View,
-    ) -> Result<(), Box<dyn Error>> {
-        let camera = flight(view.seconds);
-        let [width, height] = view.size.map(|size| size as f32);
+    fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
+        let camera = flight(frame.seconds);
+        let [width, height] = frame.size.map(|size| size as f32);
         let mut words = camera.clip_from_world(width / height).to_cols_array().to_vec();
         words.extend(camera.eye.extend(0.5 * height * camera.zoom).to_array());
         words.extend([self.segment, f32::from_bits(self.grid), 0.0, 0.0]);
-        gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        Ok(self.stage.prepare(encoder, self.grid * self.grid)?)
+        frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
+        Ok(self.stage.prepare(frame.encoder, self.grid * self.grid)?)
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
