@@ -1,4 +1,4 @@
-//! What is measured is right: the first batch of every workload, by the model and by the SIMD backend, against the
+//! Workloads are measured right: the first batch of each, by the model and by the SIMD backend, against the
 //! random-access formulation, which shares no walk with them.
 
 use tess_core::{DomainPoint, Patch, PatchFactors};

@@ -1,4 +1,4 @@
-//! What a user of the crate calls.
+//! Types and methods that users call.
 
 pub(crate) mod counted;
 pub(crate) mod groups;

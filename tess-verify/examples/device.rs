@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if verdicts.report.mismatches == 0 { Ok(()) } else { Err("the device differs".into()) }
 }
 
-/// What a capture shows.
+/// The findings of a capture.
 #[derive(Debug)]
 pub(crate) struct Verdicts {
     /// Patches whose primitives are the model's in its order, and in any order.
@@ -29,7 +29,7 @@ pub(crate) struct Verdicts {
     pub(crate) in_any_order: usize,
     /// The comparison in any order, as this device numbers and orders in its own way.
     pub(crate) report: Report,
-    /// What explains each patch that differs.
+    /// The explanations of each patch that differs.
     pub(crate) ways: Vec<Vec<Way>>,
 }
 

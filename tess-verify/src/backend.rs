@@ -1,4 +1,4 @@
-//! What a comparison needs from an implementation, stage by stage.
+//! The interface between a comparison and an implementation, stage by stage.
 
 use std::error::Error;
 use tess_core::{
@@ -15,7 +15,7 @@ pub trait Backend: Send {
     /// Its name, as `--backend` takes it: `core`, `simd` or `gpu`.
     fn name(&self) -> &'static str;
 
-    /// What it runs on here: a CPU level or the name of an adapter.
+    /// Its device here: a CPU level or the name of an adapter.
     fn device(&self) -> String;
 
     /// Whole patches, all of one domain.
@@ -68,14 +68,14 @@ fn whole_patches_alone(name: &str) -> BackendError {
     BackendError::new(format!("{name} gives whole patches alone, no stages"))
 }
 
-/// What an implementation answers to a batch: one for each element, in their order; or why it could not run.
+/// Answers of an implementation to a batch, one for each element, in their order; or why it could not run.
 pub type Answers<T> = Result<Vec<T>, BackendError>;
 
 /// An implementation could not run: no adapter, no such CPU level, a device lost.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct BackendError {
-    /// What happened and what would help.
+    /// The cause and what would help.
     pub message: String,
     /// The error underneath, if there is one.
     pub source: Option<Box<dyn Error + Send + Sync>>,

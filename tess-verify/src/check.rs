@@ -142,7 +142,7 @@ pub fn check_device(
     findings.report()
 }
 
-/// What is wrong with a backend's output for one case, in a strength; `None` if nothing is.
+/// The first fault of a backend's output for one case, in a strength; `None` if there is none.
 ///
 /// This is the oracle of a fuzz target.
 ///
@@ -158,7 +158,7 @@ pub fn check_case(
     Ok(report.differences.into_iter().next().map(|difference| difference.mismatch))
 }
 
-/// What the comparison of a record depends on besides the record.
+/// Settings of a comparison that all records share.
 struct How {
     header: Header,
     tested: Tested,

@@ -86,7 +86,7 @@ impl Shard {
     }
 }
 
-/// What to generate.
+/// The cases to generate.
 #[derive(Clone, Copy, Debug)]
 pub struct Selection {
     /// How much.

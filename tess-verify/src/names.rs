@@ -6,7 +6,7 @@ use tess_core::{Domain, OutputPrimitive, Parity, Partitioning, Patch, ProcessedP
 
 /// A choice whose values have names.
 pub trait Named: Copy + PartialEq + 'static {
-    /// What is chosen, such as `domain`.
+    /// The name of the choice, such as `domain`.
     const WHAT: &'static str;
     /// Every value with its name, in the order of the specification.
     const NAMES: &'static [(&'static str, Self)];
@@ -36,7 +36,7 @@ pub trait Named: Copy + PartialEq + 'static {
 #[error("unknown {what} {}, expected one of: {}", quoted(name), known.join(", "))]
 #[non_exhaustive]
 pub struct UnknownName {
-    /// What was to be chosen.
+    /// The name of the choice.
     pub what: &'static str,
     /// The name.
     pub name: String,

@@ -1,4 +1,4 @@
-//! What each standard demands of a tessellator's output, checked without a driver.
+//! The demands of each standard on a tessellator's output, checked without a driver.
 //!
 //! A device may differ from the model and be right. A rule is what one standard says of the output alone,
 //! such as "an outer edge's vertices depend on its own level and spacing". Some rules judge one patch, others
@@ -91,10 +91,10 @@ pub fn check_rules(
     }
 }
 
-/// What a rule of one patch makes of it; `None` if it could show no fault.
+/// The judgement of a rule on one patch; `None` if it could show no fault.
 type Judged = Option<Result<(), String>>;
 
-/// What a rule makes of a patch, or of a patch and one before it: the earlier case, and what is wrong.
+/// The judgement of a rule on a patch, or on a patch and one before it: the earlier case, and what is wrong.
 type Judgement = (Option<Case>, Result<(), String>);
 
 impl Checker {
@@ -124,7 +124,7 @@ impl Checker {
         }
     }
 
-    /// What was found so far.
+    /// The findings so far.
     #[must_use]
     pub fn report(&self) -> RulesReport {
         RulesReport {

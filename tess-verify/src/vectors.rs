@@ -109,7 +109,7 @@ impl<R: BufRead> VectorFile<R> {
         Ok(Self { lines, header, records: 0, marked: false, ended: false, emptiness })
     }
 
-    /// What the first line says.
+    /// The contents of the first line.
     pub const fn header(&self) -> &Header {
         &self.header
     }

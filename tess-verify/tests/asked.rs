@@ -151,7 +151,7 @@ fn the_shortest_explanation_is_given() {
     }
 }
 
-/// What is out of step in several places, each farther from the next than is looked through, and as far as that.
+/// Answers out of step in several places, each farther from the next than is looked through, and as far as that.
 #[test]
 fn long_files_come_into_step_again() {
     let asked = cases(5 * WINDOW);

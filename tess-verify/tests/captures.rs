@@ -287,7 +287,7 @@ fn a_file_without_a_count_marks_its_end() {
     assert!(error.contains("case: a case is"), "the mark comes too early: {error}");
 }
 
-/// What is said of records, and for each whether it is wrong for the case that it states.
+/// The report on records, and for each whether it is wrong for the case that it states.
 fn asked(asked: &str, records: &str) -> Result<(Report, Vec<bool>), CheckError> {
     let text = file(records);
     let file = VectorFile::new("capture", text.as_bytes())?;

@@ -171,7 +171,7 @@ const ANY: Strength = Strength {
     denormals: Denormals::Keep,
 };
 
-/// What a report says of its only difference.
+/// A report's only difference, in words.
 fn shown(report: &Report) -> String {
     assert_eq!(report.mismatches, 1, "{report:?}");
     report.differences[0].mismatch.to_string()
@@ -422,7 +422,7 @@ fn differences_beside_a_legal_conversion_in_any_order() {
     }
 }
 
-/// What is wrong is told by comparison with the conversion that the device uses.
+/// Faults are told by comparison with the conversion that the device uses.
 #[test]
 fn differences_beside_a_legal_conversion() {
     let mut wrong = right(&TIE.replace("40400020", "40400040"));

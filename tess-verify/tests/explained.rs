@@ -1,4 +1,4 @@
-//! What a report says of many differences: what explains all of them, where the model's elements come from, and how
+//! Reports of many differences: what explains all of them, where the model's elements come from, and how
 //! many there are of each kind.
 
 use tess_core::{Domain, DomainPoint, Tessellation};

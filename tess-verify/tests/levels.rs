@@ -139,7 +139,7 @@ fn random_patches_reach_what_there_is() {
     assert!((20..120).contains(&mean), "{mean} points in the mean");
 }
 
-/// What a patch leaves behind may change the next: each pair of neighbours in a stream hits its bin, and no other.
+/// The state behind a patch may change the next one: each pair of neighbours in a stream hits its bin, and no other.
 #[test]
 fn sequences_are_pairs_of_neighbours() {
     let [tri, culled, line] = [

@@ -1,4 +1,4 @@
-//! What each strength of comparison accepts, and what it must not.
+//! Each strength of comparison: what it accepts, and what it must not.
 
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::Case;
@@ -102,7 +102,7 @@ fn points_alone_in_order() {
     }
 }
 
-/// What is compared as a sequence ends where the model's ends.
+/// A sequence ends where the model's ends.
 #[test]
 fn a_sequence_has_its_length() {
     let case = case(QUAD);

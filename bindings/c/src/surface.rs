@@ -1,4 +1,4 @@
-//! What an engine does in front of the tessellator: factors that open no crack, and tests that cull patches.
+//! The steps of an engine in front of the tessellator: factors that open no crack, and tests that cull patches.
 //!
 //! A factor of an edge gets what both patches of the edge share, and is the same to the bit whichever end comes first.
 //! All factors are within 1..=64; NaN gives 1. The formulas and their sources are `tess-surface`'s.

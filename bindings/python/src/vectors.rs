@@ -143,7 +143,7 @@ fn patches_of(patches: &Bound<'_, PyAny>) -> PyResult<Vec<Case>> {
     all_of(patches, case, "at least one patch is needed")
 }
 
-/// What each element of an iterable gives. Errors: the message `none` if there is none; signals.
+/// The results of `each` for the elements of an iterable. Errors: the message `none` if there is none; signals.
 fn all_of<T>(
     iterable: &Bound<'_, PyAny>,
     each: impl Fn(&Bound<'_, PyAny>) -> PyResult<T>,

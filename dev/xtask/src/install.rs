@@ -234,7 +234,7 @@ impl Files {
     }
 }
 
-/// What pkg-config reads. Paths are relative to the file, so that the installation may move.
+/// The file `tess.pc` for pkg-config. Paths are relative to the file, so that the installation may move.
 fn description() -> String {
     format!(
         "prefix=${{pcfiledir}}/../..\n\

@@ -41,7 +41,7 @@ fn naive(data: &[u8]) -> Option<Heights> {
     Some((image.width, image.height, texels.collect()))
 }
 
-/// What is behind two bytes of zlib's header; its checksum at the end is left alone.
+/// The data behind two bytes of zlib's header; its checksum at the end is left alone.
 fn inflate(data: &[u8], output: &mut dyn Write) -> Result<(), Error> {
     let raw = decompress_to_vec_with_limit(data.get(2..).unwrap_or_default(), 1 << 24);
     let raw = raw.unwrap_or_else(|error| error.output);

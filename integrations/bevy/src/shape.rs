@@ -55,7 +55,7 @@ pub trait Shape: Debug + Send + Sync + 'static {
     /// The same shape of its image as that is now.
     ///
     /// # Errors
-    /// What is wrong with the image; the shape then stays as it is.
+    /// The fault of the image; the shape then stays as it is.
     fn of_image(&self, _: &Image) -> Result<Arc<dyn Shape>, BevyError> {
         Err("the shape is not made of an image".into())
     }

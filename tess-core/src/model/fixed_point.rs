@@ -90,7 +90,7 @@ pub const fn ceil(x: u32) -> u32 {
 }
 
 /// The binary32 value of a domain coordinate, `bits / 65536`: exact below 256, and coordinates are at most one.
-/// What is larger is rounded toward zero.
+/// A larger number is rounded toward zero.
 ///
 /// Built from the bits: a number of at most 24 bits fits a binary32 mantissa.
 #[must_use]

@@ -1,4 +1,4 @@
-//! What goes in: the raw factors of many patches of one domain.
+//! Input: the raw factors of many patches of one domain.
 
 use crate::data::error::Error;
 use alloc::vec::Vec;

@@ -1,4 +1,4 @@
-//! What points and indices look like in memory.
+//! Formats of points and indices in memory.
 
 use tess_core::DomainPoint;
 
@@ -26,7 +26,7 @@ pub trait IndexFormat: sealed::Index + Copy + Default + Send + Sync + 'static {
     fn wrapping_from(index: u32) -> Self;
 }
 
-/// What the kernels need of the formats. It keeps them to those that are compared with the core.
+/// Methods of the formats for the kernels. The module keeps them to those that are compared with the core.
 mod sealed {
     use tess_core::DomainPoint;
 

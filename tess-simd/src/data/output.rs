@@ -1,10 +1,10 @@
-//! What comes out: points, indices, and where each patch's part of them lies.
+//! Output: points, indices, and where each patch's part of them lies.
 
 use crate::data::format::{IndexFormat, OutputPoint};
 use alloc::vec::Vec;
 use tess_core::DomainPoint;
 
-/// What an index counts from.
+/// The point that indices count from.
 ///
 /// `tess-gpu` has the same names; its batches count from 0. C calls them
 /// `TESS_NUMBERING_PER_PATCH` and `TESS_NUMBERING_PER_BATCH`.

@@ -122,7 +122,7 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
 
 /// Methods that need no default.
 impl<'a, T: Copy> Writer<'a, T> {
-    /// What is left of the slice, of which the next `length` elements count as written.
+    /// The rest of the slice, of which the next `length` elements count as written.
     #[cfg(feature = "apart")]
     #[inline(always)]
     pub(crate) fn take(&mut self, length: usize) -> &mut [T] {

@@ -43,7 +43,7 @@ pub(crate) fn emit(
 ///
 /// One type decides what a template keeps of a code and who reads it, so that the two go together.
 pub(crate) trait CompactPoints<W> {
-    /// What a template keeps of the code of a coordinate.
+    /// The part of a coordinate's code that a template keeps.
     fn kept(domain: Domain, code: u16) -> u16;
 
     /// Writes the points of a patch from what its template keeps.

@@ -1,10 +1,10 @@
-//! What a tessellator is made for.
+//! Settings of a tessellator.
 
 use crate::stages::stitch::SharedStitches;
 use tess_core::Config;
 use tess_core::Order;
 
-/// What all patches of a tessellator share: the configuration, the order of triangles, and the stitch
+/// Settings that all patches of a tessellator share: the configuration, the order of triangles, and the stitch
 /// tables that follow from the configuration.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {

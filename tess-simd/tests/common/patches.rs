@@ -1,4 +1,4 @@
-//! What the comparisons share: seeded patches, the core's answer, and the first difference.
+//! Shared by the comparisons: seeded patches, the core's answer, and the first difference.
 
 use tess_core::{
     Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, Patch,

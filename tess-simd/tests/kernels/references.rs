@@ -1,4 +1,4 @@
-//! What the model gives for each kernel, in the order in which `Tap::words` lists it: numbers and the front end.
+//! The model's answers for each kernel, in the order in which `Tap::words` lists it: numbers and the front end.
 
 mod output;
 

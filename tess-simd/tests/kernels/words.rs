@@ -5,7 +5,7 @@ use std::fmt;
 use tess_core::DomainPoint;
 use tess_verify::Case as Line;
 
-/// What the model gives: words, and what they are.
+/// The model's answer: words, and what they are.
 #[derive(Debug, Default)]
 pub(crate) struct Words {
     values: Vec<u32>,

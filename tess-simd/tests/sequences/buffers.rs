@@ -13,7 +13,7 @@ use tess_simd::{
 /// Nothing, or what was wrong.
 pub(crate) type Outcome = Result<(), String>;
 
-/// What buffers are filled with. No coordinate has these bits in any format.
+/// Fills buffers before a call. No coordinate has these bits in any format.
 const POISON: u32 = 0xDEAD_BEEF;
 
 /// An element of a buffer.
@@ -199,7 +199,7 @@ fn length(needed: usize, spare: isize) -> usize {
     needed.saturating_add_signed(spare)
 }
 
-/// What a call counts indices from, the batch's base vertex, and why its indices do not fit.
+/// The numbering of a call, the batch's base vertex, and why its indices do not fit.
 pub(crate) fn numbering<I: IndexFormat>(
     from: From,
     expected: &Expected,

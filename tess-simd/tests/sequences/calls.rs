@@ -84,7 +84,7 @@ pub(crate) struct Room {
     pub(crate) indices: isize,
 }
 
-/// What points are written as.
+/// The format that points are written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
     Float,
@@ -93,14 +93,14 @@ pub(crate) enum Format {
     Apart,
 }
 
-/// What indices are written as.
+/// The width that indices are written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Width {
     Bits16,
     Bits32,
 }
 
-/// What indices count from.
+/// The point that indices count from.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum From {
     EachPatch,

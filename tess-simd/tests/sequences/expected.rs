@@ -1,4 +1,4 @@
-//! What `tess-core` says of a batch, compared with buffers that were written.
+//! The answer of `tess-core` to a batch, compared with buffers that were written.
 
 use crate::calls::{Factors, Format};
 use crate::patches::Bits;
@@ -21,7 +21,7 @@ pub(crate) struct Expected {
 pub(crate) struct Column {
     pub(crate) of: Of,
     bits: Vec<u32>,
-    /// What the buffer was filled with before.
+    /// The word that the buffer was filled with before.
     poison: u32,
 }
 
@@ -103,7 +103,7 @@ impl Expected {
         column.is_untouched(expected.len() + overrun)
     }
 
-    /// What a column must hold.
+    /// The words that a column must hold.
     fn bits(&self, of: Of) -> Vec<u32> {
         match of {
             Of::Point(Format::Fixed, k) => {

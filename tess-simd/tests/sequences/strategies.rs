@@ -12,7 +12,7 @@ use proptest_state_machine::ReferenceStateMachine;
 use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_simd::{Level, Order};
 
-/// What calls are drawn by: those before.
+/// The calls drawn so far, which decide the next one.
 #[derive(Clone, Debug)]
 pub(crate) struct Drawn {
     pub(crate) start: Start,

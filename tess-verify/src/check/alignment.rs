@@ -15,7 +15,7 @@
 use crate::case::Case;
 use std::collections::HashMap;
 
-/// What becomes of the next answer, of the next asked case, or of both.
+/// The fate of the next answer, of the next asked case, or of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Step {
     /// The answer is to the case.
@@ -70,7 +70,7 @@ struct Row {
     down: Bits,
 }
 
-/// What is kept of the entries, row by row from the last answer on. Its memory is used again.
+/// Two bits of each entry, row by row from the last answer on. The memory is used again.
 #[derive(Default)]
 pub(super) struct Said {
     /// Equal to the entry for an answer and a case fewer: so the answer is right, or no replacement.

@@ -1,4 +1,4 @@
-//! What was asked, beside what is answered: one dropped, repeated or foreign answer is one difference.
+//! Cases that were asked, beside the answers: one dropped, repeated or foreign answer is one difference.
 //!
 //! ```text
 //! asked    A B C D E      A is answered. C is not the next one: the answers and cases ahead are read, and
@@ -39,7 +39,7 @@ pub(super) struct Expected<'a> {
     /// The next answers, as far as they were read.
     ahead: VecDeque<Record>,
     answers_end: bool,
-    /// What becomes of the first answers and cases, as far as it is settled.
+    /// The fate of the first answers and cases, as far as it is settled.
     steps: VecDeque<Step>,
     said: Said,
     known: &'a Known,

@@ -12,7 +12,7 @@ use crate::generate::from_fixed;
 use crate::vectors::Coordinates;
 use tess_core::{Config, PatchFactors, SplitOrder, Tessellation};
 
-/// What is found of a device's output for a case.
+/// The finding on a device's output for a case.
 pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) -> Found {
     match strength.explain(case, observed) {
         Some(conversions) if conversions.values.is_empty() => Found::Equal,
@@ -26,7 +26,7 @@ pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) ->
     }
 }
 
-/// What is found of a device's output by coordinates. They have no vertex numbers, so the strictest
+/// The finding on a device's output by coordinates. They have no vertex numbers, so the strictest
 /// order is the model's sequence; third coordinates are compared in any strength.
 pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -> Found {
     let order = match strength.order {
@@ -45,7 +45,7 @@ pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -
     }
 }
 
-/// What explains an output: freedoms that were not granted, and mistakes that turn it round.
+/// The explanations of an output: freedoms that were not granted, and mistakes that turn it round.
 fn explained(case: &Case, observed: &Tessellation, strength: Strength) -> Explained {
     Way::OF_FILES.map(|way| way.explains(case, observed, strength, 64))
 }

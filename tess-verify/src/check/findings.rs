@@ -1,4 +1,4 @@
-//! What is found record by record, and what it adds up to.
+//! Findings record by record, and their sum.
 
 use super::consistency::{Use, conflicts};
 use super::report::Explained;
@@ -10,15 +10,15 @@ use crate::check::known::MISSING;
 use crate::check::strength::Conversions;
 use std::fmt::Display;
 
-/// What is found of a record.
+/// The finding on a record.
 pub(super) enum Found {
     /// It is as it should be.
     Equal,
     /// So it is, if the device converts some values in one of these ways.
     Converted(Case, Conversions),
-    /// What is wrong with it, and the patch that shows it, if one does.
+    /// Its fault, and the patch that shows it, if one does.
     Different(Mismatch, Option<Case>),
-    /// What is wrong with a device's output for a case, and what explains it.
+    /// The fault of a device's output for a case, and what explains it.
     Explained(Mismatch, Case, Explained),
     /// It differs, and that is known.
     Known,
@@ -46,7 +46,7 @@ impl Found {
     }
 }
 
-/// What one worker found, or all of them.
+/// The findings of one worker, or of all.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     report: Report,

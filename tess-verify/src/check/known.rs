@@ -19,7 +19,7 @@ use std::io::BufRead;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What a case without an answer is expected to be.
+/// The expectation of a case without an answer.
 pub(super) const MISSING: &str = "missing";
 
 /// The cases and rules that may differ, and what became of each. Threads may share it.
@@ -134,7 +134,7 @@ impl Entry {
         is_expected
     }
 
-    /// What is wrong with the line's terms, if the `whole` of the work was done or a part of it.
+    /// The fault of the line's terms, if the `whole` of the work was done or a part of it.
     fn fault(&self, terms: &Terms, whole: bool) -> Option<String> {
         let Terms { expected, until, .. } = terms;
         let is = |flag: &AtomicBool| flag.load(Ordering::Relaxed);
@@ -229,7 +229,7 @@ impl Known {
         self.entries.iter().map(ToString::to_string)
     }
 
-    /// What became of the lines: how many were met; the cases alone that were asked and no longer differ; and what is
+    /// The fate of the lines: how many were met; the cases alone that were asked and no longer differ; and what is
     /// wrong with lines that have terms, each with its place: one has expired, or expects what did not happen. If
     /// the `whole` of the work was done, that includes what was not asked.
     #[must_use]

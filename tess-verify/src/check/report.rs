@@ -1,4 +1,4 @@
-//! What a check found.
+//! The report of a check.
 
 mod group;
 mod origin;
@@ -31,7 +31,7 @@ pub struct Report {
     pub differences: Vec<Difference>,
     groups: Groups,
     numbers: Numbers,
-    /// What explains every difference so far; `None` if there is none.
+    /// The explanations of every difference so far; `None` if there is no difference.
     explained: Option<Explained>,
 }
 
@@ -39,7 +39,7 @@ pub struct Report {
 pub(super) type Explained = [bool; Way::OF_FILES.len()];
 
 impl Report {
-    /// What explains every difference, each on its own, if something does: freedoms that were not granted first
+    /// The explanations of every difference, each on its own: freedoms that were not granted first
     /// ([`Way::options`] says how to grant them), then mistakes that turn outputs round.
     #[must_use]
     pub fn ways(&self) -> Vec<Way> {

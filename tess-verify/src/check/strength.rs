@@ -76,7 +76,7 @@ pub enum ListOrder {
     Any,
 }
 
-/// What is compared.
+/// The elements that are compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Elements {
@@ -98,7 +98,7 @@ pub enum Conversion {
     Within06Ulp,
 }
 
-/// What happens to a positive denormal outer factor before the cull test.
+/// The fate of a positive denormal outer factor before the cull test.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Denormals {

@@ -1,4 +1,4 @@
-//! What explains that a device differs: freedoms that the specification leaves (spec section 13), and
+//! Explanations of a device that differs: freedoms that the specification leaves (spec section 13), and
 //! mistakes that turn a whole output round.
 
 use crate::case::Case;
@@ -38,7 +38,7 @@ pub enum Way {
 }
 
 impl Way {
-    /// What may explain what a device gives in any order, those that the specification allows first.
+    /// The ways that may explain output in any order, those that the specification allows first.
     pub const ALL: [Self; 9] = [
         Self::Flush,
         Self::Conversion,
@@ -51,7 +51,7 @@ impl Way {
         Self::MirroredV,
     ];
 
-    /// What may explain every difference of a file: the freedoms of `tess check`'s options first, then what turns a
+    /// The ways that may explain every difference of a file: freedoms of `tess check`'s options first, then what turns a
     /// whole output round.
     pub(crate) const OF_FILES: [Self; 9] = [
         Self::Order,
@@ -77,7 +77,7 @@ impl Way {
         SAID[self as usize].1
     }
 
-    /// What the device does, in words.
+    /// The device's way, in words.
     #[must_use]
     pub const fn words(self) -> &'static str {
         SAID[self as usize].0

@@ -233,7 +233,7 @@ mod tests {
         all
     }
 
-    /// What a bin says beside its path is of no use if a patch hits more, or nothing hits it.
+    /// The words beside a bin's path are of no use if a patch hits more, or nothing hits it.
     #[test]
     fn configurations_hit_these_bins_and_no_others() {
         for domain in Domain::ALL {

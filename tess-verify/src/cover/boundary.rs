@@ -162,7 +162,7 @@ fn beside_middle(sum: u32, below: u32, names: [&str; 2], hit: &mut impl FnMut(&s
     }
 }
 
-/// What decides whether a triangle or quad has a picture frame, or is a minimum patch.
+/// The comparisons that decide whether a triangle or quad has a picture frame, or is a minimum patch.
 fn largest(case: &Case, hit: &mut impl FnMut(&str)) {
     let bits = || case.factors.iter().map(f32::to_bits);
     let largest = bits().filter(|bits| *bits < FIRST_NAN).max();

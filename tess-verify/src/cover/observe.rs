@@ -29,7 +29,7 @@ pub(super) fn observe(case: &Case, mut hit: impl FnMut(String)) {
     }
 }
 
-/// What a patch may leave behind for the next: its domain, and which way it takes.
+/// The state that a patch may leave behind for the next: its domain, and which way it takes.
 pub(super) fn kind(case: &Case) -> String {
     format!("{}_{}", case.domain().name(), way_of(&case.patch()))
 }
@@ -47,7 +47,7 @@ fn culled(case: &Case, hit: &mut impl FnMut(String)) {
     }
 }
 
-/// What spec sections 3 to 5 do with each factor.
+/// The bins of spec sections 3 to 5, which each factor hits.
 fn processing(case: &Case, factors: &PatchFactors<ProcessedFactor>, hit: &mut impl FnMut(String)) {
     let domain = case.domain();
     for (i, (raw, factor)) in case.factors.iter().zip(factors.iter()).enumerate() {
@@ -121,7 +121,7 @@ fn picture_frame(
     }
 }
 
-/// What spec sections 4 and 5 make of one factor.
+/// The bins of spec sections 4 and 5, which one factor hits.
 pub(super) fn context(split: SplitOrder, context: &FactorContext, hit: &mut impl FnMut(String)) {
     let (split, parity) = (split.name(), context.parity.name());
     let kind = if context.fraction == 0 { "whole" } else { "split" };
@@ -135,7 +135,7 @@ pub(super) fn context(split: SplitOrder, context: &FactorContext, hit: &mut impl
     }
 }
 
-/// What spec section 7 does with the point counts and parities.
+/// The bins of spec section 7, which point counts and parities hit.
 fn connectivity(
     case: &Case,
     factors: &PatchFactors<ProcessedFactor>,
@@ -171,7 +171,7 @@ fn connectivity(
     hit(format!("centre/{domain}/{centre}"));
 }
 
-/// What a triangle patch ends with.
+/// The centre of a triangle patch.
 pub(super) const fn triangle_centre(inside: Parity) -> &'static str {
     match inside {
         Parity::Even => "point",
@@ -179,7 +179,7 @@ pub(super) const fn triangle_centre(inside: Parity) -> &'static str {
     }
 }
 
-/// What a quad patch ends with, by the points and parities of its inside factors.
+/// The centre of a quad patch, by the points and parities of its inside factors.
 pub(super) fn quad_centre(u: (u32, Parity), v: (u32, Parity)) -> String {
     let along_u = u.0 > v.0;
     let (axis, long, short) = if along_u { ("u", u, v) } else { ("v", v, u) };

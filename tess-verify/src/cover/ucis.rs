@@ -23,7 +23,7 @@ const HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <cgSourceId file="1" line="1" inlineCount="1"/>
 </cgId>"#;
 const TAIL: &str = "</cgInstance>\n</covergroupCoverage>\n</instanceCoverages>\n</UCIS>";
-/// What stands before the hits of a bin.
+/// The text before the hits of a bin.
 const HITS: &str = "<contents coverageCount=\"";
 
 impl Coverage {
@@ -54,7 +54,7 @@ impl Coverage {
     /// Reads what [`Coverage::to_ucis`] gave. A file that is longer is not read to its end.
     ///
     /// # Errors
-    /// What the reader says; [`io::ErrorKind::InvalidData`] for any other text, and for files of a version with other bins, with the line.
+    /// The reader's; [`io::ErrorKind::InvalidData`] for any other text, and for files of a version with other bins, with the line.
     pub fn read_ucis(reader: impl Read) -> io::Result<Self> {
         let mut bytes = Vec::new();
         reader.take(MOST_BYTES).read_to_end(&mut bytes)?;

@@ -34,7 +34,7 @@ pub struct SplitMix64 {
     state: u64,
 }
 
-/// What the state grows by for each number.
+/// Added to the state for each number.
 const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl SplitMix64 {

@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::generate::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
-/// What a level becomes in a relative of a patch: neither above 0 nor a number, or not above 1.
+/// Levels in a relative of a patch: neither above 0 nor a number, or not above 1.
 const NOT_ABOVE_ZERO: [f32; 4] = [0.0, -1.0, f32::NAN, f32::NEG_INFINITY];
 const NOT_ABOVE_ONE: [f32; 5] = [1.0, 0.5, 0.0, -3.0, f32::NAN];
 

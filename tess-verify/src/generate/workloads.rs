@@ -53,7 +53,7 @@ pub enum IndexWidth {
     U32,
 }
 
-/// What a workload or a part of it amounts to.
+/// The size of a workload or of a part of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Totals {
     /// Patches.
@@ -140,7 +140,7 @@ impl Workload {
         self.patches.iter().map(|&factors| Patch::new(self.config, factors).counts())
     }
 
-    /// What one pass over the workload amounts to.
+    /// The size of one pass over the workload.
     #[must_use]
     pub fn totals(&self) -> Totals {
         let mut totals = Totals::default();

@@ -104,7 +104,7 @@ fn equally_spaced(along: &[u32]) -> Option<String> {
     })
 }
 
-/// What is wrong with the lengths of a fractional division.
+/// The fault of the lengths of a fractional division.
 fn two_lengths(along: &[u32]) -> Option<String> {
     let lengths = lengths(along);
     let longest = *lengths.iter().max()?;
@@ -166,7 +166,7 @@ pub(super) fn is_fractional(answer: &Answer<'_>, line: &Line) -> bool {
 mod tests {
     use super::*;
 
-    /// What docs/rules.md says of lengths.
+    /// The sentences of docs/rules.md on lengths.
     #[test]
     fn the_tolerance_is_the_documented_one() {
         let page = include_str!("../../../docs/rules.md");

@@ -1,4 +1,4 @@
-//! What a standard makes of a level.
+//! The number of segments that a standard makes of a level.
 
 use super::standard::Specification;
 use crate::case::Case;

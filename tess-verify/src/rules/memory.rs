@@ -18,7 +18,7 @@ const ROUNDING: u32 = 2;
 /// The state that every rule keeps equal: domain, spacing and split order.
 type State = (Domain, Partitioning, SplitOrder);
 
-/// What patches that have something in common must share, by what they have in common.
+/// Properties that patches may have in common; each says what these must then share.
 #[derive(Debug, PartialEq, Eq, Hash)]
 enum Key {
     /// Everything equal: the sequence of vertices.
@@ -41,7 +41,7 @@ type Edges = BTreeMap<(Domain, usize), (Vec<u32>, Case)>;
 /// The short segments by level, with the first patch of each; all levels round up to one number.
 type Shorter = BTreeMap<u32, (u32, Case)>;
 
-/// What earlier patches had.
+/// Properties of earlier patches.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     /// A digest of what is shared, and the first patch that has it.
@@ -69,7 +69,7 @@ fn level(case: &Case, edge: usize) -> u32 {
 }
 
 impl Memory {
-    /// What a rule says of a patch beside each earlier one that it must agree with, and keeps what later
+    /// Judges a patch beside each earlier one that it must agree with, and keeps what later
     /// patches must agree with.
     pub(super) fn judge(
         &mut self,

@@ -1,4 +1,4 @@
-//! What the rules found.
+//! The report of the rules.
 
 use super::standard::{Rule, Specification};
 use crate::case::Case;
@@ -6,7 +6,7 @@ use crate::names::{Named, named};
 use std::fmt;
 
 named! {
-    /// What became of a rule.
+    /// The fate of a rule.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum Verdict: "verdict" {
@@ -25,7 +25,7 @@ named! {
 pub struct Example {
     /// The patches that show it, one or two; each prints as a line that can be run again.
     pub cases: Vec<Case>,
-    /// What is wrong.
+    /// The fault, in words.
     pub what: String,
 }
 
@@ -44,7 +44,7 @@ pub struct RuleRow {
 }
 
 impl RuleRow {
-    /// What became of the rule.
+    /// The fate of the rule.
     #[must_use]
     pub const fn verdict(&self) -> Verdict {
         match (self.judged, self.broken) {
@@ -97,7 +97,7 @@ impl fmt::Display for RulesReport {
     }
 }
 
-/// What one rule judged so far.
+/// The judgements of one rule so far.
 #[derive(Debug)]
 pub(super) struct Tally {
     row: RuleRow,

@@ -17,7 +17,7 @@ named! {
 }
 
 named! {
-    /// What a standard demands of output.
+    /// A demand of a standard on output.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Rule: "rule" {

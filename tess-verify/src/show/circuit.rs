@@ -16,7 +16,7 @@ use crate::quote::quoted;
 use std::fmt;
 use tess_core::ProcessedFactor;
 
-/// What a signal describes.
+/// The part of a patch that a signal describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Part {
@@ -81,9 +81,9 @@ pub struct SignalDifference {
     pub name: &'static str,
     /// The module of `rtl/` that makes it, in a file of that name.
     pub module: &'static str,
-    /// What the circuit gave.
+    /// The circuit's value.
     pub observed: u32,
-    /// What the model gives.
+    /// The model's value.
     pub expected: u32,
 }
 
@@ -134,7 +134,7 @@ pub fn compare_signals(
     Ok(differences.collect())
 }
 
-/// What the model gives for each signal of a part; `None` if the patch has no such part.
+/// The model's value of each signal of a part; `None` if the patch has no such part.
 fn values(case: &Case, part: Part) -> Option<Vec<(Signal, u32)>> {
     let patch = case.patch();
     let counts = patch.counts();
@@ -189,7 +189,7 @@ mod tests {
         line.parse().expect("a case")
     }
 
-    /// What a circuit without a fault gives does not differ; each signal alone is seen.
+    /// The values of a circuit without a fault do not differ; each signal alone is seen.
     #[test]
     fn every_signal_is_compared() {
         let case =

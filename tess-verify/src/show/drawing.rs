@@ -16,18 +16,18 @@ use layout::Layout;
 pub use overlay::{Differences, differing, overlay};
 use tess_core::{Domain, OutputPrimitive};
 
-/// What a picture shows beside the primitives and points themselves.
+/// The contents of a picture beside the primitives and points themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrawOptions {
     /// Number the points.
     pub indices: bool,
-    /// What the colours of the primitives say.
+    /// The meaning of the primitives' colours.
     pub colours: Colours,
     /// Width and height in pixels.
     pub size: u32,
 }
 
-/// What the colours of the primitives say.
+/// The meaning of the primitives' colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Colours {
     /// Nothing: one colour.

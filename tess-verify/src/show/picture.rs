@@ -14,7 +14,7 @@ pub(super) type Position = [f64; 2];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Colour(pub(super) u8, pub(super) u8, pub(super) u8);
 
-/// What is drawn, in painter's order.
+/// A shape; shapes are drawn in painter's order.
 #[derive(Clone, Debug)]
 pub(super) enum Shape {
     /// A filled polygon.
@@ -51,7 +51,7 @@ pub(super) enum Shape {
 pub(super) struct Picture {
     /// Width and height in pixels.
     pub(super) size: u32,
-    /// What it shows, for people who cannot see it.
+    /// The picture in words, for people who cannot see it.
     pub(super) title: String,
     /// The shapes, back to front.
     pub(super) shapes: Vec<Shape>,

@@ -1,4 +1,4 @@
-//! What was asked: the cases of a vector file, or case lines alone.
+//! Cases that were asked: the cases of a vector file, or case lines alone.
 
 use super::header::MAGIC;
 use super::lines::Lines;
@@ -91,7 +91,7 @@ impl<R: BufRead> Cases<R> {
         }
     }
 
-    /// What comes next: what `of_case` makes of a record, or `parse` of a line and its number.
+    /// The next case: what `of_case` makes of a record, or `parse` of a line and its number.
     pub(crate) fn read<T>(
         &mut self,
         of_case: impl FnOnce(Case) -> T,

@@ -21,7 +21,7 @@ use tess_core::{Domain, DomainPoint, MAX_INDICES, Tessellation};
 pub struct Coordinates {
     /// The line of the file that it starts on.
     pub line: u64,
-    /// What was tessellated.
+    /// The tessellated case.
     pub case: Case,
     /// The vertices, as many for each primitive as it has.
     pub(crate) vertices: Vec<Vertex>,

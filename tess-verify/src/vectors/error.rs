@@ -1,4 +1,4 @@
-//! What is wrong with a vector file, and where.
+//! The fault of a vector file, and its place.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ pub struct VectorError {
     pub line: u64,
     /// The field, such as a column name.
     pub field: &'static str,
-    /// What is wrong and what would be right.
+    /// The fault and what would be right.
     pub message: String,
 }
 

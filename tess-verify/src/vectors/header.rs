@@ -8,7 +8,7 @@ use crate::quote::quoted;
 use std::fmt;
 
 named! {
-    /// What the records of a vector file are.
+    /// The kind of a vector file's records.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Kind: "kind" {
@@ -61,7 +61,7 @@ impl Kind {
 /// Its text is that line. Where the count is left out, the last line of the file is `# end`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Header {
-    /// What the records are.
+    /// The kind of the records.
     pub kind: Kind,
     /// How many records follow; `None` if the file marks its end instead.
     pub count: Option<u64>,
@@ -94,7 +94,7 @@ impl Header {
         format!("{self}\n{}", columns.unwrap_or_default())
     }
 
-    /// What a first line must be, where there is `instead`.
+    /// The message for a file that begins with `instead`.
     pub(super) fn missing(instead: &str) -> String {
         format!(
             "a vector file starts with `{MAGIC} {VERSION} kind=... count=... source=...`, not with \

@@ -17,14 +17,14 @@ use tess_core::{DomainPoint, MAX_INDICES, Tessellation};
 pub struct Listing {
     /// The line of the file that it starts on.
     pub line: u64,
-    /// What was tessellated.
+    /// The tessellated case.
     pub case: Case,
-    /// What came out.
+    /// Its points and indices.
     pub output: Tessellation,
 }
 
 impl Listing {
-    /// What the model gives for a case; the record stands in no file, so its line is 0.
+    /// The model's listing of a case; the record stands in no file, so its line is 0.
     #[must_use]
     pub fn of_model(case: Case) -> Self {
         Self { line: 0, case, output: case.patch().tessellate() }

@@ -42,9 +42,9 @@ pub(crate) struct Sizes {
 /// Counts and digests of one patch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PatchRow {
-    /// What was tessellated.
+    /// The tessellated case.
     pub(crate) case: Case,
-    /// What came out.
+    /// Counts and digests of its output.
     pub(crate) output: Sizes,
 }
 
@@ -123,10 +123,10 @@ pub(crate) struct PreparationRow {
     pub(crate) config: Config,
     /// How inside factors are made.
     pub(crate) reduction: Reduction,
-    /// What is prepared.
+    /// The factors to prepare.
     pub(crate) request: Request,
-    /// What comes out of the preparation.
+    /// The factors behind the preparation.
     pub(crate) prepared: Prepared,
-    /// What comes out of the tessellator.
+    /// Counts and digests of the tessellator's output.
     pub(crate) output: Sizes,
 }

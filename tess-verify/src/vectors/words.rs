@@ -1,4 +1,4 @@
-//! What both forms of a listing have: its last line, its coordinates in hex, its limits.
+//! Shared by both forms of a listing: its last line, its coordinates in hex, its limits.
 
 use super::error::VectorError;
 use super::lines::Line;

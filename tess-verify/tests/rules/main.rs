@@ -145,7 +145,7 @@ fn sources_are_where_rules_stand() {
     }
 }
 
-/// What is known of the model, each by the rule that shows it (specification, sections 11 and 12).
+/// Known faults of the model, each by the rule that shows it (specification, sections 11 and 12).
 #[test]
 fn findings_about_the_model() {
     let broken = |lines: &[&str]| {
@@ -221,7 +221,7 @@ fn equal_spacing_is_rounded() {
     assert_eq!((largest, hundredths(largest)), (53, 1226), "n, and hundredths of a unit");
 }
 
-/// What dEQP demands of 1 - c holds of every binary32 c from 0 to 1: it is no rule of tessellators. Every exponent,
+/// dEQP's demand on 1 - c holds of every binary32 c from 0 to 1: it is no rule of tessellators. Every exponent,
 /// with both ends, the middle and random ones between.
 #[test]
 #[expect(clippy::float_cmp, reason = "exactly 1")]

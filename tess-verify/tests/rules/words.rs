@@ -6,7 +6,7 @@ use super::*;
 const FOURS: &str =
     "case quad integer triangle_cw ruler 40800000 40800000 40800000 40800000 40800000 40800000";
 
-/// What is said of one output that breaks a rule.
+/// The words on one output that breaks a rule.
 fn said(line: &str, rule: Rule, fault: impl FnOnce(&mut Tessellation)) -> Option<String> {
     let (case, mut output) = model(case(line));
     fault(&mut output);
@@ -81,7 +81,7 @@ fn lines_and_segments_are_called_so() {
     assert_eq!(edge.as_deref(), Some("edge u0 has 6 segments, its level 4 asks for 4"));
 }
 
-/// What is said of a mesh, its lines and its points.
+/// The words on a mesh, its lines and its points.
 #[test]
 fn faults_of_primitives_in_words() {
     let said = |line: &str, rule, fault: Fault| said(line, rule, fault).unwrap_or_default();
@@ -112,7 +112,7 @@ fn faults_of_primitives_in_words() {
     assert_eq!(repeated, "(10000, 10000) is a point twice");
 }
 
-/// What is said of an edge whose vertices are not where its level puts them: equal lengths, and two shorter ones.
+/// The words on an edge whose vertices are not where its level puts them: equal lengths, and two shorter ones.
 #[test]
 fn faults_of_edges_in_words() {
     // The points from the second on lie at these places.

@@ -155,7 +155,7 @@ impl Machine {
         (batch, outputs)
     }
 
-    /// What a batch left, with its points and indices.
+    /// The buffers behind a batch, with its points and indices.
     pub(crate) fn written(&self, batch: &Batch, outputs: &[wgpu::Buffer; 2]) -> Written {
         let (status, draw) = self.status(batch);
         let [points, indices] = outputs.each_ref().map(|buffer| self.words(buffer));

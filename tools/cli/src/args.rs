@@ -41,7 +41,7 @@ pub(crate) struct PatchArgs {
     #[arg(long, value_name = "NAME", default_value = "integer")]
     #[arg(value_parser = name_of::<Partitioning>())]
     pub(crate) partitioning: Partitioning,
-    /// What the indices describe
+    /// Primitives that the indices describe
     #[arg(long, value_name = "NAME", default_value = "triangle_cw")]
     #[arg(value_parser = name_of::<OutputPrimitive>())]
     pub(crate) output: OutputPrimitive,

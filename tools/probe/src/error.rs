@@ -52,7 +52,7 @@ impl Error {
     }
 }
 
-/// What numbers there are, behind one that there is not.
+/// The numbers that there are, said behind one that there is not.
 fn numbers(there: usize) -> String {
     match there {
         0 => ": no driver has any".to_owned(),

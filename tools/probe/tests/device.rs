@@ -107,7 +107,7 @@ fn shaders_are_as_compiled() {
     assert!(compared >= 7, "{compared} shaders");
 }
 
-/// What a shader compiles to. `None`, said on stderr, without a compiler outside of continuous
+/// A shader, compiled. `None`, said on stderr, without a compiler outside of continuous
 /// integration.
 fn compiled(name: &str, text: &str) -> Option<Vec<u8>> {
     let stage = name.rsplit_once('.').map_or(name, |(_, stage)| stage);

@@ -1,4 +1,4 @@
-//! What is in an archive that this project did not write: a bill of materials in `CycloneDX`, and the licences.
+//! The foreign parts of an archive: a bill of materials in `CycloneDX`, and the licences.
 
 use super::pack::Release;
 use crate::command::{self, cargo, in_file};

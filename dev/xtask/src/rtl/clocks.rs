@@ -71,7 +71,7 @@ fn beginning(workload: &Workload) -> Vec<Case> {
     chosen.map(|(&factors, _)| Case { config: workload.config, factors }).collect()
 }
 
-/// What a line says behind this prefix.
+/// The rest of the first line that has this prefix.
 fn line<'a>(said: &'a str, prefix: &str) -> Result<&'a str, String> {
     said.lines()
         .find_map(|line| line.strip_prefix(prefix))

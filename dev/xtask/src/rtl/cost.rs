@@ -1,4 +1,4 @@
-//! What the circuit costs: `rtl/synth` runs Yosys, and tables are made of what it says.
+//! The circuit's cost: `rtl/synth` runs Yosys, and tables are made of its report.
 
 use super::sources;
 use crate::command::{self, in_file, target};

@@ -81,7 +81,7 @@ fn digest() -> Result<u64, String> {
     Ok(digest.finish())
 }
 
-/// What the workers share.
+/// State that the workers share.
 struct Work<'a> {
     bench: &'a Bench,
     stages: Stages,

@@ -1,4 +1,4 @@
-//! What clock the circuit reaches: `rtl/place` synthesizes, places and routes it with tools of `PyPI`.
+//! The clock that the circuit reaches: `rtl/place` synthesizes, places and routes it with tools of `PyPI`.
 
 use super::sources;
 use crate::command::{self, target};

@@ -171,7 +171,7 @@ fn seconds(args: &Args, time: &Time) -> f32 {
     }
 }
 
-/// What moves by values of each frame.
+/// The part of the scene that moves by values of each frame.
 #[derive(Clone, Copy, Component, Debug)]
 pub(crate) enum Moving {
     Water,

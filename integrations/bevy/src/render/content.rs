@@ -1,4 +1,4 @@
-//! What a camera's shaders read of the entities of a program.
+//! Buffers of the entities of a program, which a camera's shaders read.
 
 use super::extract::Item;
 use super::layout::{self, GpuInstance, GpuView};

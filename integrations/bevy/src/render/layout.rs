@@ -73,7 +73,7 @@ impl GpuInstance {
     }
 }
 
-/// What Bevy's fragment functions read of each entity.
+/// The words that Bevy's fragment functions read of each entity.
 pub(crate) fn meshes(items: &[&Item]) -> Vec<u32> {
     let of = |item: &&Item| {
         // The sign says that fragments are told which side is in front, whatever the transform does to triangles.

@@ -43,7 +43,7 @@ impl Material {
         }
     }
 
-    /// What pipelines depend on.
+    /// The key that pipelines depend on.
     pub(crate) fn key(&self, mesh: MeshPipelineKey) -> ErasedMaterialPipelineKey {
         ErasedMaterialPipelineKey {
             mesh_key: ErasedMeshPipelineKey::new(mesh),

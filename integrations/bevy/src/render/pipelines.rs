@@ -21,7 +21,7 @@ use bevy::render::render_resource::{
 use bevy::shader::ShaderDefVal;
 use std::sync::Arc;
 
-/// What is drawn: of Bevy's key, whether only depth, normals and motion, and whether as a wireframe.
+/// A kind of draw: of Bevy's key, whether only depth, normals and motion, and whether as a wireframe.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Kind {
     pub(crate) key: ErasedMaterialPipelineKey,

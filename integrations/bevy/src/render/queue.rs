@@ -37,7 +37,7 @@ use bevy::render::view::{
 };
 use std::ops::{Deref, DerefMut};
 
-/// What cameras and shadow maps see, by Bevy's culling.
+/// The entities that cameras and shadow maps see, by Bevy's culling.
 #[derive(SystemParam)]
 pub(crate) struct Seen<'w, 's> {
     cameras: Query<'w, 's, (&'static ExtractedView, &'static RenderVisibleEntities)>,
@@ -83,7 +83,7 @@ pub(crate) trait Phase: PhaseItem {
     /// The materials that it takes, all if `None`.
     const TAKES: Option<Pass>;
 
-    /// What the pipelines of an alpha mode have more.
+    /// The key with what the pipelines of an alpha mode have more.
     fn alpha_key(mode: AlphaMode, key: MeshPipelineKey) -> MeshPipelineKey {
         alpha_mode_pipeline_key(mode, &Msaa::from_samples(key.msaa_samples()))
     }

@@ -5,7 +5,7 @@ use crate::data::format::IndexFormat;
 use crate::data::writer::Writer;
 use crate::stages::stitch::{Replaced, Rows, Stitches};
 
-/// What the rings of a patch with `EDGES` edges depend on.
+/// The numbers that the rings of a patch with `EDGES` edges depend on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rings<const EDGES: usize> {
     /// Point counts of the outer edges.

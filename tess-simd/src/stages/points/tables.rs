@@ -16,7 +16,7 @@ const SLOTS: usize = MAX_FACTORS + COUNTS;
 /// of a patch, computed again only where that factor differs from the patch before. Up to 32 KiB.
 #[derive(Clone, Debug)]
 pub(crate) struct LocationTables {
-    /// What each table was computed for: a point count or [`PacketPatch::key`]; 0 at first.
+    /// Each table's key: a point count or [`PacketPatch::key`]; 0 at first.
     keys: [u32; SLOTS],
     /// As many as slots are in use; empty at first.
     tables: Vec<Locations>,

@@ -30,7 +30,7 @@ pub(super) trait TriangleWalker {
 pub(super) struct Inset {
     /// The coordinate that is the same along an edge of the ring.
     pub(super) perpendicular: u32,
-    /// What the coordinates along an edge lose.
+    /// The amount that the coordinates along an edge lose.
     pub(super) shift: u32,
 }
 

@@ -6,7 +6,7 @@
 /// Codes turned into indices at a time; tables are padded to it.
 pub(crate) const CODES_AT_ONCE: usize = 32;
 
-/// What a row position gains as inner row.
+/// Added to a position of the inner row.
 const INNER: i8 = i8::MIN;
 
 /// No position of any row.

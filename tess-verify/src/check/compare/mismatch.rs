@@ -139,9 +139,9 @@ impl fmt::Display for Element {
 pub struct Mismatch {
     /// The first element that differs.
     pub element: Element,
-    /// What an implementation gave there, in hex (counts in decimal), or `none`.
+    /// The implementation's value, in hex (counts in decimal), or `none`.
     pub observed: String,
-    /// What is right there.
+    /// The right value.
     pub expected: String,
     /// The stage that the difference points to.
     pub stage: SpecStage,

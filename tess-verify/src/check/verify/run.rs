@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder, Tessellation};
 
-/// What was compared of one subject in one backend.
+/// The comparison of one subject in one backend.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SubjectRow {
     /// The subject.
@@ -80,7 +80,7 @@ pub fn verify(
     Ok(rows.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// What was compared of one unit.
+/// The comparison of one unit.
 struct Compared {
     elements: u64,
     known: u64,

@@ -1,4 +1,4 @@
-//! What can be compared.
+//! Subjects of a comparison.
 
 use crate::names::Named;
 
@@ -8,7 +8,7 @@ use crate::names::Named;
 pub enum Subject {
     /// The generated level 1.
     Level1,
-    /// What the generated level 2 has beyond level 1.
+    /// The cases of the generated level 2 beyond level 1.
     Level2,
     /// All 2^32 binary32 factors, as outer and as inside factor, in every partitioning.
     Factors,

@@ -1,4 +1,4 @@
-//! What there is to compare, cut into units.
+//! The subjects of a comparison, cut into units.
 
 use super::subject::Subject;
 use super::topologies::{interiors, transitions};

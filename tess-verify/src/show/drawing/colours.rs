@@ -20,9 +20,9 @@ pub(super) const GRID: Colour = Colour(0xb0, 0xbe, 0xc5);
 pub(super) const PLAIN: Colour = Colour(0xdc, 0xe9, 0xf5);
 /// Points.
 pub(super) const POINT: Colour = Colour(0x15, 0x5f, 0xa0);
-/// What differs.
+/// Elements that differ.
 pub(super) const DIFFERENT: Colour = Colour(0xd5, 0x1f, 0x1f);
-/// The inside of what differs.
+/// The inside of primitives that differ.
 pub(super) const DIFFERENT_FILL: Colour = Colour(0xf8, 0xc8, 0xc8);
 
 /// From the first primitive to the last: blue over green to yellow, light enough for ink.

@@ -13,7 +13,7 @@ pub struct Differences {
     pub points: usize,
     /// Primitives whose indices differ, and primitives that one result lacks.
     pub primitives: usize,
-    /// What a picture cannot show as it is, a line each: primitives that are missing, have no
+    /// Differences that a picture cannot show as they are, a line each: primitives that are missing, have no
     /// extent or name points that are not there.
     pub in_words: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! What factor processing decided, and why (spec section 3).
+//! The decisions of factor processing, and why (spec section 3).
 
 use super::factors::named;
 use crate::names::Named;

@@ -16,7 +16,7 @@ pub(super) struct Placement {
     half_edge: Option<HalfEdge>,
 }
 
-/// What is blended on the half edge.
+/// The places that are blended on the half edge.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 struct HalfEdge {

@@ -5,7 +5,7 @@ use crate::vectors::{Listing, Record, Values, VectorError, VectorFile};
 use proptest::prelude::*;
 use std::fs::read_to_string;
 
-/// What reading a file of a few kilobytes may take: a record of the largest patch is 130 KB.
+/// The most memory that a file of a few kilobytes may take: a record of the largest patch is 130 KB.
 const MOST_BYTES: u64 = 2 << 20;
 
 /// The first lines of a golden file, with as many records as its header then says.
@@ -36,7 +36,7 @@ fn files() -> impl Strategy<Value = String> {
     prop::sample::select(names.map(|name| excerpt(name, 4)).to_vec())
 }
 
-/// What happens to a file at a place in it, given in 1/65536 of its length.
+/// The damage to a file at a place in it, given in 1/65536 of its length.
 #[derive(Clone, Debug)]
 enum Damage {
     Byte(u16, u8),

@@ -17,7 +17,7 @@ use tess_verify::rules::Specification;
 /// The `--known` option.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct KnownArgs {
-    /// What may differ: lines that begin with `case` or `rule`, or a vector file such as --failures writes
+    /// Known differences: lines that begin with `case` or `rule`, or a vector file such as --failures writes
     ///
     /// Such differences are counted as known and are no mismatches. Behind a case or rule may stand ` | EXPECTED |
     /// OWNER | UNTIL | REASON` (docs/campaigns.md): a line that has expired, or is not met, is exit code 1. Cases
@@ -27,7 +27,7 @@ pub(crate) struct KnownArgs {
     known: Option<PathBuf>,
 }
 
-/// What may differ, and the file that it stands in.
+/// Known differences, and the file that they stand in.
 #[derive(Debug, Default)]
 pub(crate) struct Baseline {
     pub(crate) known: Arc<Known>,

@@ -46,7 +46,7 @@ pub(crate) struct Report {
     pub(crate) stages: BTreeMap<String, u64>,
     #[serde(default)]
     pub(crate) first: Option<First>,
-    /// What the numbers of all records that differ are multiples of apart.
+    /// The distance whose multiples lie between the numbers of all records that differ.
     #[serde(default)]
     pub(crate) period: Option<u64>,
     /// The fate of the baseline, if there is one.
@@ -87,10 +87,10 @@ pub(crate) struct First {
     pub(crate) passes_alone: bool,
 }
 
-/// What is said of a case that differs and passes alone.
+/// The words on a case that differs and passes alone.
 pub(crate) const PASSES_ALONE: &str = "passes alone: asked again, or in another record, the same case is right, so what came before matters";
 
-/// What is said of the numbers of all records that differ.
+/// The words on the numbers of all records that differ.
 pub(crate) fn period_text(period: u64) -> String {
     format!("the numbers of all records that differ are multiples of {period} apart")
 }

@@ -42,7 +42,7 @@ pub(crate) struct DrawPass {
     gpu: Arc<Gpu>,
     framebuffer: Owned<vk::Framebuffer>,
     pass: Owned<vk::RenderPass>,
-    /// What it draws to, if it does.
+    /// The image that it draws to, if it does.
     image: Option<Image>,
     size: u32,
 }

@@ -160,7 +160,7 @@ fn normal_maps_bend_the_light() {
     assert!(is_same, "from the prepass: {through_prepass:?}, {along_u:?}");
 }
 
-/// What a material of one's own adds to Bevy's.
+/// A material of one's own: what it adds to Bevy's.
 #[derive(Asset, AsBindGroup, Clone, Debug, TypePath)]
 pub(super) struct Tint {
     #[uniform(100)]

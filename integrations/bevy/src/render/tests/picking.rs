@@ -17,7 +17,7 @@ fn app() -> App {
     app
 }
 
-/// What is hit at a place of the picture, the nearest first: entity, place, normal.
+/// The hits at a place of the picture, the nearest first: entity, place, normal.
 fn hits(app: &mut App, position: Vec2) -> Vec<(Entity, Vec3, Vec3)> {
     let target = NormalizedRenderTarget::Image(app.world().resource::<Target>().0.clone().into());
     let location = PointerLocation::new(Location { target, position });

@@ -11,7 +11,7 @@ use tess_verify::BackendError;
 use tess_verify::generate::{Calls, IndexWidth, Workload};
 use tess_verify::vectors::Fnv1a;
 
-/// What differs between backends of the CPU.
+/// A backend of the CPU, by what differs between them.
 pub(super) trait Kernel {
     type Point: Copy + Default;
     type Index: IndexFormat + Into<u32>;

@@ -35,7 +35,7 @@ impl Amount {
     }
 }
 
-/// What some patches of a workload amount to.
+/// The size of some patches of a workload.
 pub(crate) fn totals(workload: &Workload, patches: &Range<usize>) -> Totals {
     Workload { patches: workload.patches[patches.clone()].to_vec(), ..workload.clone() }.totals()
 }
@@ -50,7 +50,7 @@ impl Sum for Amount {
     }
 }
 
-/// What is timed, and how.
+/// The timed backend, and how it is timed.
 #[derive(Clone, Debug)]
 pub(crate) struct Description {
     /// Name of the backend.
@@ -79,7 +79,7 @@ pub(crate) struct Description {
 /// [`Runner::run`] and [`Runner::fill`] write the same bytes to the same buffers in the same order;
 /// on one thread neither allocates. Both give their own time, so that a device can use its clock.
 pub(crate) trait Runner {
-    /// What is timed, and how.
+    /// The timed backend, and how it is timed.
     fn description(&self) -> &Description;
 
     /// Gets everything ready to run a workload in a working set, buffers included, and says what each part amounts

@@ -21,7 +21,7 @@ struct State {
     written: io::Result<()>,
     /// Number of the record whose turn it is to be written.
     next: u64,
-    /// What threads have checked of the records behind it, by the number of its first: how many they are, and
+    /// Records behind it that threads have checked, by the number of the first: how many they are, and
     /// those that differ.
     waiting: BTreeMap<u64, (u64, String)>,
 }

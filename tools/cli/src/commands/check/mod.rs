@@ -93,7 +93,7 @@ pub(crate) struct Args {
         "denormals", "failures", "coverage",
     ])]
     rules: Option<Specification>,
-    /// What was asked: records that answer other cases, too few or too many are differences
+    /// Cases that were asked: records that answer other cases, too few or too many are differences
     #[arg(long, value_name = "FILE")]
     cases: Option<PathBuf>,
     /// Accept a FILE and --cases without records: those of an empty shard, or the failures of a run without any

@@ -88,7 +88,7 @@ impl Args {
     }
 }
 
-/// What explains a part of a patch.
+/// The explanation of a part of a patch.
 fn report(case: &Case, part: Part) -> Result<Explanation, Failure> {
     Explanation::new(case, part).ok_or_else(|| {
         let counts = case.patch().counts();

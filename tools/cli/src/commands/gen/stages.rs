@@ -56,7 +56,7 @@ impl StageBlock {
         columns.filter_map(|(name, bits)| Some((name, bits.parse().ok()?)))
     }
 
-    /// What the numbers of the columns mean.
+    /// The meaning of the columns' numbers.
     pub(super) const fn meaning(self) -> &'static str {
         match self {
             Self::Factors => {

@@ -11,7 +11,7 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     #[arg(value_parser = ValueParser::new(point))]
     eye: Option<Vec3>,
-    /// What the eye looks at [default: the middle of the model]
+    /// Point that the eye looks at [default: the middle of the model]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     #[arg(value_parser = ValueParser::new(point))]
     target: Option<Vec3>,

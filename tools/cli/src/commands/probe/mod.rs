@@ -58,7 +58,7 @@ pub(crate) struct Args {
     /// Conversion of factors that counts as equal
     #[arg(long, value_name = "NAME", default_value = "exact", value_parser = choice(CONVERSIONS))]
     conversion: Conversion,
-    /// What may happen to positive denormal outer factors
+    /// Treatment of positive denormal outer factors that counts as equal
     #[arg(long, value_name = "NAME", default_value = "keep", value_parser = choice(DENORMALS))]
     denormals: Denormals,
     /// Capture domain points alone, as is done on devices without transform feedback

@@ -49,7 +49,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", default_value = "integer")]
     #[arg(value_parser = name_of::<Partitioning>())]
     partitioning: Partitioning,
-    /// What the indices describe
+    /// Primitives that the indices describe
     #[arg(long, value_name = "NAME", default_value = "triangle_cw")]
     #[arg(value_parser = name_of::<OutputPrimitive>())]
     output: OutputPrimitive,
