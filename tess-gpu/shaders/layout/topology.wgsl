@@ -38,21 +38,11 @@ fn listed_slot(topology: vec2<u32>) -> u32 {
     return topology.y >> 14u;
 }
 
-// Points of the inside axis that an edge runs along: v for edges 0 and 2, u for 1 and 3.
-fn along_points(topology: vec2<u32>, edge: u32) -> u32 {
-    return (topology.y >> (7u * (1u - (edge & 1u)))) & 127u;
-}
-
 // The sum of `outer_points` over the edges before this one.
 fn outer_before(topology: vec2<u32>, edge: u32) -> u32 {
     return select(0u, outer_points(topology, 0u), edge > 0u)
         + select(0u, outer_points(topology, 1u), edge > 1u)
         + select(0u, outer_points(topology, 2u), edge > 2u);
-}
-
-// The sum of `along_points` over the edges before this one.
-fn along_before(topology: vec2<u32>, edge: u32) -> u32 {
-    return ((edge + 1u) >> 1u) * inside_v(topology) + (edge >> 1u) * inside_u(topology);
 }
 
 // Points on the outer ring.

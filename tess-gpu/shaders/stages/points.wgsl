@@ -38,10 +38,10 @@
 const FORM_FIXED_Q = 0u;
 const FORM_Q_FIXED = 1u;
 const FORM_Q_REST = 2u; // the third coordinate of the triangle is the constant one
-const FORM_CORNER = 3u; // corner by number; with a constant that is not 0, the constant twice
+const FORM_CORNER = 3u; // a corner by its number; if `fixed` is not 0: (fixed, fixed)
 
 struct PointRun {
-    // Its points, and the one that is meant.
+    // Point count; index of the current point.
     size: u32,
     step: u32,
     fixed: u32,

@@ -45,7 +45,7 @@ struct Pair {
     second: vec3<u32>,
 }
 
-// Triangles `number` and `number` + 1 of a stitch; of its last one only the first is meant. A step
+// Triangles `number` and `number` + 1 of a stitch; `second` is meaningless for the last triangle. A step
 // stands on one vertex of each row, `a` and `b`, and advances along one of them.
 fn stitch_triangles(stitch: Stitch, number: u32) -> Pair {
     let steps = tables[stitch.steps_at + number];
