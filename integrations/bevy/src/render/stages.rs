@@ -45,7 +45,7 @@ impl Stages {
         prepared.stage.as_ref().map(|(stage, _)| stage)
     }
 
-    /// The buffers of an entity's draw, and its group, for a camera or for a shadow map.
+    /// The bind group, buffers and group number of an entity's draw, for a camera or for a shadow map.
     pub(crate) fn find(
         &self,
         view: RetainedViewEntity,

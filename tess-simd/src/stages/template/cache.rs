@@ -145,7 +145,7 @@ where
         (number(topology) >> self.other_bits) as usize
     }
 
-    /// The template that begins here, found since there was room made last.
+    /// The template of a `start`, which is valid only if it was found after the last `make_room`.
     #[inline(always)]
     pub(super) fn get(&self, Start { point, index }: Start) -> Template<'_, I, P> {
         Template {
