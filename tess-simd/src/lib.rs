@@ -25,7 +25,7 @@ pub use interface::counted::Counted;
 pub use interface::groups::{BadGroup, group_ranges};
 #[cfg(all(feature = "taps", feature = "apart"))]
 #[doc(hidden)]
-pub use interface::kernel_taps::{Format, Input, Tap};
+pub use interface::kernel_taps::{Format, Input, KernelTap};
 pub use interface::one_patch::CountedPatch;
 pub use interface::owned::OwnedBatch;
 #[cfg(feature = "taps")]

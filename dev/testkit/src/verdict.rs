@@ -5,14 +5,14 @@ use std::fmt;
 /// The numbers of what a run compared and found equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "they are numbers of what their names say")]
-pub struct Verdict {
+pub struct BenchVerdict {
     pub patches: u64,
     pub points: u64,
     pub primitives: u64,
     pub clocks: u64,
 }
 
-impl Verdict {
+impl BenchVerdict {
     /// The tally in what a bench prints, with `PASS` behind it.
     ///
     /// # Errors
@@ -32,7 +32,7 @@ impl Verdict {
     }
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for BenchVerdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { patches, points, primitives, clocks } = self;
         write!(
@@ -49,12 +49,12 @@ mod tests {
     #[test]
     fn a_verdict_needs_the_tally_and_pass() {
         let tally = "7 patches, 60 points, 50 primitives, 90 clocks, 0 mismatches";
-        let expected = Verdict { patches: 7, points: 60, primitives: 50, clocks: 90 };
+        let expected = BenchVerdict { patches: 7, points: 60, primitives: 50, clocks: 90 };
         let said = format!("{tally}\nPASS\n");
-        assert_eq!(Verdict::read(&said, 7), Ok(expected), "equal");
-        assert!(Verdict::read(&said, 8).is_err(), "fewer patches");
-        assert!(Verdict::read(tally, 7).is_err(), "without PASS");
+        assert_eq!(BenchVerdict::read(&said, 7), Ok(expected), "equal");
+        assert!(BenchVerdict::read(&said, 8).is_err(), "fewer patches");
+        assert!(BenchVerdict::read(tally, 7).is_err(), "without PASS");
         let different = said.replace(", 0 mism", ", 3 mism");
-        assert!(Verdict::read(&different, 7).is_err(), "mismatches");
+        assert!(BenchVerdict::read(&different, 7).is_err(), "mismatches");
     }
 }

@@ -58,7 +58,7 @@ pub(crate) struct Tree {
 
 /// A test program, as cargo's messages describe it.
 #[derive(Deserialize)]
-struct Program {
+struct TestProgram {
     manifest_path: PathBuf,
     target: Target,
     profile: Profile,
@@ -72,12 +72,12 @@ struct Profile {
 
 /// Arguments of `cargo xtask test`: paths of tests, and words of which a test's name must have one.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(crate) struct Part<'a> {
+pub(crate) struct TestSelection<'a> {
     pub(crate) paths: Vec<&'a str>,
     pub(crate) words: Vec<&'a str>,
 }
 
-impl<'a> Part<'a> {
+impl<'a> TestSelection<'a> {
     /// The first argument is a path; so are those behind it that have a `/` or are a package's folder.
     pub(crate) fn of(arguments: &[&'a str]) -> Self {
         let is_path = |(number, argument): &(usize, &str)| {
@@ -97,7 +97,7 @@ impl<'a> Part<'a> {
 ///
 /// # Errors
 /// They do not compile, or a path has no tests.
-pub(crate) fn jobs(extent: Extent, part: &Part<'_>) -> Result<Vec<Job>, String> {
+pub(crate) fn jobs(extent: Extent, part: &TestSelection<'_>) -> Result<Vec<Job>, String> {
     let base = base(extent, part)?;
     let mut build = cargo(&base);
     println!("\n$ {}", command::shown(build.arg("--no-run")));
@@ -129,7 +129,7 @@ pub(crate) fn jobs(extent: Extent, part: &Part<'_>) -> Result<Vec<Job>, String> 
 
 /// The arguments of `cargo` that select the packages. With all of them every dependency has the same features, but the
 /// folder of a package says that no other is wanted.
-fn base(extent: Extent, part: &Part<'_>) -> Result<String, String> {
+fn base(extent: Extent, part: &TestSelection<'_>) -> Result<String, String> {
     let mut base = ALL.to_owned();
     if part.paths.is_empty() {
         if extent == Extent::Comparisons {
@@ -199,8 +199,8 @@ fn tests_beyond(source: &Path) -> Option<&'static [&'static str]> {
 }
 
 /// The command of a program that is to run.
-fn job(program: Program, root: &Path, extent: Extent, paths: &[&str]) -> Option<Job> {
-    let Program { manifest_path, target, profile, executable } = program;
+fn job(program: TestProgram, root: &Path, extent: Extent, paths: &[&str]) -> Option<Job> {
+    let TestProgram { manifest_path, target, profile, executable } = program;
     let source = target.src_path.strip_prefix(root).unwrap_or(&target.src_path);
     let is_chosen = paths.is_empty() || paths.iter().any(|path| source.starts_with(path));
     let mut command = Command::new(executable.filter(|_| profile.test && is_chosen)?);
@@ -266,15 +266,17 @@ mod tests {
 
     #[test]
     fn a_folder_is_its_package_and_words_are_no_paths() {
-        let base = |arguments: &[&str]| base(Extent::All, &Part::of(arguments)).expect("packages");
+        let base = |arguments: &[&str]| {
+            base(Extent::All, &TestSelection::of(arguments)).expect("packages")
+        };
         let core = "test --package tess-core --all-features --no-fail-fast";
         assert_eq!(base(&["tess-core"]), core, "one package");
         assert_eq!(base(&["tess-core", "golden"]), core, "a word that is a folder too");
         assert_eq!(base(&["tess-core", "tess-core/tests/golden.rs"]), ALL, "a file");
         assert!(base(&["bindings"]).contains(" --package tess-capi "), "a folder of packages");
-        let part = Part::of(&["tess-core", "tess-core/src", "ring", "tess-gpu"]);
+        let part = TestSelection::of(&["tess-core", "tess-core/src", "ring", "tess-gpu"]);
         assert_eq!(part.paths, ["tess-core", "tess-core/src", "tess-gpu"], "paths");
         assert_eq!(part.words, ["ring"], "words");
-        assert_eq!(Part::of(&["nope"]).paths, ["nope"], "the first is a path");
+        assert_eq!(TestSelection::of(&["nope"]).paths, ["nope"], "the first is a path");
     }
 }

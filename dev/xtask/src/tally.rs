@@ -68,17 +68,17 @@ impl Job {
 
 /// A tally of the tests that commands ran, and the commands that failed.
 #[derive(Default)]
-pub(crate) struct Report {
+pub(crate) struct TestReport {
     all: Tally,
     broken: Vec<String>,
 }
 
-impl Report {
+impl TestReport {
     /// Runs the commands one after the other, and passes their output on.
     ///
     /// # Errors
     /// A command that cannot be started. One that fails, or that passes without having run a test, is noted for
-    /// [`Report::finish`]: a filter which matches nothing must not count as success.
+    /// [`TestReport::finish`]: a filter which matches nothing must not count as success.
     pub(crate) fn one_by_one(
         &mut self,
         commands: impl IntoIterator<Item = Command>,
@@ -101,7 +101,7 @@ impl Report {
     /// pass.
     ///
     /// # Errors
-    /// As for [`Report::one_by_one`], and jobs that have no test together.
+    /// As for [`TestReport::one_by_one`], and jobs that have no test together.
     pub(crate) fn beside_each_other(&mut self, jobs: Vec<Job>) -> Result<(), String> {
         let passed_before = self.all.passed;
         let (total, workers) = (jobs.len(), at_once());
@@ -170,7 +170,7 @@ impl Report {
 /// # Errors
 /// A command that fails, or that passes without having run a test.
 pub(crate) fn run(commands: impl IntoIterator<Item = Command>) -> Result<(), String> {
-    let mut report = Report::default();
+    let mut report = TestReport::default();
     report.one_by_one(commands)?;
     report.finish()
 }
@@ -267,7 +267,7 @@ mod tests {
             shell.args(["-c", script]);
             Job { name: format!("job {script}"), command: shell }
         });
-        let mut report = Report::default();
+        let mut report = TestReport::default();
         report.beside_each_other(jobs.collect())?;
         report.finish()
     }

@@ -1,7 +1,7 @@
 //! Runs every test and says how many there were.
 
-use crate::suite::{self, Extent, Part};
-use crate::tally::{Job, Report};
+use crate::suite::{self, Extent, TestSelection};
+use crate::tally::{Job, TestReport};
 use crate::{command, dist, examples, explorer, levels, python, setup};
 
 /// The rule where no browser can be had.
@@ -13,7 +13,7 @@ pub(crate) enum Browser {
     IfThere,
 }
 
-/// Runs the tests of the workspace that need no more than a Vulkan driver and a C compiler, or those of a [`Part`], on
+/// Runs the tests of the workspace that need no more than a Vulkan driver and a C compiler, or those of a [`TestSelection`], on
 /// every CPU level that this machine should have; the last line printed is the tally.
 ///
 /// # Errors
@@ -22,8 +22,8 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
     setup::for_comparisons()?;
     // Whoever names a test wants it.
     let extent = if arguments.is_empty() { Extent::Comparisons } else { Extent::All };
-    let mut report = Report::default();
-    report.beside_each_other(suite::jobs(extent, &Part::of(arguments))?)?;
+    let mut report = TestReport::default();
+    report.beside_each_other(suite::jobs(extent, &TestSelection::of(arguments))?)?;
     if arguments.is_empty() {
         println!(
             "\nNOT RUN: OpenGL, a window, simulators, Python, the explorer, the programs that measure; \
@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
 pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     setup::run()?;
     // Compiled once, so that nothing else of the suite builds the program with other features.
-    let mut jobs = suite::jobs(Extent::All, &Part::default())?;
+    let mut jobs = suite::jobs(Extent::All, &TestSelection::default())?;
     let program = command::built_program();
     jobs.insert(0, Job::new(python::in_a_process(&program)?));
     jobs.insert(0, Job::new(examples::cargo("test")?));
@@ -51,7 +51,7 @@ pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
         }
         println!("\nNOT RUN: the tests of the explorer in a browser. {lacking}");
     }
-    let mut report = Report::default();
+    let mut report = TestReport::default();
     let explorer = std::thread::scope(|scope| {
         // The page is compiled on one processor for the most part, so that tests fill the others.
         let page = scope.spawn(|| lacking.is_none().then(|| explorer::tests(&program)).transpose());
@@ -67,7 +67,7 @@ pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
 }
 
 /// Says what this machine cannot compare, and then the tally.
-fn finish(report: Report) -> Result<(), String> {
+fn finish(report: TestReport) -> Result<(), String> {
     if let Some(sentence) = levels::not_compared() {
         println!("\n{sentence}");
     }

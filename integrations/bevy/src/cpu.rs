@@ -86,7 +86,7 @@ pub(crate) struct Fallback {
     mesh: Handle<Mesh>,
 }
 
-type Surface<'a> = (
+type CpuSurface<'a> = (
     Entity,
     Ref<'a, Tessellated>,
     Option<Ref<'a, TessValues>>,
@@ -103,7 +103,7 @@ pub(crate) fn tessellate(
     stats: Res<TessStats>,
     device: Option<Res<RenderDevice>>,
     cameras: Query<(&Camera, &GlobalTransform), With<Camera3d>>,
-    mut surfaces: Query<Surface<'_>>,
+    mut surfaces: Query<CpuSurface<'_>>,
     mut tessellators: ResMut<Tessellators>,
     mut meshes: ResMut<Assets<Mesh>>,
     materials: Res<Assets<StandardMaterial>>,

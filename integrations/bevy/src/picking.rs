@@ -40,7 +40,7 @@ pub(crate) struct Boxes {
     all: Vec<Aabb3d>,
 }
 
-type Surface<'a> = (
+type PickedSurface<'a> = (
     Entity,
     &'a Tessellated,
     (&'a GlobalTransform, &'a Aabb, &'a ViewVisibility),
@@ -53,7 +53,7 @@ type Surface<'a> = (
 pub(crate) fn pick(
     rays: Res<RayMap>,
     cameras: Query<(&Camera, &GlobalTransform, Option<&RenderLayers>)>,
-    surfaces: Query<Surface<'_>>,
+    surfaces: Query<PickedSurface<'_>>,
     mut tessellators: ResMut<Tessellators>,
     mut known: Local<HashMap<Entity, Boxes>>,
     mut hits: MessageWriter<PointerHits>,

@@ -67,7 +67,7 @@ pub struct Input {
 
 /// A kernel at a level with its input, ready to run.
 #[derive(Debug)]
-pub struct Tap {
+pub struct KernelTap {
     kernel: Kernel,
     level: Level,
     format: Format,
@@ -81,7 +81,7 @@ pub struct Tap {
     one: OnePatch,
 }
 
-impl Tap {
+impl KernelTap {
     /// Takes an input up to the kernel.
     ///
     /// # Errors

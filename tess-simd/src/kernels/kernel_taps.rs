@@ -1,4 +1,4 @@
-//! Stages and kernels on their own, over many inputs: what [`crate::Tap`] runs.
+//! Stages and kernels on their own, over many inputs: what [`crate::KernelTap`] runs.
 
 mod numbers;
 mod patches;
@@ -23,7 +23,7 @@ use tess_core::{Domain, DomainPoint, FactorContext, Parity, PatchFactors};
 
 macro_rules! kernels {
     ($($name:ident),* $(,)?) => {
-        /// The stages and kernels that a [`crate::Tap`] runs, each named after its file.
+        /// The stages and kernels that a [`crate::KernelTap`] runs, each named after its file.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[expect(missing_docs, reason = "the table of `tests/kernels` says what each takes and gives")]
         pub enum Kernel {

@@ -1,4 +1,4 @@
-//! The model's answers for each kernel, in the order in which `Tap::words` lists it: numbers and the front end.
+//! The model's answers for each kernel, in the order in which `KernelTap::words` lists it: numbers and the front end.
 
 mod output;
 

@@ -24,14 +24,14 @@
 //!
 //! `stages/points/quad` in round 6 takes regular quads of fractional-even factors. For each of them the model walks
 //! its points, and [`Words::points`] notes two words a point under the names `u of point` and `v of point`. The
-//! [`Tap`] takes the same patches through the front end and lets `stages/points` write them into a buffer of exactly
+//! [`KernelTap`] takes the same patches through the front end and lets `stages/points` write them into a buffer of exactly
 //! that size, twice: what is kept from run to run must change nothing. If word 9 of patch 2 differs, the message has the
 //! entry, the level, the round, `v of point 4`, both words, and the patch as a case that `tess` reads.
 //!
 //! # Adding one
 //!
 //! 1. Give the kernel a variant of `Kernel` and an arm in `src/kernels/kernel_taps`, which is compiled for each level.
-//! 2. Write in `references` what the model gives, in the order in which `Tap::words` lists the output.
+//! 2. Write in `references` what the model gives, in the order in which `KernelTap::words` lists the output.
 //! 3. Add a line to [`TABLE`]. A kernel without one fails the test.
 //! 4. Plant a fault in the kernel, see the test name it, and add the fault to `dev/xtask/faults/simd.faults`.
 
@@ -45,7 +45,7 @@ use inputs::Class::{self, Any, Compact, CompactFractional, CompactRegular, Regul
 use inputs::{Draw, Patches, numbers as draw};
 use references as the;
 use tess_core::{Config, Domain, Order, OutputPrimitive, Parity, Partitioning, Patch, SplitOrder};
-use tess_simd::{Format, Input, Kernel, Level, Tap};
+use tess_simd::{Format, Input, Kernel, KernelTap, Level};
 use words::{Difference, Words};
 
 /// The seed of all inputs.
@@ -249,8 +249,8 @@ impl Entry {
     }
 
     /// The tap of a case, whose sizes are known.
-    pub(crate) fn tap(&self, case: &Case, level: Level) -> Tap {
-        Tap::new(self.kernel, level, &case.input).unwrap_or_else(|error| panic!("{error}"))
+    pub(crate) fn tap(&self, case: &Case, level: Level) -> KernelTap {
+        KernelTap::new(self.kernel, level, &case.input).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Runs the kernel twice, as what it keeps from run to run may change what it does, and compares its output.

@@ -20,11 +20,11 @@ use structure::{PointRun, Stitch};
 /// Where a part of a patch comes from, or every stage of the patch: text, and JSON with the feature `serde`.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Explanation(Report);
+pub struct Explanation(PartReport);
 
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(untagged))]
-enum Report {
+enum PartReport {
     Patch(Box<PatchReport>),
     Factor(FactorReport),
     Point(PointReport),
@@ -36,10 +36,10 @@ impl Explanation {
     #[must_use]
     pub fn new(case: &Case, part: Part) -> Option<Self> {
         Some(Self(match part {
-            Part::Patch => Report::Patch(Box::new(PatchReport::new(case))),
-            Part::Factor(k) => Report::Factor(FactorReport::new(case, k)?),
-            Part::Point(i) => Report::Point(PointReport::new(&case.patch(), i)?),
-            Part::Primitive(t) => Report::Primitive(PrimitiveReport::new(&case.patch(), t)?),
+            Part::Patch => PartReport::Patch(Box::new(PatchReport::new(case))),
+            Part::Factor(k) => PartReport::Factor(FactorReport::new(case, k)?),
+            Part::Point(i) => PartReport::Point(PointReport::new(&case.patch(), i)?),
+            Part::Primitive(t) => PartReport::Primitive(PrimitiveReport::new(&case.patch(), t)?),
         }))
     }
 }
@@ -47,10 +47,10 @@ impl Explanation {
 impl fmt::Display for Explanation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
-            Report::Patch(report) => report.fmt(f),
-            Report::Factor(report) => report.fmt(f),
-            Report::Point(report) => report.fmt(f),
-            Report::Primitive(report) => report.fmt(f),
+            PartReport::Patch(report) => report.fmt(f),
+            PartReport::Factor(report) => report.fmt(f),
+            PartReport::Point(report) => report.fmt(f),
+            PartReport::Primitive(report) => report.fmt(f),
         }
     }
 }

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use std::time::Instant;
 use tess_testkit::circuit;
 use tess_testkit::listed::ListedFault;
-use tess_testkit::verdict::Verdict;
+use tess_testkit::verdict::BenchVerdict;
 use tess_verify::generate::{GenLevel, Selection};
 
 /// Random patches that find every fault, and those by whose clocks the slow ones are found.
@@ -33,7 +33,7 @@ fn build() -> Result<PathBuf, String> {
     let folder = build_folder().join("rtl");
     let mut script = script()?;
     let said = run(script.env("TESS_VERILOG_BUILD", &folder).args(["+random=100", "+resets=10"]))?;
-    Verdict::read(&said, 100)?;
+    BenchVerdict::read(&said, 100)?;
     Ok(folder.join("Vtb_tess"))
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn equals_model() -> Result<(), Failed> {
     let stimuli = format!("+stimuli={}", file.display());
     let mut bench = Command::new(bench()?);
     let said = run(bench.args([&stimuli, "+random=20000", "+gaps", "+resets=800", "+covered"]))?;
-    Verdict::read(&said, count)?;
+    BenchVerdict::read(&said, count)?;
     Ok(())
 }
 
@@ -65,14 +65,14 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
         bench.arg(format!("+fault={fault}")).args(arguments);
         bench
     };
-    Verdict::read(&run(&mut bench(0, &ALL))?, 20_000)?;
-    let clocks = Verdict::read(&run(&mut bench(0, &TIMED))?, 500)?.clocks;
+    BenchVerdict::read(&run(&mut bench(0, &ALL))?, 20_000)?;
+    let clocks = BenchVerdict::read(&run(&mut bench(0, &TIMED))?, 500)?.clocks;
     for (number, fault) in circuit::faults(&repository())? {
         let began = Instant::now();
         let ListedFault { name, tests: seen_by, filters: words, .. } = &fault;
         let (is_seen, said) = if seen_by == "clocks" {
             let said = run(&mut bench(number, &TIMED))?;
-            (Verdict::read(&said, 500)?.clocks > clocks, said)
+            (BenchVerdict::read(&said, 500)?.clocks > clocks, said)
         } else {
             let output = output(&mut bench(number, &ALL))?;
             let said = text(&output.stdout);

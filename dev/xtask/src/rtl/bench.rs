@@ -5,7 +5,7 @@ use crate::command::{self, cargo, in_file, target};
 use crate::setup;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use tess_testkit::verdict::Verdict;
+use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
 
 /// The program that Verilator built, and where its files lie.
@@ -52,9 +52,9 @@ impl Bench {
         &self,
         arguments: &[&str],
         patches: usize,
-    ) -> Result<(Verdict, String), String> {
+    ) -> Result<(BenchVerdict, String), String> {
         let (succeeded, said) = output(&self.program, arguments)?;
-        match Verdict::read(&said, patches as u64) {
+        match BenchVerdict::read(&said, patches as u64) {
             Ok(verdict) if succeeded => Ok((verdict, said)),
             _ => Err(format!("`{}` {}:\n{said}", self.program.display(), arguments.join(" "))),
         }

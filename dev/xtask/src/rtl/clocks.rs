@@ -3,7 +3,7 @@
 use super::bench::Bench;
 use super::sources;
 use crate::command;
-use tess_testkit::verdict::Verdict;
+use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
 use tess_verify::generate::{Calls, Workload};
 
@@ -78,8 +78,8 @@ fn line<'a>(said: &'a str, prefix: &str) -> Result<&'a str, String> {
         .ok_or_else(|| format!("the bench does not say `{prefix}`:\n{said}"))
 }
 
-fn row(name: &str, verdict: Verdict, between: &str) -> String {
-    let Verdict { patches, points, primitives, clocks } = verdict;
+fn row(name: &str, verdict: BenchVerdict, between: &str) -> String {
+    let BenchVerdict { patches, points, primitives, clocks } = verdict;
     let rate = |elements: u64| {
         let thousandths = elements * 1000 / clocks.max(1);
         format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn rates_have_three_places() {
-        let verdict = Verdict { patches: 1, points: 9, primitives: 8, clocks: 16 };
+        let verdict = BenchVerdict { patches: 1, points: 9, primitives: 8, clocks: 16 };
         let expected = "| `x` | 1 | 9 | 8 | 16 | 0.562 | 0.500 | 3 |";
         assert_eq!(row("x", verdict, "3"), expected, "a row");
     }

@@ -41,7 +41,7 @@ pub(crate) struct Extracted {
     pub(crate) wireframe: bool,
 }
 
-type Surface<'a> = (
+type ExtractedSurface<'a> = (
     Entity,
     &'a Tessellated,
     &'a GlobalTransform,
@@ -57,7 +57,7 @@ pub(crate) fn extract(
     casting: Extract<Res<Casting>>,
     programs: Extract<Res<Programs>>,
     assets: Extract<Res<AssetServer>>,
-    surfaces: Extract<Query<Surface<'_>>>,
+    surfaces: Extract<Query<ExtractedSurface<'_>>>,
 ) {
     extracted.items.clear();
     extracted.wireframe = settings.wireframe;

@@ -15,12 +15,12 @@ type Run = [u32; 2];
 
 /// Which numbers below `end` are free.
 #[derive(Debug, Default)]
-struct Runs {
+struct FreeRuns {
     free: BTreeMap<u32, u32>,
     end: u32,
 }
 
-impl Runs {
+impl FreeRuns {
     /// Replaces a run that has another length.
     fn resize(&mut self, run: &mut Run, length: usize) -> Result<(), String> {
         if run[1] as usize == length {
@@ -80,10 +80,10 @@ pub(crate) struct Places {
     all: HashMap<MainEntity, Place>,
     /// The words of shapes by address, and how many entities have each.
     words: HashMap<usize, (Run, u32)>,
-    slots: Runs,
-    patches: Runs,
-    values: Runs,
-    free_words: Runs,
+    slots: FreeRuns,
+    patches: FreeRuns,
+    values: FreeRuns,
+    free_words: FreeRuns,
     /// The instance of each patch.
     pub(crate) owners: Growing,
     /// The words of all shapes.
@@ -257,8 +257,8 @@ mod tests {
 
     #[test]
     fn freed_runs_are_used_again() {
-        let mut runs = Runs::default();
-        let take = |runs: &mut Runs, length| {
+        let mut runs = FreeRuns::default();
+        let take = |runs: &mut FreeRuns, length| {
             let mut run = Run::default();
             runs.resize(&mut run, length).expect("there is room");
             run

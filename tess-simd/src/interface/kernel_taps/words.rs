@@ -1,6 +1,6 @@
 //! The output of taps, as words that can be compared.
 
-use super::Tap;
+use super::KernelTap;
 use crate::data::lanes::LANES;
 use crate::kernels::kernel_taps::Kernel;
 use crate::stages::counts::{PacketCounts, PartCounts};
@@ -10,7 +10,7 @@ use crate::stages::place::Spacing;
 use alloc::vec::Vec;
 use tess_core::Counts;
 
-impl Tap {
+impl KernelTap {
     /// The output of the last run, as words: of each type in turn.
     #[must_use]
     pub fn words(&self) -> Vec<u32> {

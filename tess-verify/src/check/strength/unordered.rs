@@ -57,7 +57,7 @@ pub(crate) fn first_difference(
     if elements == Elements::Primitives && observed == expected {
         return None;
     }
-    let known = Places::of(expected);
+    let known = DistinctPlaces::of(expected);
     let ranks = [known.ranks(observed), known.ranks(expected)];
     points(elements, observed, &known, &ranks).or_else(|| match elements {
         Elements::Points => None,
@@ -70,13 +70,13 @@ pub(crate) fn first_difference(
 
 /// The first point that is not listed as often as it must be where primitives count.
 pub(crate) fn first_stray(observed: &Tessellation, expected: &Tessellation) -> Option<Difference> {
-    let known = Places::of(expected);
+    let known = DistinctPlaces::of(expected);
     let ranks = [known.ranks(observed), known.ranks(expected)];
     points(Elements::Primitives, observed, &known, &ranks)
 }
 
 /// The distinct places of the model's points, ascending: bits of u above bits of v.
-struct Places(Vec<u64>);
+struct DistinctPlaces(Vec<u64>);
 
 /// The number of a place among them; [`NOWHERE`] for others. A patch has at most 4225 points.
 type Rank = u16;
@@ -84,7 +84,7 @@ type Rank = u16;
 const RANK: u32 = 13;
 const NOWHERE: Rank = (1 << RANK) - 1;
 
-impl Places {
+impl DistinctPlaces {
     fn of(output: &Tessellation) -> Self {
         let mut places: Vec<u64> = output.points.iter().map(place).collect();
         places.sort_unstable();
@@ -121,7 +121,7 @@ impl Places {
 fn points(
     elements: Elements,
     observed: &Tessellation,
-    known: &Places,
+    known: &DistinctPlaces,
     ranks: &[Vec<Rank>; 2],
 ) -> Option<Difference> {
     let times = ranks.each_ref().map(|ranks| known.times(ranks));
@@ -165,7 +165,7 @@ fn all_used(output: &Tessellation, ranks: &[Rank], places: usize) -> Vec<bool> {
 /// coinciding ones may have been merged.
 fn primitives(
     size: usize,
-    known: &Places,
+    known: &DistinctPlaces,
     outputs: [(&Tessellation, &Vec<Rank>); 2],
 ) -> Option<Difference> {
     let [observed, expected] =
@@ -331,7 +331,7 @@ mod tests {
         let points = [(0, 0x1_0000), (0, 0), (0x1_0000, 0)];
         let points = points.map(|(u, v)| DomainPoint::from_bits(u, v)).to_vec();
         let output = Tessellation { points, indices: vec![0, 1, 2] };
-        let known = Places::of(&output);
+        let known = DistinctPlaces::of(&output);
         let ranks = known.ranks(&output);
         assert_eq!(ranks, [1, 0, 2], "by u, then v");
         let key = |[a, b, c]: [u64; 3]| a << 26 | b << 13 | c;

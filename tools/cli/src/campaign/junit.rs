@@ -1,6 +1,6 @@
 //! `JUnit` XML, in the form that Jenkins, GitLab and their like read.
 
-use super::report::{First, Part, Report, State, period_text};
+use super::report::{First, Report, ReportPart, RunState, period_text};
 use std::fmt::Write;
 
 /// Some test cases under a name.
@@ -45,12 +45,12 @@ impl JunitSuite {
             milliseconds: None,
             outcome,
         };
-        let outcome = |part: &Part| {
+        let outcome = |part: &ReportPart| {
             Outcome::of((part.mismatches, part.cases), part.first.as_ref(), report.period)
         };
         let mut tests: Vec<JunitCase> =
             report.parts.iter().map(|part| test(&part.name, outcome(part))).collect();
-        if report.state != State::Done || tests.is_empty() {
+        if report.state != RunState::Done || tests.is_empty() {
             tests.push(test("run", of_end(report)));
         }
         Self { name, milliseconds: report.milliseconds, tests }
@@ -116,9 +116,9 @@ impl Outcome {
 fn of_end(report: &Report) -> Outcome {
     let message = report.message.clone().unwrap_or_default();
     match report.state {
-        State::Done => Outcome::Passed,
-        State::Interrupted => Outcome::Error("interrupted".to_owned(), message),
-        State::Failed => Outcome::Error("failed".to_owned(), message),
+        RunState::Done => Outcome::Passed,
+        RunState::Interrupted => Outcome::Error("interrupted".to_owned(), message),
+        RunState::Failed => Outcome::Error("failed".to_owned(), message),
     }
 }
 
@@ -150,8 +150,12 @@ mod tests {
 
     #[test]
     fn a_run_is_a_document() {
-        let part =
-            |name: &str, mismatches| Part { name: name.into(), cases: 9, mismatches, first: None };
+        let part = |name: &str, mismatches| ReportPart {
+            name: name.into(),
+            cases: 9,
+            mismatches,
+            first: None,
+        };
         let parts = vec![part("level-1 simd", 0), part("a<b>&\"c\u{1}\"", 2)];
         let (command, message) = ("verify".to_owned(), Some("two\nlines".to_owned()));
         let run = Report { command, parts, message, shard: 3, shards: 8, ..Report::default() };

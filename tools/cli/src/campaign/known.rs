@@ -3,7 +3,7 @@
 use super::Placed;
 use super::invocation::digest;
 use super::recorder::Recorder;
-use super::report::{First, KnownCases, Part};
+use super::report::{First, KnownCases, ReportPart};
 use crate::failure::{Exit, Failure};
 use crate::input;
 use crate::output::{Role, counted, note};
@@ -130,7 +130,7 @@ impl Baseline {
                 let first =
                     Some(First { case: None, difference: fault.clone(), ..First::default() });
                 let name = "baseline".to_owned();
-                report.add_parts([Part { name, cases: number, mismatches: number, first }]);
+                report.add_parts([ReportPart { name, cases: number, mismatches: number, first }]);
             }
         });
         if faults.is_empty() || exit != Exit::Done { exit } else { Exit::Different }

@@ -2,7 +2,7 @@
 
 use super::invocation::{Invocation, commit, executable};
 use super::junit::JunitSuite;
-use super::report::{FORMAT, Report, State};
+use super::report::{FORMAT, Report, RunState};
 use super::shard::Placed;
 use crate::failure::{Exit, Failure};
 use crate::output::ending::{self, Guard};
@@ -79,7 +79,7 @@ impl ReportArgs {
     }
 
     fn interrupt(&self, live: Live) {
-        let report = live.ended(State::Interrupted);
+        let report = live.ended(RunState::Interrupted);
         for (path, text) in self.contents(&report) {
             // Nobody is left to be told; `tess merge` says that the report is missing.
             _ = OutputArgs { file: path.to_owned() }.write(text.as_bytes());
@@ -111,7 +111,7 @@ struct Live {
 }
 
 impl Live {
-    fn ended(self, state: State) -> Report {
+    fn ended(self, state: RunState) -> Report {
         let time = self.since.elapsed().as_millis();
         Report { state, milliseconds: u64::try_from(time).unwrap_or(u64::MAX), ..self.report }
     }
@@ -147,9 +147,9 @@ impl Recorder {
     pub(crate) fn finish(self, ended: Result<Exit, Failure>) -> Result<Exit, Failure> {
         let Some(live) = lock(&self.live).take() else { return ended };
         let state = match &ended {
-            Ok(_) => State::Done,
-            Err(failure) if failure.exit == Exit::ReaderLeft => State::Interrupted,
-            Err(_) => State::Failed,
+            Ok(_) => RunState::Done,
+            Err(failure) if failure.exit == Exit::ReaderLeft => RunState::Interrupted,
+            Err(_) => RunState::Failed,
         };
         let message = ended.as_ref().err().map(ToString::to_string);
         let report = Report { message, ..live.ended(state) };

@@ -35,7 +35,7 @@ pub(crate) struct Report {
     #[serde(default)]
     pub(crate) shard_from: Option<String>,
     /// How the run ended.
-    pub(crate) state: State,
+    pub(crate) state: RunState,
     /// Why it failed.
     #[serde(default)]
     pub(crate) message: Option<String>,
@@ -54,7 +54,7 @@ pub(crate) struct Report {
     pub(crate) known: Option<KnownCases>,
     /// The cases and mismatches again, in parts.
     #[serde(default)]
-    pub(crate) parts: Vec<Part>,
+    pub(crate) parts: Vec<ReportPart>,
     /// The hits of this run, in the order of `Coverage::bins`.
     #[serde(default)]
     pub(crate) coverage: Option<Vec<u64>>,
@@ -64,7 +64,7 @@ pub(crate) struct Report {
 /// How a run ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum State {
+pub(crate) enum RunState {
     /// Everything was compared.
     Done,
     /// A signal ended it, or the reader of stdout left.
@@ -126,7 +126,7 @@ pub(crate) struct KnownCases {
 /// Some of the cases, under a name.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Part {
+pub(crate) struct ReportPart {
     pub(crate) name: String,
     pub(crate) cases: u64,
     pub(crate) mismatches: u64,
@@ -136,7 +136,7 @@ pub(crate) struct Part {
 
 impl Report {
     /// Adds parts to the report and to its sums.
-    pub(crate) fn add_parts(&mut self, parts: impl IntoIterator<Item = Part>) {
+    pub(crate) fn add_parts(&mut self, parts: impl IntoIterator<Item = ReportPart>) {
         for part in parts {
             self.add(&part);
             if self.first.is_none() {
@@ -147,13 +147,13 @@ impl Report {
     }
 
     /// Adds to the sums. A report of others may be at their end.
-    fn add(&mut self, part: &Part) {
+    fn add(&mut self, part: &ReportPart) {
         self.cases = self.cases.saturating_add(part.cases);
         self.mismatches = self.mismatches.saturating_add(part.mismatches);
     }
 
     /// Adds to the part of this name and to the sums.
-    pub(crate) fn add_to_part(&mut self, name: &str, more: Part) {
+    pub(crate) fn add_to_part(&mut self, name: &str, more: ReportPart) {
         self.add(&more);
         let known = self.parts.iter_mut().find(|part| part.name == name);
         match known {
@@ -162,7 +162,7 @@ impl Report {
                 part.mismatches = part.mismatches.saturating_add(more.mismatches);
                 part.first = part.first.take().or(more.first);
             }
-            None => self.parts.push(Part { name: name.to_owned(), ..more }),
+            None => self.parts.push(ReportPart { name: name.to_owned(), ..more }),
         }
     }
 
@@ -206,8 +206,9 @@ impl Report {
         if mismatches > cases && self.command != "check" {
             return Some(format!("{mismatches} mismatches of {cases} cases"));
         }
-        let sum =
-            |number: fn(&Part) -> u64| self.parts.iter().map(number).fold(0, u64::saturating_add);
+        let sum = |number: fn(&ReportPart) -> u64| {
+            self.parts.iter().map(number).fold(0, u64::saturating_add)
+        };
         let sums = (sum(|part| part.cases), sum(|part| part.mismatches));
         (!self.parts.is_empty() && sums != (*cases, *mismatches)).then(|| {
             let (of_cases, of_mismatches) = sums;

@@ -26,26 +26,26 @@ pub(crate) use patch::without_patch_if_cases;
 /// The commands of the program.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    Patch(patch::Args),
-    Explain(explain::Args),
-    Draw(draw::Args),
-    Check(check::Args),
-    Coverage(coverage::Args),
-    Bench(bench::Args),
-    Mesh(mesh::Args),
-    Gen(r#gen::Args),
-    Merge(merge::Args),
+    Patch(patch::PatchCommand),
+    Explain(explain::ExplainCommand),
+    Draw(draw::DrawCommand),
+    Check(check::CheckCommand),
+    Coverage(coverage::CoverageCommand),
+    Bench(bench::BenchCommand),
+    Mesh(mesh::MeshCommand),
+    Gen(r#gen::GenCommand),
+    Merge(merge::MergeCommand),
     #[cfg(feature = "probe")]
-    Probe(probe::Args),
+    Probe(probe::ProbeCommand),
     #[cfg(not(feature = "probe"))]
     #[command(hide = true)]
     Probe(LeftOut),
     #[cfg(feature = "shaders")]
-    Shaders(shaders::Args),
+    Shaders(shaders::ShadersCommand),
     #[cfg(not(feature = "shaders"))]
     #[command(hide = true)]
     Shaders(LeftOut),
-    Verify(verify::Args),
+    Verify(verify::VerifyCommand),
 }
 
 /// A command that this build leaves out, whatever it is asked.

@@ -37,7 +37,7 @@ soon as it is measured; what could not be measured is left out and named at the 
 uniform-1 to uniform-64, seed-table, terrain, character, mosaic, mosaic-even, meshes, single, worst. Those of single are
 one patch a call: single/uniform-1 to -8 the same patch again, which is faster than any other; single/unlike-1 to -64
 patches of the same output whose factors differ from call to call; and the scenes, whose neighbours are unlike.")]
-pub(crate) struct Args {
+pub(crate) struct BenchCommand {
     /// Workload or family of workloads; may be repeated [default: all]
     #[arg(long, value_name = "NAME")]
     workload: Vec<String>,
@@ -73,7 +73,7 @@ pub(crate) struct Args {
 }
 
 /// Runs the command. Errors: an unknown workload, a backend that is not available, stdout that cannot be written.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &BenchCommand) -> Result<Exit, Failure> {
     let workloads = find_workloads(&args.workload)?;
     let working_sets = match &args.working_set[..] {
         [] => &[WorkingSet::Cache, WorkingSet::Stream],
@@ -138,7 +138,7 @@ fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Resul
 
 /// The runner of the backend, with a CPU level that this machine has. Errors: exit code 3 if the backend is not
 /// available.
-fn runner(args: &Args, level: Level) -> Result<Box<dyn Runner>, Failure> {
+fn runner(args: &BenchCommand, level: Level) -> Result<Box<dyn Runner>, Failure> {
     match args.backend {
         BackendName::Core => Ok(Box::new(core::runner())),
         BackendName::Simd => simd::runner(args, level),

@@ -1,6 +1,6 @@
 //! The SIMD backend under the clock: points as binary32 pairs, into the caller's buffers.
 
-use super::Args;
+use super::BenchCommand;
 use super::cpu::{CpuRunner, Kernel};
 use super::runner::{Description, Runner};
 use crate::failure::Failure;
@@ -17,14 +17,14 @@ use tess_verify::BackendError;
 use tess_verify::generate::{Calls, IndexWidth, Workload};
 
 /// The runner for these options. Errors: the threads cannot be started.
-pub(super) fn runner(args: &Args, level: Level) -> Result<Box<dyn Runner>, Failure> {
+pub(super) fn runner(args: &BenchCommand, level: Level) -> Result<Box<dyn Runner>, Failure> {
     // The calling thread is one of the pool, so that a run starts without waiting for another.
     let pool = ThreadPoolBuilder::new()
         .num_threads(args.threads as usize)
         .use_current_thread()
         .build()
         .map_err(|error| Failure::unavailable(format!("cannot start threads: {error}")))?;
-    let Args { threads, frame, order, .. } = *args;
+    let BenchCommand { threads, frame, order, .. } = *args;
     let remark = frame.map(|mebibytes| format!(", frames of {mebibytes} MiB"));
     let description = Description {
         backend: "simd",

@@ -75,7 +75,7 @@ Examples:
   tess check device.txt --rules vulkan --cases asked.txt --known baseline.txt
   tess check device.txt --known deviations.txt
   tess check device-3.txt --cases asked-3.txt --report report-3.jsonl --junit junit-3.xml")]
-pub(crate) struct Args {
+pub(crate) struct CheckCommand {
     /// Vector file; - is stdin
     #[arg(value_name = "FILE")]
     file: PathBuf,
@@ -117,7 +117,7 @@ pub(crate) struct Args {
 ///
 /// # Errors
 /// Malformed, short or empty input; a backend that is not available.
-pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &CheckCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     refuse_shared(&args.roles()?)?;
     args.known.refuse_judged("the file to check", &Role::input("FILE", &args.file))?;
     if let Some(cases) = &args.cases {
@@ -153,7 +153,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
 
 /// Compares the records of a file.
 fn compare(
-    args: &Args,
+    args: &CheckCommand,
     file: VectorFile<Reader>,
     mut asked: Option<Cases<Reader>>,
     known: &Known,
@@ -207,7 +207,7 @@ fn compare(
     Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
 }
 
-impl Args {
+impl CheckCommand {
     /// The files of the command.
     ///
     /// # Errors
@@ -262,7 +262,7 @@ impl Args {
 }
 
 /// One backend for each thread: the model runs on every core, the others use them by themselves.
-fn backends(args: &Args) -> Result<Vec<Box<dyn Backend>>, Failure> {
+fn backends(args: &CheckCommand) -> Result<Vec<Box<dyn Backend>>, Failure> {
     let name = args.backend.unwrap_or(BackendName::Core);
     args.options.fit(&[name])?;
     let threads = match name {

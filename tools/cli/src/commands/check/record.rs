@@ -1,6 +1,6 @@
 //! Entries that a check adds to the report of its run.
 
-use crate::campaign::report::{First, Part, Report};
+use crate::campaign::report::{First, Report, ReportPart};
 use crate::campaign::{Placed, ShardArgs, shard};
 use crate::failure::Failure;
 use tess_verify::check::{self, Checked, Difference, SpecStage};
@@ -17,7 +17,8 @@ fn part_of(case: Option<Case>) -> String {
 /// Adds records as they are checked.
 pub(super) fn add(report: &mut Report, checked: Checked<'_>) {
     for (record, different) in checked.records.iter().zip(checked.different) {
-        let part = Part { cases: 1, mismatches: u64::from(*different), ..Part::default() };
+        let part =
+            ReportPart { cases: 1, mismatches: u64::from(*different), ..ReportPart::default() };
         report.add_to_part(&part_of(record.case()), part);
     }
 }
@@ -27,10 +28,10 @@ const OTHERS: &str = "missing answers, answers to other cases, contradictions";
 
 /// Adds what is known at the end: stages, differences, and mismatches that no record shows by itself.
 pub(super) fn finish(report: &mut Report, found: &check::Report) {
-    let others = Part {
+    let others = ReportPart {
         cases: found.cases.saturating_sub(report.cases),
         mismatches: found.mismatches.saturating_sub(report.mismatches),
-        ..Part::default()
+        ..ReportPart::default()
     };
     if others.cases > 0 || others.mismatches > 0 {
         report.add_to_part(OTHERS, others);
@@ -40,7 +41,7 @@ pub(super) fn finish(report: &mut Report, found: &check::Report) {
         let name = if is_other { OTHERS.to_owned() } else { part_of(difference.case) };
         if report.parts.iter().any(|part| part.name == name) {
             let first = Some(first(difference));
-            report.add_to_part(&name, Part { first, ..Part::default() });
+            report.add_to_part(&name, ReportPart { first, ..ReportPart::default() });
         }
     }
     // The threads of a check take turns in no order.

@@ -2,7 +2,7 @@
 
 use super::{failure, record};
 use crate::campaign::Recorder;
-use crate::campaign::report::{First, Part};
+use crate::campaign::report::{First, ReportPart};
 use crate::failure::{Exit, Failure};
 use crate::input::Reader;
 use crate::output::{progress, stdout};
@@ -64,7 +64,7 @@ pub(super) fn run(
         let (cases, mismatches) = (answers.cases, answers.mismatches);
         let first = answers.differences.first().map(record::first);
         let name = "listings answers".to_owned();
-        recorder.update(|record| record.add_parts([Part { name, cases, mismatches, first }]));
+        recorder.update(|record| record.add_parts([ReportPart { name, cases, mismatches, first }]));
         answers.differences.iter().try_for_each(|difference| print(&format!("{difference}\n")))?;
         print(&format!("{answers} of answers\n"))?;
     }
@@ -112,7 +112,8 @@ pub(crate) fn conclude(
             First { case: Some(cases.join("\n")), difference, ..First::default() }
         });
         let (name, mismatches) = (format!("{tested} {name}"), if is_known { 0 } else { *broken });
-        let part = Part { name, cases: *judged, mismatches, first: first.filter(|_| !is_known) };
+        let part =
+            ReportPart { name, cases: *judged, mismatches, first: first.filter(|_| !is_known) };
         recorder.update(|record| record.add_parts([part]));
     }
     Ok(exit)

@@ -35,7 +35,7 @@ Examples:
   tess coverage coverage.xml --domain tri,quad --partitioning integer --split ruler
   tess coverage coverage.xml --exclude device.txt --complete
   tess coverage --covergroups bindings/uvm/src/tess_covergroups.svh")]
-pub(crate) struct Args {
+pub(crate) struct CoverageCommand {
     /// Coverage files; - is stdin
     #[arg(value_name = "FILE", required_unless_present = "covergroups")]
     files: Vec<PathBuf>,
@@ -77,7 +77,7 @@ const MAX_EXCLUDE_BYTES: u64 = 1 << 24;
 
 /// Runs the command. Errors: files that are no coverage files, or given twice; patterns of no bin; places that cannot
 /// be written.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &CoverageCommand) -> Result<Exit, Failure> {
     if let Some(file) = args.covergroups.clone() {
         OutputArgs { file }.write(covergroups::text().as_bytes())?;
         return Ok(Exit::Done);
@@ -103,7 +103,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     Ok(args.judge(&sum, &exclusions))
 }
 
-impl Args {
+impl CoverageCommand {
     fn roles(&self) -> Vec<Role<'_>> {
         let read = self.files.iter().map(|file| Role::input("FILE", file));
         let exclude = self.exclude.iter().map(|file| Role::input("--exclude", file));

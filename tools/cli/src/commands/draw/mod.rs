@@ -22,7 +22,7 @@ Examples:
   tess draw tri --outer 17,5,9 --inner 3 --rings -o fan.png
   tess draw quad --outer 8,8,8,8 --inner 8,8 --backend simd --against core -o both.png
   tess draw tri --outer 4,4,4 --inner 4 --overlay device.txt -o differences.png")]
-pub(crate) struct Args {
+pub(crate) struct DrawCommand {
     #[command(flatten)]
     patch: PatchArgs,
     #[command(flatten)]
@@ -63,7 +63,7 @@ struct DrawArgs {
 
 /// Runs the command. Errors: wrong number of factors, a backend that is not available, a listing that cannot be read
 /// or has no such patch, an output that cannot be written.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &DrawCommand) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
     let format = form::choose(args.format, &args.output.file)?;
     if format == PictureFormat::Png {
@@ -113,7 +113,7 @@ impl DrawArgs {
     }
 }
 
-impl Args {
+impl DrawCommand {
     /// Makes the backend ready that is drawn.
     fn select(&self) -> Result<Box<dyn Backend>, Failure> {
         let BackendArgs { backend, options } = self.backend;

@@ -23,7 +23,7 @@ Examples:
   tess explain tri --outer 2.5,3,1 --inner 3.25 --partitioning fractional_odd --point 7
   tess explain quad --outer 3,4,5,6 --inner 4,7 --primitive 12 --json
   tess explain quad --outer 3,4,5,6 --inner 4,7 --point 20 --observed u=0x4000,v=0x924a")]
-pub(crate) struct Args {
+pub(crate) struct ExplainCommand {
     #[command(flatten)]
     patch: PatchArgs,
     /// Explain only where this domain point comes from
@@ -60,7 +60,7 @@ fn observation(text: &str) -> Result<(String, u32), String> {
 
 /// Runs the command. Errors: wrong number of factors, no such factor, point, primitive or signal, an output that
 /// cannot be written.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &ExplainCommand) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
     let part = args.part();
     let explained = Explained { report: report(&case, part)?, circuit: args.circuit(&case, part)? };
@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     Ok(if differs { Exit::Different } else { Exit::Done })
 }
 
-impl Args {
+impl ExplainCommand {
     fn part(&self) -> Part {
         let point = self.point.map(Part::Point).or(self.primitive.map(Part::Primitive));
         point.or(self.factor.map(Part::Factor)).unwrap_or(Part::Patch)

@@ -4,7 +4,7 @@ mod images;
 mod stages;
 
 use crate::args::{SelectionArgs, name_of};
-use crate::campaign::report::Part;
+use crate::campaign::report::ReportPart;
 use crate::campaign::{Invocation, Placed, Recorder, ReportArgs};
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
@@ -39,7 +39,7 @@ Examples:
   tess gen --level 1 --coverage
   tess gen --level 2 --shard 1/8 --coverage coverage.xml
   tess gen --level 2 --shard 1/8 -o vectors-1.csv --report report-1.jsonl")]
-pub(crate) struct Args {
+pub(crate) struct GenCommand {
     #[command(flatten)]
     selection: SelectionArgs,
     /// Instead of a level, families of patches that the rules of the standards compare; --count more at
@@ -80,7 +80,7 @@ enum VectorFormat {
 }
 
 /// Runs the command. Errors: a selection without any case; an output that cannot be written.
-pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &GenCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     let placed = args.selection.shard.place()?;
     refuse_shared(&args.roles()?)?;
     let recorder = args.report.begin(invocation, placed)?;
@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     recorder.finish(ended)
 }
 
-fn generate(args: &Args, placed: Placed, recorder: &Recorder) -> Result<Exit, Failure> {
+fn generate(args: &GenCommand, placed: Placed, recorder: &Recorder) -> Result<Exit, Failure> {
     let all = args.all();
     let count = placed.shard.items(all);
     if count == 0 && all > 0 {
@@ -121,11 +121,11 @@ fn generate(args: &Args, placed: Placed, recorder: &Recorder) -> Result<Exit, Fa
 }
 
 /// The report's part of what was generated.
-fn part(cases: u64) -> Part {
-    Part { name: "vectors".to_owned(), cases, ..Part::default() }
+fn part(cases: u64) -> ReportPart {
+    ReportPart { name: "vectors".to_owned(), cases, ..ReportPart::default() }
 }
 
-impl Args {
+impl GenCommand {
     /// The files of the command. Errors: the coverage file can be none.
     fn roles(&self) -> Result<Vec<Role<'_>>, Failure> {
         let coverage = self.coverage.iter().flatten().map(|path| coverage_file::role(path));

@@ -2,7 +2,7 @@
 
 use super::again::quoted;
 use super::read::FoundReport;
-use crate::campaign::report::{KnownCases, Part, Report, State};
+use crate::campaign::report::{KnownCases, Report, ReportPart, RunState};
 use crate::failure::Failure;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -174,14 +174,14 @@ impl Campaign {
 
     /// One report of each shard that came to its end.
     pub(super) fn done(&self) -> impl Iterator<Item = &FoundReport> {
-        let done = |one: &&FoundReport| one.report.state == State::Done;
+        let done = |one: &&FoundReport| one.report.state == RunState::Done;
         self.shards.values().filter_map(move |found| found.iter().find(done))
     }
 
     /// One report of each shard that ran once.
     pub(super) fn once(&self) -> impl Iterator<Item = &FoundReport> {
         self.shards.values().filter_map(|found| match &found[..] {
-            [one] if one.report.state == State::Done => Some(one),
+            [one] if one.report.state == RunState::Done => Some(one),
             _ => None,
         })
     }
@@ -204,9 +204,9 @@ impl Campaign {
         }
         let one = &found[0];
         let why = match one.report.state {
-            State::Done => return None,
-            State::Interrupted => "was interrupted".to_owned(),
-            State::Failed => {
+            RunState::Done => return None,
+            RunState::Interrupted => "was interrupted".to_owned(),
+            RunState::Failed => {
                 format!("failed: {}", one.report.message.as_deref().unwrap_or("nothing said why"))
             }
         };
@@ -222,7 +222,7 @@ impl Campaign {
         let mut sum = Report::default();
         for FoundReport { report, .. } in self.done() {
             for part in &report.parts {
-                sum.add_to_part(&part.name, Part { first: None, ..part.clone() });
+                sum.add_to_part(&part.name, ReportPart { first: None, ..part.clone() });
             }
             sum.add_stages(report.stages.iter().map(|(stage, more)| (stage, *more)));
         }

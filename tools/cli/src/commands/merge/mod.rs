@@ -27,7 +27,7 @@ Examples:
   tess merge report-*.jsonl
   tess merge report-*.jsonl --csv shards.csv --junit campaign.xml --coverage coverage.xml
   cat report-*.jsonl | tess merge -")]
-pub(crate) struct Args {
+pub(crate) struct MergeCommand {
     /// Reports of shards; - is stdin
     #[arg(value_name = "REPORT", required = true)]
     reports: Vec<PathBuf>,
@@ -44,7 +44,7 @@ pub(crate) struct Args {
 
 /// Runs the command. Errors: a file that is no report; files that cannot be read or written; shards without coverage
 /// where it is asked for.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &MergeCommand) -> Result<Exit, Failure> {
     refuse_shared(&args.roles())?;
     for path in args.outputs().filter_map(|(_, path)| path) {
         OutputArgs { file: path.to_owned() }.require_writable()?;
@@ -74,7 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     })
 }
 
-impl Args {
+impl MergeCommand {
     fn outputs(&self) -> impl Iterator<Item = (&'static str, Option<&Path>)> {
         let outputs =
             [("--csv", &self.csv), ("--junit", &self.junit), ("--coverage", &self.coverage)];

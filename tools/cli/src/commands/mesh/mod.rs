@@ -47,7 +47,7 @@ Examples:
   tess mesh --factor 4 --wireframe -o teapot.png
   tess mesh bunny.obj --pixels 8 --eye 0,0.1,0.5 -o bunny.glb
   tess mesh rock.glb --displace height.png --height 0.1 --tolerance 0.01 -o rock.obj")]
-pub(crate) struct Args {
+pub(crate) struct MeshCommand {
     /// Model to read: .obj, .gltf, .glb or .bpt [default: the Newell teapot]
     #[arg(value_name = "IN")]
     input: Option<PathBuf>,
@@ -163,7 +163,7 @@ fn too_high(error: HeightError) -> Failure {
 }
 
 /// Runs the command. Errors: a model that cannot be read or tessellated, an output that cannot be written.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &MeshCommand) -> Result<Exit, Failure> {
     let form = args.form()?;
     let part = output::part_beside(&args.output, form);
     refuse_shared(&args.roles(&[], part.as_deref()))?;
@@ -199,7 +199,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-impl Args {
+impl MeshCommand {
     /// The files of the command: with the buffers beside the model that it reads, and the binary part
     /// beside the result that it writes.
     fn roles<'a>(&'a self, buffers: &'a [PathBuf], part: Option<&'a Path>) -> Vec<Role<'a>> {

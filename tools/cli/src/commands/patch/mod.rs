@@ -20,7 +20,7 @@ Examples:
   tess patch isoline --outer 4,8 -o lines.obj
   tess patch --cases failing.txt -o right.txt
   echo case isoline integer line ruler 40000000 40400000 | tess patch --cases -")]
-pub(crate) struct Args {
+pub(crate) struct PatchCommand {
     #[command(flatten)]
     patch: Option<PatchArgs>,
     /// Instead of one patch, the cases of a vector file, or lines that begin with `case`; - is stdin
@@ -44,7 +44,7 @@ pub(crate) fn without_patch_if_cases(command: clap::Command) -> clap::Command {
 
 /// Runs the command. Errors: wrong number of factors, cases that cannot be read, a backend that is not available, an
 /// output that cannot be written.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &PatchCommand) -> Result<Exit, Failure> {
     let format = form::choose(args.format, &args.output.file)?;
     let patch = match (&args.cases, &args.patch) {
         (Some(cases), _) => return args.run_cases(cases, format),
@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-impl Args {
+impl PatchCommand {
     /// Tessellates the cases one after another into one file of listings. How many there are shows
     /// at the end, so the header has no count, and the file marks its end.
     fn run_cases(&self, path: &Path, format: Format) -> Result<Exit, Failure> {

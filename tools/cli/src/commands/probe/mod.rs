@@ -5,7 +5,7 @@ mod bench;
 
 use super::check::{CONVERSIONS, DENORMALS, rules};
 use crate::args::{Choices, SelectionArgs, choice, name_of};
-use crate::campaign::report::{First as FirstOf, PASSES_ALONE, Part, Report};
+use crate::campaign::report::{First as FirstOf, PASSES_ALONE, Report, ReportPart};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs};
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
@@ -43,7 +43,7 @@ Examples:
   tess probe --known deviations.txt
   tess probe --rules vulkan
   tess probe --bench                    is compute faster than the hardware?")]
-pub(crate) struct Args {
+pub(crate) struct ProbeCommand {
     /// List the devices and end
     #[arg(long)]
     list: bool,
@@ -104,13 +104,13 @@ const LIST_ORDERS: Choices<ListOrder> = &[
 
 /// Runs the command. Errors: no Vulkan, no such device, one that cannot be captured, or one that fails; no case to
 /// ask; an output that cannot be written.
-pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &ProbeCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     if args.list {
         return args.list_devices();
     }
     #[cfg(feature = "shaders")]
     if args.bench {
-        let Args { device, workload, checks, json, output, .. } = args;
+        let ProbeCommand { device, workload, checks, json, output, .. } = args;
         return bench::run(*device, workload, *checks, *json, output).map(|()| Exit::Done);
     }
     let placed = match args.rules {
@@ -132,7 +132,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     known.finish(recorder, placed, ended)
 }
 
-impl Args {
+impl ProbeCommand {
     /// Compares the device with the model.
     fn compare(
         &self,
@@ -239,7 +239,7 @@ fn note_parts(record: &mut Report, report: &ProbeReport) {
         difference: difference.clone(),
         passes_alone,
     };
-    record.add_parts(report.rows.iter().map(|row| Part {
+    record.add_parts(report.rows.iter().map(|row| ReportPart {
         name: format!("{} {} {}", row.domain, row.partitioning, row.output),
         cases: row.patches,
         mismatches: row.different,

@@ -1,6 +1,6 @@
 //! A stage in each language, through naga's writers.
 
-use super::manifest::{Binding, Kind, Sizes, Stage as Described};
+use super::manifest::{Binding, Kind, MetalSizes, Stage as Described};
 use super::structures::ends_open;
 use super::translation::{Checks, Target, Translation};
 use naga::back::{glsl, hlsl, msl, spv};
@@ -70,7 +70,7 @@ impl Translation {
 
     fn describe(self, read: &Read, file: String, entry_point: String) -> Described {
         let sizes = (self.target == Target::Msl && self.checks == Checks::Full)
-            .then(|| Sizes { buffer: read.sizes_slot(), of_bindings: read.unsized_bindings() })
+            .then(|| MetalSizes { buffer: read.sizes_slot(), of_bindings: read.unsized_bindings() })
             .filter(|sizes| !sizes.of_bindings.is_empty());
         Described {
             name: read.stage.entry_point(),

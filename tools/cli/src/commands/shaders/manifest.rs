@@ -25,7 +25,7 @@ pub(super) struct Manifest {
     pub(super) translation: Translation,
     pub(super) setup: Described,
     pub(super) stages: Vec<Stage>,
-    pub(super) resources: Vec<Role>,
+    pub(super) resources: Vec<ResourceRole>,
     /// Bytes between two jobs in their buffer.
     pub(super) job_stride: u64,
     pub(super) plans: Vec<Variant>,
@@ -58,7 +58,7 @@ pub(super) struct Stage {
     pub(super) workgroup_size: [u32; 3],
     pub(super) bindings: Vec<Binding>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) msl_sizes: Option<Sizes>,
+    pub(super) msl_sizes: Option<MetalSizes>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -81,14 +81,14 @@ pub(super) enum Kind {
 
 /// The buffer of Metal in which the host says how long others are: a word for each binding.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Sizes {
+pub(super) struct MetalSizes {
     pub(super) buffer: u32,
     pub(super) of_bindings: Vec<u32>,
 }
 
 /// The use that the host makes of a buffer.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Role {
+pub(super) struct ResourceRole {
     #[serde(serialize_with = "resource_name")]
     pub(super) resource: Resource,
     pub(super) host: Host,
@@ -121,7 +121,7 @@ impl Manifest {
         plans: Vec<Variant>,
         structures: Vec<Structure>,
     ) -> Self {
-        let role = |resource| Role { resource, host: Host::of(resource) };
+        let role = |resource| ResourceRole { resource, host: Host::of(resource) };
         Self {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION"),

@@ -38,7 +38,7 @@ Examples:
   tess shaders --target hlsl --domain tri --partitioning fractional_odd --points f32 -o shaders/
   tess shaders --target spirv --checks none -o shaders/   faster; see docs/performance.md
   tess shaders --target wgsl --order cache --force -o build/shaders/   as a step of a build")]
-pub(crate) struct Args {
+pub(crate) struct ShadersCommand {
     /// Language of the shaders
     #[arg(long, value_name = "NAME")]
     target: Target,
@@ -97,7 +97,7 @@ const NUMBERINGS: Choices<Numbering> = &[
 ///
 /// # Errors
 /// The folder is there already and not to be replaced, or cannot be written.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &ShadersCommand) -> Result<Exit, Failure> {
     refuse_stdout(&args.folder, "the shaders are several files")?;
     let setup = args.setup();
     let translation = Translation { target: args.target, checks: args.checks };
@@ -125,7 +125,7 @@ fn is_ours(folder: &Path) -> bool {
     is_empty || manifest.contains(&format!("\"format\": \"{}\"", manifest::FORMAT))
 }
 
-impl Args {
+impl ShadersCommand {
     fn setup(&self) -> Setup {
         let config =
             Config { partitioning: self.partitioning, output: self.output, split: self.split };

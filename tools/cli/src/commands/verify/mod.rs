@@ -3,7 +3,7 @@
 use super::check::rules;
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
-use crate::campaign::report::{First, PASSES_ALONE, Part, Report};
+use crate::campaign::report::{First, PASSES_ALONE, Report, ReportPart};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, ShardArgs};
 use crate::failure::{Exit, Failure};
 use crate::output::{Role, note, print, progress, refuse_shared};
@@ -41,7 +41,7 @@ Examples:
   tess verify --backend gpu --random 100000
   tess verify --backend simd --rules d3d11
   tess verify --exhaustive --shard 3/64 --report report-3.jsonl --junit junit-3.xml")]
-pub(crate) struct Args {
+pub(crate) struct VerifyCommand {
     /// Backend to compare; core is the model's second formulation [default: simd and gpu]
     #[arg(long, value_name = "NAME")]
     backend: Vec<BackendName>,
@@ -73,7 +73,7 @@ pub(crate) struct Args {
 }
 
 /// Runs the command. Errors: a backend that is not available.
-pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &VerifyCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     args.options.fit(args.backends())?;
     let placed = match args.rules {
         Some(_) => args.shard.whole("verify --rules")?,
@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     known.finish(recorder, placed, ended)
 }
 
-impl Args {
+impl VerifyCommand {
     /// Compares the backends with the model.
     fn compare(
         &self,
@@ -209,7 +209,7 @@ fn record(report: &mut Report, table: &[SubjectRow]) {
         });
         let name = format!("{} {}", row.subject.name(), row.backend);
         let (cases, mismatches) = (row.compared, row.mismatches);
-        report.add_parts([Part { name, cases, mismatches, first }]);
+        report.add_parts([ReportPart { name, cases, mismatches, first }]);
         report.add_stages(row.stages.iter().map(|(stage, more)| (stage, *more)));
     }
 }

@@ -1,6 +1,6 @@
 //! The compute shaders under the clock of their device.
 
-use super::Args;
+use super::BenchCommand;
 use super::runner::{Amount, Description, Runner, WorkingSet, totals};
 use crate::backends::gpu::{setup_of, split_by_patch};
 use crate::failure::Failure;
@@ -47,7 +47,7 @@ struct Timed {
 }
 
 impl GpuRunner {
-    pub(super) fn new(args: &Args) -> Result<Self, Failure> {
+    pub(super) fn new(args: &BenchCommand) -> Result<Self, Failure> {
         let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))
             .map_err(Failure::unavailable)?;
         let stopwatch = Stopwatch::new(&gpu).map_err(|error| {

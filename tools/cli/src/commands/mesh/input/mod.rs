@@ -41,14 +41,14 @@ pub(crate) struct Input {
 
 /// Where each face of a mesh stands in its file.
 #[derive(Debug)]
-enum Places {
+enum FacePlaces {
     /// The line of each face.
     Lines(Vec<usize>),
     /// The first face of each run of triangles, and the run's name.
     Runs(Vec<(usize, String)>),
 }
 
-impl Places {
+impl FacePlaces {
     /// The place of a face, such as `line 12`.
     fn of(&self, face: usize) -> String {
         match self {
@@ -85,7 +85,7 @@ pub(crate) fn load(path: Option<&Path>, style: Option<Style>) -> Result<Input, F
 
 fn load_obj(bytes: &[u8], style: Option<Style>) -> Result<Input, String> {
     let obj::Obj { mesh, lines, skipped } = obj::parse(bytes)?;
-    let mut input = polygons(mesh, &Places::Lines(lines), style)?;
+    let mut input = polygons(mesh, &FacePlaces::Lines(lines), style)?;
     if skipped > 0 {
         input.notes.push(format!("points and lines have no surface: {skipped} are left out"));
     }
@@ -94,7 +94,7 @@ fn load_obj(bytes: &[u8], style: Option<Style>) -> Result<Input, String> {
 
 fn load_gltf(bytes: &[u8], path: &Path, style: Option<Style>) -> Result<Input, String> {
     let gltf::Scene { mesh, runs, files } = gltf::parse(bytes, path.parent(), gltf::MOST)?;
-    Ok(Input { files, ..polygons(mesh, &Places::Runs(runs), style)? })
+    Ok(Input { files, ..polygons(mesh, &FacePlaces::Runs(runs), style)? })
 }
 
 fn load_bpt(bytes: &[u8]) -> Result<Input, String> {
@@ -124,7 +124,11 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 }
 
 /// The model of a polygon mesh, without what has collapsed.
-fn polygons(mut mesh: PolygonMesh, places: &Places, style: Option<Style>) -> Result<Input, String> {
+fn polygons(
+    mut mesh: PolygonMesh,
+    places: &FacePlaces,
+    style: Option<Style>,
+) -> Result<Input, String> {
     let count = mesh.faces.len();
     let collapsed = collapsed::repair(&mut mesh);
     if mesh.faces.is_empty() && count > 0 {
