@@ -107,8 +107,7 @@ impl Coverage {
     }
 
     /// The hits of a bin; `None` if there is no such bin.
-    #[must_use]
-    pub fn hits(&self, bin: &str) -> Option<u64> {
+    pub(crate) fn hits(&self, bin: &str) -> Option<u64> {
         self.hits.get(bin).copied()
     }
 

@@ -200,17 +200,9 @@ impl Selection {
         })
     }
 
-    /// The configurations that are selected, in the order of spec section 1.
-    pub fn configurations(&self) -> impl Iterator<Item = (Domain, Config)> {
-        configurations().filter(|(domain, config)| self.has(*domain, *config))
-    }
-
     fn selects(&self, case: &Case) -> bool {
-        self.has(case.domain(), case.config)
-    }
-
-    fn has(&self, domain: Domain, config: Config) -> bool {
-        self.domain.is_none_or(|own| own == domain)
+        let config = case.config;
+        self.domain.is_none_or(|own| own == case.domain())
             && self.partitioning.is_none_or(|own| own == config.partitioning)
             && self.output.is_none_or(|own| own == config.output)
             && self.split.is_none_or(|own| own == config.split)

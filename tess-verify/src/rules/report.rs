@@ -63,7 +63,7 @@ pub struct RulesReport {
     pub specification: Specification,
     /// Patches that were judged.
     pub patches: u64,
-    /// Its rules, in the order of [`Specification::rules`].
+    /// The rules that it states, in the order of [`Rule`].
     pub rows: Vec<RuleRow>,
 }
 

@@ -97,7 +97,7 @@ const SOURCES: [[&str; 3]; Rule::NAMES.len()] = {
 
 impl Specification {
     /// Its rules, in the order of [`Rule`].
-    pub fn rules(self) -> impl Iterator<Item = Rule> {
+    pub(super) fn rules(self) -> impl Iterator<Item = Rule> {
         let all = Rule::NAMES.iter().map(|(_, rule)| *rule);
         all.filter(move |rule| !self.source(*rule).is_empty())
     }

@@ -23,7 +23,7 @@ impl Fnv1a {
     }
 
     /// Continues over points: u, then v of each.
-    pub fn points(&mut self, points: &[DomainPoint]) {
+    fn points(&mut self, points: &[DomainPoint]) {
         self.words(points.iter().flat_map(|point| [point.u.to_bits(), point.v.to_bits()]));
     }
 

@@ -114,7 +114,8 @@ impl<K: Kernel> CpuRunner<K> {
             digest.words([range.points]);
             digest.words([range.indices]);
             let points = &points[range.first_point as usize..][..range.points as usize];
-            digest.points(&points.iter().map(|&point| K::exact(point)).collect::<Vec<_>>());
+            let points = points.iter().map(|&point| K::exact(point));
+            digest.words(points.flat_map(|point| [point.u.to_bits(), point.v.to_bits()]));
             let indices = &indices[range.first_index as usize..][..range.indices as usize];
             digest.words(indices.iter().map(|&index| index.into()));
         }

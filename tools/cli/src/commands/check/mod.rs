@@ -125,7 +125,7 @@ pub(crate) fn run(args: &CheckCommand, invocation: &Invocation) -> Result<Exit, 
     }
     // Before a device is opened.
     args.strength.tested(Kind::Listings, args.backend)?;
-    // Before stdin is read: the GPU backend may start the program anew.
+    // Before stdin is read, which may take long.
     let backends = backends(args);
     let read = if args.empty { VectorFile::maybe_empty } else { VectorFile::new };
     let file = read(args.name(), open(&args.file)?).map_err(|e| failure(e.into()))?;

@@ -17,7 +17,7 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use tess_core::SplitOrder;
 use tess_verify::cover::{Coverage, Exclusions};
-use tess_verify::generate::{GenLevel, Selection};
+use tess_verify::generate::{GenLevel, Selection, configurations_among};
 use tess_verify::vectors::{Header, Kind, write_cases};
 use tess_verify::{Case, Named};
 
@@ -186,7 +186,10 @@ impl GenCommand {
             report.coverage = Some(coverage_file::hits(coverage));
         });
         // The file may have hits of other configurations too.
-        let outside = Exclusions::outside(self.selection().configurations());
+        let Selection { domain, partitioning, output, split, .. } = self.selection();
+        let (domain, partitioning) = (domain.as_slice(), partitioning.as_slice());
+        let has = configurations_among(domain, partitioning, output.as_slice(), split.as_slice());
+        let outside = Exclusions::outside(has);
         let report =
             |sum: &Coverage| self.output.write(sum.report(&outside.not_hit(sum)).as_bytes());
         match file {
