@@ -48,16 +48,6 @@ fn pn_triangle_normal(corners: array<vec3f, 3>, edges: array<vec3f, 3>, u: f32, 
     return normalize(normal);
 }
 
-// An inner control point of a quad's net: the bilinearly blended surface of the boundary at the
-// net's place (s, t), from the boundary's points left, right, below and above it.
-fn pn_quad_inner(
-    left: vec3f, right: vec3f, below: vec3f, above: vec3f,
-    corners: array<vec3f, 4>, s: f32, t: f32,
-) -> vec3f {
-    let bilinear = mix(mix(corners[0], corners[1], s), mix(corners[3], corners[2], s), t);
-    return mix(left, right, s) + mix(below, above, t) - bilinear;
-}
-
 // The blended normal of a quad, corners at (0,0), (1,0), (1,1), (0,1), edges u = 0, v = 0, u = 1,
 // v = 1.
 fn pn_quad_normal(corners: array<vec3f, 4>, edges: array<vec3f, 4>, u: f32, v: f32) -> vec3f {
