@@ -25,7 +25,7 @@ export function fills({ view, points, indices, parts }, colours) {
 }
 
 // 1 for an equilateral triangle, 0 for one without area: 4 sqrt(3) area / (sum of squared edges).
-export function quality(points, [a, b, c], isTriangle) {
+function quality(points, [a, b, c], isTriangle) {
   const place = (i) => {
     const u = points[2 * i], v = points[2 * i + 1];
     return isTriangle ? [(u - v) / 2, (u + v) * Math.sqrt(0.75)] : [u, v];

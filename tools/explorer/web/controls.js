@@ -8,7 +8,7 @@ const SPECIAL = ["0", "-0", "1", "2", "63", "64", "65", "0.5", "nan", "inf", "-i
 const LARGEST = 66;
 
 const floats = new Float32Array(1), words = new Uint32Array(floats.buffer);
-export const toValue = (bits) => ((words[0] = bits), floats[0]);
+const toValue = (bits) => ((words[0] = bits), floats[0]);
 export const toBits = (value) => ((floats[0] = value), words[0]);
 
 let rows = [];
@@ -70,7 +70,7 @@ export function changeFactor(number, bits) {
 }
 
 // As patches of a surface do: an inside factor follows the larger of the edges along its axis.
-export function linked({ domain, factors }, number, bits, link) {
+function linked({ domain, factors }, number, bits, link) {
   const { outer } = domainOf(domain);
   if (link === "all") return factors.map(() => bits);
   const next = factors.slice();

@@ -1,7 +1,7 @@
 // Where a surface is looked at from, z up.
 
 // The direction of the eye from the centre, in radians, and its distance in radii.
-export const HOME = { turn: 0.7, lift: 0.45, far: 2.4 };
+const HOME = { turn: 0.7, lift: 0.45, far: 2.4 };
 
 export const toText = ({ turn, lift, far }) => [turn, lift, far].map((part) => part.toFixed(3)).join(",");
 

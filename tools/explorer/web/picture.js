@@ -80,7 +80,7 @@ export function draw() {
   drawOverlay(overlay, view, over, shown(), !mesh);
 }
 
-export function keepView() {
+function keepView() {
   set({ view: view.toText() });
   draw();
 }
