@@ -66,18 +66,6 @@ const fn index((outer, inner): (&Row, &Row), (side, entry): (Side, u32)) -> u32 
     }
 }
 
-/// Receives the steps of a stitch in order; closures do.
-pub trait Steps {
-    /// The next step.
-    fn step(&mut self, step: Step);
-}
-
-impl<F: FnMut(Step)> Steps for F {
-    fn step(&mut self, step: Step) {
-        self(step);
-    }
-}
-
 /// A stitch of a patch: two rows, and what is between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stitch {
@@ -116,7 +104,7 @@ pub enum StitchKind {
 
 impl Stitch {
     /// Sends the steps to `to`, in order.
-    pub fn steps(&self, split: SplitOrder, to: impl Steps) {
+    pub fn steps(&self, split: SplitOrder, to: impl FnMut(Step)) {
         match self.kind {
             // Ring 1 has two points less than its inside factor.
             StitchKind::Transition { .. } => {
@@ -129,48 +117,35 @@ impl Stitch {
     }
 
     /// Sends the triangles, clockwise, to `emit`, in order.
-    pub(crate) fn triangles(&self, split: SplitOrder, emit: impl FnMut(Triangle)) {
-        self.steps(split, OnRows { outer: self.outer, inner: self.inner, emit });
-    }
-}
-
-/// Emits the triangle of each step on two rows.
-struct OnRows<F> {
-    outer: Row,
-    inner: Row,
-    emit: F,
-}
-
-impl<F: FnMut(Triangle)> Steps for OnRows<F> {
-    #[inline(always)] // a step's kind is a constant where it is made
-    fn step(&mut self, step: Step) {
-        (self.emit)(step.triangle(&self.outer, &self.inner));
+    pub(crate) fn triangles(&self, split: SplitOrder, mut emit: impl FnMut(Triangle)) {
+        let Self { outer, inner, .. } = *self;
+        self.steps(split, |step| emit(step.triangle(&outer, &inner)));
     }
 }
 
 /// How far a stitch has come along its two rows, and where its steps go.
-struct Walk<S> {
+struct Walk<F> {
     outer: u32,
     inner: u32,
-    to: S,
+    to: F,
 }
 
-impl<S: Steps> Walk<S> {
-    const fn new(to: S) -> Self {
+impl<F: FnMut(Step)> Walk<F> {
+    const fn new(to: F) -> Self {
         Self { outer: 0, inner: 0, to }
     }
 
     #[inline(always)]
     fn advance_outer(&mut self, begins: Side) {
         let Self { outer, inner, .. } = *self;
-        self.to.step(Step { outer, inner, advances: Side::Outer, begins });
+        (self.to)(Step { outer, inner, advances: Side::Outer, begins });
         self.outer += 1;
     }
 
     #[inline(always)]
     fn advance_inner(&mut self, begins: Side) {
         let Self { outer, inner, .. } = *self;
-        self.to.step(Step { outer, inner, advances: Side::Inner, begins });
+        (self.to)(Step { outer, inner, advances: Side::Inner, begins });
         self.inner += 1;
     }
 }
@@ -181,7 +156,7 @@ impl<S: Steps> Walk<S> {
 /// `outer_points` and `inside_points` are the `points` of the outer factor's context (2..=65) and
 /// of the inside factor's along the same axis (3..=65), whose ring has two points less. There are
 /// `outer_points + inside_points - 4` steps.
-pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: impl Steps) {
+pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: impl FnMut(Step)) {
     let outer_half = outer_points.saturating_sub(1) / 2;
     let inner_half = inside_points.saturating_sub(1) / 2;
     let mut walk = Walk::new(to);
@@ -222,7 +197,7 @@ pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: 
 /// `inner_points` (1..=61), and the diagonals are mirrored about the middle. Spec section 7.3.
 ///
 /// There are `2 * inner_points` steps.
-pub fn ring(inner_points: u32, to: impl Steps) {
+pub fn ring(inner_points: u32, to: impl FnMut(Step)) {
     let mut walk = Walk::new(to);
     walk.advance_outer(Side::Outer);
     for p in 0..inner_points.saturating_sub(1) {
@@ -250,7 +225,7 @@ pub enum Diagonals {
 /// of `quads + 1` points (`quads` in 1..=63). Spec section 7.4.
 ///
 /// There are `2 * quads` steps.
-pub fn strip(quads: u32, diagonals: Diagonals, to: impl Steps) {
+pub fn strip(quads: u32, diagonals: Diagonals, to: impl FnMut(Step)) {
     let mut walk = Walk::new(to);
     for k in 0..quads {
         match diagonals {
