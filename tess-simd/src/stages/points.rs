@@ -15,6 +15,7 @@ mod triangle;
 
 pub(crate) use coordinate_code::{Code, codes, corner};
 pub(crate) use lookup::Lookup;
+use tables::FactorLocations;
 pub(crate) use tables::LocationTables;
 
 use crate::data::point_writer::PointWriter;
@@ -34,9 +35,15 @@ pub(crate) fn emit(
     let (edges, locations) = (&patch.edges(), tables.of(patch));
     match patch.domain() {
         Domain::Isoline => isoline::emit(edges, locations, out),
-        Domain::Triangle => triangle::emit(edges, locations, out),
-        Domain::Quad => quad::emit(edges, locations, out),
+        Domain::Triangle => triangle::walk(edges, &mut Runs { locations, out }),
+        Domain::Quad => quad::walk(edges, &mut Runs { locations, out }),
     }
+}
+
+/// Writes the points of each run of a walk.
+struct Runs<'a, W> {
+    locations: FactorLocations<'a>,
+    out: &'a mut W,
 }
 
 /// How the points of compact patches of fractional factors are made.

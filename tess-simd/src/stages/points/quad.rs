@@ -1,8 +1,7 @@
 //! Quad points: the outer ring, the interior rings, then a row of points if one inside factor is
 //! even (spec section 6).
 
-use super::POINTS_AT_ONCE;
-use super::tables::FactorLocations;
+use super::{POINTS_AT_ONCE, Runs};
 use crate::data::format::OutputPoint;
 use crate::data::lanes::{EdgePoints, is_odd};
 use crate::data::point_writer::PointWriter;
@@ -88,17 +87,6 @@ pub(super) fn walk(&[u0, v0, u1, v1, n_u, n_v]: &EdgePoints, walker: &mut impl Q
 /// The point in the middle of an axis: at `HALF`.
 const fn middle(factor: usize, points: u32) -> AxisPoint {
     AxisPoint { factor, point: points / 2, mirrored: false }
-}
-
-#[inline(always)]
-pub(super) fn emit(edges: &EdgePoints, locations: FactorLocations<'_>, out: &mut impl PointWriter) {
-    walk(edges, &mut Runs { locations, out });
-}
-
-/// Writes the points of each run.
-struct Runs<'a, W> {
-    locations: FactorLocations<'a>,
-    out: &'a mut W,
 }
 
 impl<W: PointWriter> QuadWalker for Runs<'_, W> {

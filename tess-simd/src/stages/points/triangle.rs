@@ -1,7 +1,6 @@
 //! Triangle points: the outer ring, then the interior rings, then the centre (spec section 6).
 
-use super::POINTS_AT_ONCE;
-use super::tables::FactorLocations;
+use super::{POINTS_AT_ONCE, Runs};
 use crate::data::format::OutputPoint;
 use crate::data::lanes::{EdgePoints, is_odd};
 use crate::data::point_writer::PointWriter;
@@ -58,17 +57,6 @@ pub(super) fn walk(&[u0, v0, w0, inside, ..]: &EdgePoints, walker: &mut impl Tri
     if !is_odd(inside) {
         walker.centre();
     }
-}
-
-#[inline(always)]
-pub(super) fn emit(edges: &EdgePoints, locations: FactorLocations<'_>, out: &mut impl PointWriter) {
-    walk(edges, &mut Runs { locations, out });
-}
-
-/// Writes the points of each run.
-struct Runs<'a, W> {
-    locations: FactorLocations<'a>,
-    out: &'a mut W,
 }
 
 impl<W: PointWriter> TriangleWalker for Runs<'_, W> {
