@@ -1,4 +1,4 @@
-"""What makes tables and charts of records, and the faults that it must see."""
+"""Tests of the tables and charts of records, and of the faults that must be seen."""
 
 from records import digits, svg, table, with_tables
 

@@ -14,7 +14,7 @@ typedef struct packed {
     logic [6:0]  points;
 } tess_context_t;
 
-// What the stages behind the factors know of a patch. A culled patch has no points and no primitives.
+// A patch as the stages behind the factors know it. A culled patch has no points and no primitives.
 typedef struct packed {
     logic [1:0]  domain;
     logic [1:0]  out;

@@ -29,7 +29,7 @@ struct tess_vulkan {
     VkPipeline pipelines[TESS_STAGES];
 };
 
-/* What lives for one batch. */
+/* The objects of one batch. */
 struct batch {
     struct buffer buffers[TESS_RESOURCES];
     struct buffer staging;

@@ -8,7 +8,7 @@
 /* A device with a pipeline for each stage. One thread uses it at a time. */
 struct tess_vulkan;
 
-/* What a batch gave. If `overflow` is not 0, the room was too small (bit 0: for the points, bit 1: for
+/* The output of a batch. If `overflow` is not 0, the room was too small (bit 0: for the points, bit 1: for
    the primitives), and neither points nor indices were written. */
 struct tess_output {
     uint64_t needed_points, needed_primitives;

@@ -1,4 +1,4 @@
-"""What `tess probe` and Debian's piglit find on each driver, and how long a frame takes."""
+"""The findings of `tess probe` and Debian's piglit on each driver, and how long a frame takes."""
 
 import json
 import os
@@ -37,7 +37,7 @@ TESTS = ["-t", "arb_tessellation_shader", "-x", "built-in-functions"]
 
 
 def probe(program, place, variant, words):
-    """What `tess probe --json` says of a driver. It ends with 1 where patches differ, which is an answer."""
+    """The report of `tess probe --json` on a driver. It ends with 1 where patches differ, which is an answer."""
     print(f"\n$ tess probe --json {words}, on {variant}", flush=True)
     command = [program, "probe", "--json", *words.split()]
     environment = {**os.environ, **place.environment(variant)}
@@ -76,7 +76,7 @@ def frames(program, place, variants):
 
 
 def piglit(place, variant):
-    """What each test gave on a variant's llvmpipe, without a window system: `pass`, `fail`, `crash`, `skip`, ..."""
+    """The result of each test on a variant's llvmpipe, without a window system: `pass`, `fail`, `crash`, `skip`, ..."""
     root = place.folder.parent / "piglit"
     if not root.exists():
         place.unpack(PIGLIT, root)

@@ -191,7 +191,7 @@ class Place:
 
 
 def codename():
-    """What Debian calls the release that this machine has."""
+    """Debian's name of the release that this machine has."""
     return platform.freedesktop_os_release().get("VERSION_CODENAME", "no stable Debian")
 
 

@@ -1,4 +1,4 @@
-// What a stage is given, lets go and holds: elements, and patches by their last ones. What it holds must be what came since the
+// A ledger of what a stage is given, lets go and holds: elements, and patches by their last ones. It must hold what came since the
 // last reset and has not left. `also` is what else always holds. Proved by induction.
 module ledger (
     input logic        clk, rst,

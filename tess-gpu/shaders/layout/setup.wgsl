@@ -1,5 +1,5 @@
 // needs: nothing
-// What every entry point agrees on. `Setup::prelude` in src/setup.rs writes constants in front of this file, so that
+// Values that every entry point agrees on. `Setup::prelude` in src/setup.rs writes constants in front of this file, so that
 // no number stands in both languages: the setup (DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT, NUMBERING, FACTORS,
 // COPIES, ORDER) and the values that these can have (ISOLINE, TRIANGLE, QUAD and so on); the sizes of src/sizes.rs; the
 // places in the tables of src/tables.rs; and SCRATCH and THREADS for the entry points that expand.
@@ -59,7 +59,7 @@ struct Range {
 
 // The host's `layout::Status`, with the range of each portion behind it.
 struct Status {
-    // What the batch needs, low and high words.
+    // The batch's needs, low and high words.
     points: u32,
     points_high: u32,
     primitives: u32,

@@ -1,5 +1,5 @@
 // needs: layout/setup
-// What connectivity and counts depend on (spec section 12.8), in 8 bytes per patch: the points
+// The numbers that connectivity and counts depend on (spec section 12.8), in 8 bytes per patch: the points
 // along each edge and along each inside axis, 2..=65 in 7 bits. `factors` writes it, the expansions read it.
 //
 //             31..30     29..28   27..21   20..14   13..7      6..0

@@ -1,5 +1,5 @@
 // needs: {catalogue}, shared/offsets, layout/setup, shared/tile, layout/topology; bindings: job, offsets, topologies
-// What the tiles of points and of primitives share: the patches of a tile, a round at a time.
+// Shared by the tiles of points and of primitives: the patches of a tile, a round at a time.
 //
 // A tile is 2^tile_bits consecutive elements of the output, and `tiles` says with which patch it begins. Its
 // patches begin at arbitrary elements, so each thread has to find the patch of its element. The workgroup loads up

@@ -1,5 +1,5 @@
 // needs: layout/setup, shared/tile_size; bindings: arguments, job, status
-// What depends on the totals of a batch: whether the output fits, the draw arguments and the sizes of
+// Results that depend on the totals of a batch: whether the output fits, the draw arguments and the sizes of
 // the dispatches. The arguments are draw_indexed_indirect's five numbers, three reserved, then
 // dispatch sizes of three numbers: for each portion its partition, its windows of points, its windows
 // of primitives.
