@@ -116,7 +116,7 @@ fn what_exceeds_the_device_is_refused() {
 /// A lost device is an error each time, in whatever is done next.
 #[test]
 fn a_lost_device_is_an_error() {
-    let mut machine = Machine::open();
+    let mut machine = Machine::on(limited(wgpu::Limits::default()));
     let quad = setup(Domain::Quad);
     let usage = Usage::STORAGE | Usage::COPY_SRC;
     let buffer = machine.upload(&[1, 2, 3], usage);

@@ -1,6 +1,7 @@
 //! Running batches into poisoned, guarded buffers, and comparing with the golden model.
 
 use super::expected::Expected;
+use std::sync::LazyLock;
 use tess_core::PatchFactors;
 use tess_gpu::layout::{DrawIndexed, Status, factor_words};
 use tess_gpu::{IndexType, Limits, Numbering, PointFormat, Setup, Stage};
@@ -45,13 +46,20 @@ pub(crate) fn limited(limits: wgpu::Limits) -> Gpu {
     device_of(&wgpu::Instance::new(descriptor), limits)
 }
 
+/// What [`Machine::open`] gives, so that a process makes the pipelines of a setup once.
+static SHARED: LazyLock<Machine> = LazyLock::new(|| {
+    Machine::on(pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}")))
+});
+
 impl Machine {
-    /// An adapter with WebGPU's default limits. None is a failure, not a reason to skip.
+    /// An adapter with WebGPU's default limits, the same for all tests of a process. None is a failure, not a reason to
+    /// skip.
     pub(crate) fn open() -> Self {
-        Self::on(pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}")))
+        let Self { gpu, tessellator } = &*SHARED;
+        Self { gpu: gpu.clone(), tessellator: tessellator.clone() }
     }
 
-    /// This device.
+    /// This device, with pipelines of its own.
     pub(crate) fn on(gpu: Gpu) -> Self {
         let tessellator = Tessellator::new(&gpu.device);
         Self { gpu, tessellator }
@@ -76,7 +84,7 @@ impl Machine {
     ) {
         let expected = Expected::new(setup, patches);
         let (points, indices) = expected.words();
-        self.tessellator = Tessellator::new(&self.gpu.device);
+        let sound = self.tessellator.clone();
         let written = self.write(setup, patches, points, indices);
         assert_eq!(expected.compare(&written), Ok(()), "{setup:?} without a fault");
         for fault in faults {
@@ -85,11 +93,12 @@ impl Machine {
             let difference = expected.compare(&written);
             assert!(difference.is_err(), "{setup:?}: {fault} went unnoticed");
         }
+        self.tessellator = sound;
     }
 
-    /// Makes the pipelines anew, without faults and with these limits.
+    /// Keeps to these limits.
     pub(crate) fn limit(&mut self, limits: Limits) {
-        self.tessellator = Tessellator::new(&self.gpu.device).limited(limits);
+        self.tessellator = self.tessellator.clone().limited(limits);
     }
 
     /// A buffer of factors.
