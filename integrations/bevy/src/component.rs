@@ -64,7 +64,7 @@ pub struct TessValues(pub Vec<f32>);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Resource)]
 pub struct TessSettings {
     /// Who tessellates.
-    pub backend: Backend,
+    pub backend: TessBackend,
     /// Whether edges are drawn in place of triangles. On the GPU the device must have the feature
     /// `POLYGON_MODE_LINE`.
     pub wireframe: bool,
@@ -72,7 +72,7 @@ pub struct TessSettings {
 
 /// Who tessellates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Backend {
+pub enum TessBackend {
     /// The GPU if it has compute shaders, or else the CPU.
     #[default]
     Auto,

@@ -15,7 +15,7 @@ mod render;
 mod shape;
 
 pub use bezier::{BezierError, BezierPatches, Net, quad_factors};
-pub use component::{Backend, TessSettings, TessStats, TessValues, Tessellated};
+pub use component::{TessBackend, TessSettings, TessStats, TessValues, Tessellated};
 pub use detail::LevelOfDetail;
 pub use eye::Eye;
 pub use height_field::{GroundColors, HeightField, HeightFieldError};
@@ -36,7 +36,7 @@ use bevy::pbr::StandardMaterial;
 use bevy::picking::{PickingSystems, backend::ray::RayMap};
 use bevy::render::renderer::RenderDevice;
 use bevy::transform::TransformSystems;
-use component::Backend as Chosen;
+use component::TessBackend as Chosen;
 use eye::Casting;
 
 /// Draws every entity with a [`Tessellated`] for every 3D camera, and into the shadow maps of every light.

@@ -4,7 +4,7 @@ use bevy::color::palettes::css::{BLACK, WHITE};
 use bevy::diagnostic::{DiagnosticsStore, FrameTimeDiagnosticsPlugin};
 use bevy::math::{Isometry3d, ops};
 use bevy::prelude::*;
-use bevy_tess::{Backend, LevelOfDetail, TessSettings, TessStats, Tessellated};
+use bevy_tess::{LevelOfDetail, TessBackend, TessSettings, TessStats, Tessellated};
 
 pub(crate) fn set_up(mut gizmos: ResMut<GizmoConfigStore>) {
     let (config, _) = gizmos.config_mut::<DefaultGizmoConfigGroup>();
@@ -24,8 +24,8 @@ pub(crate) fn press(
     }
     if keys.just_pressed(KeyCode::KeyC) {
         settings.backend = match settings.backend {
-            Backend::Auto => Backend::Cpu,
-            Backend::Cpu => Backend::Auto,
+            TessBackend::Auto => TessBackend::Cpu,
+            TessBackend::Cpu => TessBackend::Auto,
         };
     }
     for (key, by) in [
@@ -59,8 +59,8 @@ pub(crate) fn write(
     let time = diagnostics.get(&FrameTimeDiagnosticsPlugin::FRAME_TIME);
     let milliseconds = time.and_then(|time| time.smoothed()).unwrap_or_default();
     let by = match settings.backend {
-        Backend::Auto => "GPU",
-        Backend::Cpu => "CPU",
+        TessBackend::Auto => "GPU",
+        TessBackend::Cpu => "CPU",
     };
     let text = format!("{milliseconds:.1} ms, {} triangles, {by}", stats.triangles());
     for mut window in &mut windows {
@@ -122,7 +122,7 @@ mod tests {
         strike(&mut app, KeyCode::KeyW);
         assert_eq!(settings(&app), TessSettings { wireframe: true, ..before }, "w");
         strike(&mut app, KeyCode::KeyC);
-        let both = TessSettings { wireframe: true, backend: Backend::Cpu };
+        let both = TessSettings { wireframe: true, backend: TessBackend::Cpu };
         assert_eq!(settings(&app), both, "c");
         strike(&mut app, KeyCode::KeyW);
         strike(&mut app, KeyCode::KeyC);

@@ -20,7 +20,7 @@ use bevy::prelude::*;
 use bevy::render::RenderPlugin;
 use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
-use bevy_tess::{Backend, TessPlugin, TessSettings};
+use bevy_tess::{TessBackend, TessPlugin, TessSettings};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -37,7 +37,7 @@ fn main() -> ExitCode {
         }
     };
     let mut app = App::new();
-    let backend = if args.cpu { Backend::Cpu } else { Backend::Auto };
+    let backend = if args.cpu { TessBackend::Cpu } else { TessBackend::Auto };
     app.insert_resource(TessSettings { backend, wireframe: args.wireframe });
     if args.screenshot.is_some() {
         app.add_plugins((without_window(), ScheduleRunnerPlugin::run_loop(Duration::ZERO)));

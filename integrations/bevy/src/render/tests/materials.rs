@@ -2,7 +2,7 @@
 
 use super::passes::square;
 use super::{SIZE, SURFACE, Wall, app, middle, picture, run};
-use crate::{Backend, HeightField, TessSettings, Tessellated};
+use crate::{HeightField, TessBackend, TessSettings, Tessellated};
 use bevy::asset::RenderAssetUsages;
 use bevy::core_pipeline::prepass::{DepthPrepass, NormalPrepass};
 use bevy::image::ImageSampler;
@@ -36,7 +36,7 @@ fn half(world: &mut World, alpha_mode: AlphaMode) -> MeshMaterial3d<StandardMate
 
 /// The pictures of both ways, which are the same but for a few pixels on edges; the GPU's.
 fn same(name: &str, set_up: impl Fn(&mut World)) -> Vec<[u8; 4]> {
-    let [gpu, cpu] = [Backend::Auto, Backend::Cpu].map(|backend| {
+    let [gpu, cpu] = [TessBackend::Auto, TessBackend::Cpu].map(|backend| {
         let mut app = app();
         app.insert_resource(TessSettings { backend, ..default() });
         set_up(app.world_mut());

@@ -1,7 +1,7 @@
 //! Shadow maps and prepasses.
 
 use super::{SIZE, SURFACE, Wall, app, middle, picture, run};
-use crate::{Backend, HeightField, TessSettings, Tessellated};
+use crate::{HeightField, TessBackend, TessSettings, Tessellated};
 use bevy::core_pipeline::prepass::{DepthPrepass, MotionVectorPrepass, NormalPrepass};
 use bevy::light::{NotShadowCaster, NotShadowReceiver};
 use bevy::math::ops;
@@ -17,7 +17,7 @@ pub(super) fn square(at: Vec3) -> impl Bundle {
 
 /// How bright the middle of a square is if another one is behind the camera, towards the light: as it is, if it casts no
 /// shadow, if the first receives none, and without it.
-fn brightness(backend: Backend, light: fn(&mut World) -> Entity) -> [u8; 4] {
+fn brightness(backend: TessBackend, light: fn(&mut World) -> Entity) -> [u8; 4] {
     let mut app = app();
     app.insert_resource(TessSettings { backend, ..default() });
     let light = light(app.world_mut());
@@ -55,7 +55,7 @@ fn shadows_fall_from_what_the_camera_does_not_see() {
         world.spawn(PointLight { shadow_maps_enabled: true, intensity: 1e7, ..default() }).id()
     };
     for (name, light) in [("sun", sun as fn(&mut World) -> Entity), ("lamp", lamp)] {
-        for backend in [Backend::Auto, Backend::Cpu] {
+        for backend in [TessBackend::Auto, TessBackend::Cpu] {
             let [shaded, lit @ ..] = brightness(backend, light);
             assert!(lit[0] > shaded.saturating_add(60), "{name}, {backend:?}: {shaded}, {lit:?}");
             assert_eq!(lit, [lit[0]; 3], "{name}, {backend:?}: as without the other square");

@@ -2,7 +2,7 @@
 
 use super::{SIZE, app, picture, run};
 use crate::{
-    Backend, CpuShape, DEFAULT_FRAGMENT, Eye, Shape, ShapeVertex, TessSettings, TessValues,
+    CpuShape, DEFAULT_FRAGMENT, Eye, Shape, ShapeVertex, TessBackend, TessSettings, TessValues,
     Tessellated,
 };
 use bevy::camera::primitives::Aabb;
@@ -78,7 +78,7 @@ fn seen(app: &mut App) -> ([bool; 3], Vec<[u8; 4]>) {
 
 #[test]
 fn both_ways_see_the_values_of_each_frame() {
-    let [gpu, cpu] = [Backend::Auto, Backend::Cpu].map(|backend| {
+    let [gpu, cpu] = [TessBackend::Auto, TessBackend::Cpu].map(|backend| {
         let mut app = app();
         app.insert_resource(TessSettings { backend, ..default() });
         let white = StandardMaterial { unlit: true, ..default() };
