@@ -29,4 +29,4 @@ pub use stage::TessellationStage;
 #[cfg(feature = "measure")]
 pub use stopwatch::Stopwatch;
 pub use tessellator::Tessellator;
-pub use whole::Output;
+pub use whole::ReadBack;

@@ -8,7 +8,7 @@ use tess_gpu::{IndexType, Setup};
 
 /// The output of a batch, read back.
 #[derive(Clone, Debug)]
-pub struct Output {
+pub struct ReadBack {
     /// The batch's needs.
     pub status: Status,
     /// The draw arguments.
@@ -32,7 +32,7 @@ impl Tessellator {
         gpu: &Gpu,
         setup: Setup,
         patches: &[PatchFactors],
-    ) -> Result<Output, Error> {
+    ) -> Result<ReadBack, Error> {
         gpu.finish(self.tessellate_async(gpu, setup, patches))
     }
 
@@ -45,7 +45,7 @@ impl Tessellator {
         gpu: &Gpu,
         setup: Setup,
         patches: &[PatchFactors],
-    ) -> Result<Output, Error> {
+    ) -> Result<ReadBack, Error> {
         use wgpu::BufferUsages as Usage;
         check_domains(setup, patches)?;
         let words = factor_words(patches);
@@ -66,7 +66,7 @@ impl Tessellator {
             return Err(Error::OutputTooLarge { points, primitives });
         }
         let draw = gpu.read_async(batch.draw_arguments(), size_of::<DrawIndexed>() as u64).await?;
-        Ok(Output {
+        Ok(ReadBack {
             status,
             draw: bytemuck::pod_read_unaligned(&draw),
             begins: begins(gpu, &batch).await?,

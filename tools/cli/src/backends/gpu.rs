@@ -10,7 +10,7 @@ use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
 use tess_gpu::{Numbering, Setup, Tap};
 use tess_verify::generate::IndexWidth;
 use tess_verify::{Answers, Backend, BackendError};
-use tess_wgpu::{Gpu, Output, Tessellator};
+use tess_wgpu::{Gpu, ReadBack, Tessellator};
 
 /// `tess-gpu` on the first adapter that there is, with WebGPU's default limits.
 #[derive(Debug)]
@@ -100,7 +100,7 @@ impl Backend for GpuBackend {
 }
 
 /// The patches of a batch, one after another, as the specification numbers them.
-pub(crate) fn split_by_patch(output: &Output, setup: Setup) -> Answers<Tessellation> {
+pub(crate) fn split_by_patch(output: &ReadBack, setup: Setup) -> Answers<Tessellation> {
     let each = setup.indices_per_primitive() as usize;
     let end = [output.points.len(), output.indices.len() / each];
     let begins = output.begins.iter().map(|begin| begin.map(|element| element as usize));
