@@ -16,7 +16,7 @@ mod tour;
 
 pub use cpu::level::{Level, LevelUnavailable};
 pub use data::batch::Batch;
-pub use data::error::{Buffer, Error};
+pub use data::error::{BatchBuffer, Error};
 pub use data::format::{IndexFormat, OutputPoint};
 #[cfg(feature = "apart")]
 pub use data::output::ApartBuffers;

@@ -10,7 +10,7 @@ use tess_core::{
     Config, Counts, Domain, DomainPoint, IsolineFactors, MAX_INDICES, MAX_POINTS, OutputPrimitive,
     Partitioning, PatchFactors, QuadFactors, SplitOrder,
 };
-use tess_simd::{Batch, Buffer, Error, Level, LevelUnavailable, Numbering, Tessellator};
+use tess_simd::{Batch, BatchBuffer, Error, Level, LevelUnavailable, Numbering, Tessellator};
 
 /// One test, the fastest parts first, so that it ends at the first difference.
 #[test]
@@ -121,7 +121,7 @@ fn interiors() {
 
 /// Errors say what was needed and what there was.
 fn messages() {
-    let error = Error::BufferTooSmall { buffer: Buffer::Indices, needed: 66, got: 65 };
+    let error = Error::BufferTooSmall { buffer: BatchBuffer::Indices, needed: 66, got: 65 };
     let message = "the index buffer holds 65 elements, but 66 are needed";
     assert_eq!(error.to_string(), message, "a buffer");
     let error = Error::UnevenColumns { lengths: [8, 9] };

@@ -6,7 +6,7 @@ use tess_core::Domain;
 /// One of the caller's buffers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Buffer {
+pub enum BatchBuffer {
     /// The domain points.
     Points,
     /// The indices.
@@ -22,7 +22,7 @@ pub enum Error {
     /// A buffer is too small. Make it as large as `needed`.
     BufferTooSmall {
         /// The buffer.
-        buffer: Buffer,
+        buffer: BatchBuffer,
         /// Elements that the output needs.
         needed: usize,
         /// Elements that the buffer has.
@@ -64,9 +64,9 @@ impl fmt::Display for Error {
         match self {
             Self::BufferTooSmall { buffer, needed, got } => {
                 let what = match buffer {
-                    Buffer::Points => "point",
-                    Buffer::Indices => "index",
-                    Buffer::Ranges => "range",
+                    BatchBuffer::Points => "point",
+                    BatchBuffer::Indices => "index",
+                    BatchBuffer::Ranges => "range",
                 };
                 write!(f, "the {what} buffer holds {got} elements, but {needed} are needed")
             }

@@ -11,7 +11,7 @@
 #[cfg(feature = "apart")]
 mod apart;
 
-use crate::data::error::{Buffer, Error};
+use crate::data::error::{BatchBuffer, Error};
 use crate::data::format::OutputPoint;
 use crate::data::target::first;
 use crate::data::writer::Writer;
@@ -49,7 +49,7 @@ impl<P: OutputPoint> PointRoom for &mut [P] {
 
     #[inline]
     fn first(self, needed: usize, more: usize) -> Result<Self, Error> {
-        first(self, Buffer::Points, needed, more)
+        first(self, BatchBuffer::Points, needed, more)
     }
 
     fn split_at(self, points: usize) -> (Self, Self) {

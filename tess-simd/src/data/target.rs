@@ -3,7 +3,7 @@
 //! Below the public interface nothing depends on the formats' types, so that everything is compiled
 //! once, in this crate, for each pair of formats. [`with_types`] makes them types again, once a call.
 
-use crate::data::error::{Buffer, Error};
+use crate::data::error::{BatchBuffer, Error};
 use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
 #[cfg(feature = "apart")]
 use crate::data::output::ApartBuffers;
@@ -55,7 +55,7 @@ pub(crate) use with_types;
 /// [`Error::BufferTooSmall`].
 pub(crate) fn first<T>(
     all: &mut [T],
-    buffer: Buffer,
+    buffer: BatchBuffer,
     needed: usize,
     more: usize,
 ) -> Result<&mut [T], Error> {

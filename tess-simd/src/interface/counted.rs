@@ -3,7 +3,7 @@
 use crate::cpu::level::Level;
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
-use crate::data::error::{Buffer, Error};
+use crate::data::error::{BatchBuffer, Error};
 use crate::data::format::{IndexFormat, OutputPoint};
 #[cfg(feature = "apart")]
 use crate::data::output::ApartBuffers;
@@ -147,10 +147,10 @@ impl<'a> Counted<'a> {
     ) -> Result<BatchCounts, Error> {
         self.check_indices::<I>(numbering)?;
         let counts = self.counts();
-        let ranges = ranges.map(|ranges| first(ranges, Buffer::Ranges, counts.patches, 0));
+        let ranges = ranges.map(|ranges| first(ranges, BatchBuffer::Ranges, counts.patches, 0));
         let ranges = Ranges::new(ranges.transpose()?);
         let points = points.first(counts.points, 0)?;
-        let indices = first(indices, Buffer::Indices, counts.indices, 0)?;
+        let indices = first(indices, BatchBuffer::Indices, counts.indices, 0)?;
         let Self { level, settings, batch, slicing, slices, kept, .. } = *self;
         let first = Offsets::default();
         let part = Part { batch, points, indices, ranges, first, run: slices[0].run };

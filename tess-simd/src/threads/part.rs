@@ -3,7 +3,7 @@
 use crate::cpu::level::Level;
 use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
-use crate::data::error::{Buffer, Error};
+use crate::data::error::{BatchBuffer, Error};
 use crate::data::format::IndexFormat;
 use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointRoom;
@@ -128,7 +128,7 @@ impl Workspace {
             return Ok(counts);
         }
         let mut points = points.first(counts.points as usize, MORE)?;
-        let indices = first(indices, Buffer::Indices, counts.indices as usize, MORE)?;
+        let indices = first(indices, BatchBuffer::Indices, counts.indices as usize, MORE)?;
         if counts.points != 0 {
             let (first, numbering) = (Offsets::default(), Numbering::PerPatch);
             let (packets, ranges) = (from_ref(one.packet()), &mut [PatchRange::default()]);

@@ -6,8 +6,8 @@ use crate::patches::Bits;
 use std::fmt::Debug;
 use tess_core::{DomainPoint, PatchFactors};
 use tess_simd::{
-    ApartBuffers, Batch, BatchCounts, Buffer, Buffers, Counted, CountedPatch, Error, IndexFormat,
-    Numbering, OutputPoint, PatchRange, Tessellator,
+    ApartBuffers, Batch, BatchBuffer, BatchCounts, Buffers, Counted, CountedPatch, Error,
+    IndexFormat, Numbering, OutputPoint, PatchRange, Tessellator,
 };
 
 /// Nothing, or what was wrong.
@@ -225,10 +225,10 @@ fn too_small(to: &To, expected: &Expected) -> Option<Error> {
     let Room { format, points: spare, second, indices: spare_indices, .. } = to.room;
     let second = if format == Format::Apart { second } else { 0 };
     let all = [
-        (Buffer::Ranges, patches, to.ranges.unwrap_or(0)),
-        (Buffer::Points, points, spare),
-        (Buffer::Points, points, second),
-        (Buffer::Indices, indices, spare_indices),
+        (BatchBuffer::Ranges, patches, to.ranges.unwrap_or(0)),
+        (BatchBuffer::Points, points, spare),
+        (BatchBuffer::Points, points, second),
+        (BatchBuffer::Indices, indices, spare_indices),
     ];
     let short = |&(_, needed, spare): &_| length(needed, spare) < needed;
     all.into_iter().find(short).map(|(buffer, needed, spare)| Error::BufferTooSmall {

@@ -4,7 +4,7 @@ use crate::errors;
 use crate::threads::Threads;
 use pyo3::prelude::*;
 use tess_simd::{
-    Batch, BatchCounts, Buffer, Buffers, Counted, Error, IndexFormat, Numbering, OutputPoint,
+    Batch, BatchBuffer, BatchCounts, Buffers, Counted, Error, IndexFormat, Numbering, OutputPoint,
     PatchRange, Tessellator,
 };
 
@@ -151,9 +151,9 @@ impl<'a, P: OutputPoint, I: IndexFormat> ArrayRoom<'a, P, I> {
         }
         let BatchCounts { patches, points, indices } = sizes.counts;
         Ok(Self {
-            ranges: prefix(self.ranges, patches, Buffer::Ranges)?,
-            points: prefix(self.points, points, Buffer::Points)?,
-            indices: prefix(self.indices, indices, Buffer::Indices)?,
+            ranges: prefix(self.ranges, patches, BatchBuffer::Ranges)?,
+            points: prefix(self.points, points, BatchBuffer::Points)?,
+            indices: prefix(self.indices, indices, BatchBuffer::Indices)?,
         })
     }
 
@@ -168,7 +168,7 @@ impl<'a, P: OutputPoint, I: IndexFormat> ArrayRoom<'a, P, I> {
     }
 }
 
-fn prefix<T>(slice: &mut [T], needed: usize, buffer: Buffer) -> Result<&mut [T], Error> {
+fn prefix<T>(slice: &mut [T], needed: usize, buffer: BatchBuffer) -> Result<&mut [T], Error> {
     let got = slice.len();
     slice.get_mut(..needed).ok_or(Error::BufferTooSmall { buffer, needed, got })
 }

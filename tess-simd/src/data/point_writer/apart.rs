@@ -6,7 +6,7 @@
 //! Two passes over each run of points, one for each array, are two loops to begin and end: 1.4 times at factor 16.
 
 use super::{PointRoom, PointWriter};
-use crate::data::error::{Buffer, Error};
+use crate::data::error::{BatchBuffer, Error};
 use crate::data::target::first;
 use crate::data::writer::{Writer, separate_blocks};
 use core::array;
@@ -25,7 +25,7 @@ impl PointRoom for [&mut [f32]; 2] {
 
     #[inline]
     fn first(self, needed: usize, more: usize) -> Result<Self, Error> {
-        let [u, v] = self.map(|array| first(array, Buffer::Points, needed, more));
+        let [u, v] = self.map(|array| first(array, BatchBuffer::Points, needed, more));
         Ok([u?, v?])
     }
 
