@@ -133,6 +133,7 @@ fn each_mesh_is_drawn_with_its_material() {
 /// How many pixels of the terrain of the example `batch` show the background, which it has nowhere.
 fn background_pixels(gpu: &Gpu, args: &Args) -> usize {
     let pixels = picture_of::<batch::Batch>(gpu, args, LARGE);
+    assert_eq!(pixels.len(), 4 * 960 * 720, "the whole picture");
     pixels.as_chunks::<4>().0.iter().filter(|&pixel| *pixel == [255, 0, 255, 255]).count()
 }
 
