@@ -94,7 +94,7 @@ fn wrong_windows_and_rows_are_seen() {
         [(LOW, "write_primitive_tile_2"), (LOW, "number"), (LOW, "factors"), (TWO, "scan")]
     {
         machine.plant(setup, fault);
-        machine.tessellator = machine.tessellator.limited(limits);
+        machine.limit(limits);
         let written = machine.write(setup, &patches, points, indices);
         assert!(expected.compare(&written).is_err(), "{fault} went unnoticed");
     }
@@ -113,7 +113,7 @@ fn written_dispatch_sizes_keep_to_the_limit() {
         assert!(keep_to(limits, &sizes), "{sizes:?}");
     }
     machine.plant(setup, "write_dispatch");
-    machine.tessellator = machine.tessellator.limited(LOW);
+    machine.limit(LOW);
     assert!(!keep_to(LOW, &dispatch_sizes(&mut machine, setup, &patches)), "longer rows");
 }
 

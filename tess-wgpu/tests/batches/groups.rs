@@ -148,7 +148,7 @@ fn planted_faults_are_seen() {
         "first_index_of_4",
     ] {
         machine.plant(setup, fault);
-        machine.tessellator = machine.tessellator.limited(LOW);
+        machine.limit(LOW);
         assert!(!are_right(&mut machine, setup, &patches, &groups), "{fault} went unnoticed");
     }
 }

@@ -96,7 +96,7 @@ impl Machine {
         self.tessellator = sound;
     }
 
-    /// Keeps to these limits.
+    /// Batches that are made from now on keep to these limits. The pipelines stay.
     pub(crate) fn limit(&mut self, limits: Limits) {
         self.tessellator = self.tessellator.clone().limited(limits);
     }

@@ -17,7 +17,7 @@ use tess_core::{Domain, Patch, PatchFactors};
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Capacity, IndexType, Limits, Numbering, Plan, Resource, Setup, Written};
 use tess_verify::generate::SplitMix64;
-use tess_wgpu::{Outputs, Tessellator};
+use tess_wgpu::Outputs;
 use wgpu::BufferUsages as Usage;
 
 /// Points and words of indices of the buffers that batches share.
@@ -378,8 +378,6 @@ const fn written(output: Destination) -> Written {
 /// Batches that are made from now on keep to these limits. The pipelines stay.
 fn limit(machine: &mut Machine, is_low: bool) -> Limits {
     let limits = if is_low { LOW } else { Limits::WEBGPU };
-    let device = &machine.gpu.device;
-    let tessellator = std::mem::replace(&mut machine.tessellator, Tessellator::new(device));
-    machine.tessellator = tessellator.limited(limits);
+    machine.limit(limits);
     limits
 }
