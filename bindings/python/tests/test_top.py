@@ -19,7 +19,7 @@ FAULTS = {
     "the unused index of a line is not 0": "stage=connect module=tess_connect signal=i2 primitive ",
 }
 LIST = [line for line in (BENCH.parent / "circuit.faults").read_text().splitlines() if line.startswith("fault ")]
-NUMBERS = {line.removeprefix("fault ").partition(" := ")[0]: str(number) for number, line in enumerate(LIST, 1)}
+NUMBERS = {line.removeprefix("fault "): str(number) for number, line in enumerate(LIST, 1)}
 
 
 def bench(tmp_path: Path, *options: str) -> "subprocess.CompletedProcess[str]":

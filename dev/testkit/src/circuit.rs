@@ -1,11 +1,11 @@
 //! The planted faults of the circuit: copies of the design that have one of them, or all behind a switch.
 //!
-//! The text of a fault stands in its file once. It is an expression, `assign` with one (declarations may stand before a
-//! wrong one), or whole statements of a procedure, so that a switch can choose between it and the wrong text:
+//! The text of a fault occurs in its file once. It is an expression, `assign` with one (declarations may precede a
+//! wrong one), or whole statements of a procedure, so that a switch can choose between it and the wrong text. The third
+//! fault of the list, `wide[7]` replaced by `1'b1`, makes this of the design:
 //!
 //! ```text
-//! fault ties round up := wide[7] ==> 1'b1        the third of the list
-//! up = wide[7] && low;                           the design
+//! up = wide[7] && low;
 //! up = (tess_fault_pkg::number == 3 ? (1'b1) : (wide[7])) && low;
 //! ```
 

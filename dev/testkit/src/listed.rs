@@ -1,21 +1,21 @@
 //! Lists of faults: a text of a source, and a wrong one in its place.
 //!
 //! ```text
-//! in tess-gpu/shaders                            the folder of the sources, or a file
-//! seen by tess-wgpu/tests/batches exact::         a file of tests, and words that select some of them
-//! fault half factors are rounded down := (factor + 1u) >> 1u ==> factor >> 1u
-//! equivalent: REASON                             no test can see the fault
+//! in tess-gpu/shaders                        the folder of the sources, or a file
+//! seen by tess-wgpu/tests/batches exact::    a file of tests, and words that select some of them
 //!
-//! fault two lines are missing
+//! fault half factors are rounded down
+//! equivalent: REASON                         only where no test can see the fault
 //! <<<
-//! the text, of any number of lines
+//! (factor + 1u) >> 1u
 //! ===
-//! the new text
+//! factor >> 1u
 //! >>>
 //! ```
 //!
-//! `in` and `seen by` hold until the next one. A text on the line of its fault has no space at its ends, and the new one
-//! may be empty. `cargo xtask mutants planted`, the circuit's benches and tests of the shaders read such lists.
+//! `in` and `seen by` apply until the next one. Both texts may have several lines, and the new one may be empty. A line
+//! that starts with `#` is a comment. `cargo xtask mutants planted`, the circuit's benches and tests of the shaders
+//! read such lists.
 
 /// One wrong text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,7 +53,7 @@ impl ListedFault {
 /// The faults of a list.
 ///
 /// # Errors
-/// The number of a line that is none of a list.
+/// The number of a line that has another form.
 pub fn parse(list: &str) -> Result<Vec<ListedFault>, String> {
     let (mut folder, mut seen_by, mut faults) = (None, None, Vec::new());
     let mut lines = (1..).zip(list.lines()).peekable();
@@ -66,21 +66,11 @@ pub fn parse(list: &str) -> Result<Vec<ListedFault>, String> {
             seen_by = words.next().map(|tests| (tests, words.collect::<Vec<_>>()));
         } else if let Some(fault) = line.strip_prefix("fault ") {
             let reason = lines.next_if(|(_, line)| line.starts_with("equivalent: "));
-            let (name, right, new) = match fault.split_once(" := ") {
-                Some((name, texts)) => {
-                    let (right, new) = texts.split_once(" ==>").ok_or(wrong("it has no ` ==>`"))?;
-                    (name, right.to_owned(), new.trim_start().to_owned())
-                }
-                None => {
-                    let block = lines.by_ref().map(|(_, line)| line);
-                    let (right, new) =
-                        texts(block).ok_or(wrong("`fault` goes on with `<<<`, `===`, `>>>`"))?;
-                    (fault, right, new)
-                }
-            };
+            let block = lines.by_ref().map(|(_, line)| line);
+            let (right, new) = texts(block).ok_or(wrong("`fault` goes on with `<<<`, `===`, `>>>`"))?;
             let (tests, filters) = seen_by.clone().ok_or(wrong("no `seen by` before it"))?;
             faults.push(ListedFault {
-                name: name.to_owned(),
+                name: fault.to_owned(),
                 folder: folder.clone().ok_or(wrong("no `in` before it"))?,
                 tests,
                 filters,

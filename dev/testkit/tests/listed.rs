@@ -1,9 +1,32 @@
-//! Lists of faults are read as they stand.
+//! Lists of faults are read as they are written.
 
 use tess_testkit::listed::parse;
 
-const LIST: &str = "# A list\nin src\nseen by a/tests/b.rs one two\nfault first := x + 1 ==> x - 1\n\
-    equivalent: nobody asks\n\nseen by a/tests/c.rs\nfault second: y\n<<<\ny\nz\n===\n>>>\nfault third := y; ==>\n";
+const LIST: &str = "\
+# A list
+in src
+seen by a/tests/b.rs one two
+fault first
+equivalent: nobody asks
+<<<
+x + 1
+===
+x - 1
+>>>
+
+seen by a/tests/c.rs
+fault second: y
+<<<
+y
+z
+===
+>>>
+fault third
+<<<
+y;
+===
+>>>
+";
 
 #[test]
 fn a_list_has_its_faults() {
@@ -30,11 +53,10 @@ fn a_list_has_its_faults() {
 }
 
 #[test]
-fn what_is_no_list_is_refused_with_its_line() {
+fn a_line_of_another_form_is_refused_with_its_number() {
     for (wrong, line) in [
-        ("fault a := x ==> y\n", 1),
-        ("in src\nfault a := x ==> y\n", 2),
-        ("in src\nseen by t\nfault a := x = y\n", 3),
+        ("fault a\n<<<\nx\n===\ny\n>>>\n", 1),
+        ("in src\nfault a\n<<<\nx\n===\ny\n>>>\n", 2),
         ("in src\nseen by t\nfault a\nx\n===\ny\n>>>\n", 3),
         ("in src\nseen by t\nfault a\n<<<\nx\n>>>\n", 3),
         ("\nwhat", 2),

@@ -33,7 +33,7 @@
 //! 1. Give the kernel a variant of `Kernel` and an arm in `src/kernels/kernel_taps`, which is compiled for each level.
 //! 2. Write in `references` what the model gives, in the order in which `KernelTap::words` lists the output.
 //! 3. Add a line to [`TABLE`]. A kernel without one fails the test.
-//! 4. Plant a fault in the kernel, see the test name it, and add the fault to `dev/xtask/faults/simd.faults`.
+//! 4. Plant a fault in the kernel and see the test name it.
 
 pub(crate) mod inputs;
 mod references;

@@ -70,7 +70,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("tess-faults-{}", std::process::id()));
         fs::create_dir_all(folder.join("src/deep")).expect("a folder");
         let files = ["src/a.rs", "src/deep/b.rs"].map(PathBuf::from);
-        let list = "in src\nseen by a/tests/b.rs\nfault first := x + 1 ==> x - 1\n";
+        let list = "in src\nseen by a/tests/b.rs\nfault first\n<<<\nx + 1\n===\nx - 1\n>>>\n";
         let faults = parse(list).expect("a list");
         let planted = |a: &str, b: &str| {
             fs::write(folder.join(&files[0]), a).expect("written");
