@@ -1,7 +1,7 @@
 """Checks of texts: `checks.py traceability`, `checks.py public`.
 
-traceability: docs/traceability.md says of each sentence of the specification what sees a violation. A mark,
-`<!-- r:SECTION/NUMBER -->`, stands behind its sentence. `<!-- r:- -->` stands behind text that demands nothing.
+traceability: each row of docs/traceability.md is a demand of the specification, with the tests, recorded results, rules or
+proofs that see a violation. Every numbered section has a row, and everything that a row names exists.
 
 public: an item of a published library that nobody outside uses is a promise that nobody tests. Words are compared, not
 paths: an item counts as used where its name stands in the code of a test, an example, a bench, a tool, a binding or
@@ -21,59 +21,8 @@ def read(path):
     return (ROOT / path).read_text()
 
 
-def blocks(page):
-    """Paragraphs, items of lists, tables and listings: section, whether it consists of sentences, and text.
-
-    A line that begins with a mark belongs to the table or the listing above it.
-    """
-    found, section, is_listing, goes_on = [], "0", False, False
-    for words in map(str.strip, page.splitlines()):
-        is_fence = words.startswith("```")
-        if not is_listing and words.startswith("#"):
-            section = re.match(r"#+ ?(\d[\d.]*)?", words)[1] or "0"
-            section = section.rstrip(".")
-        if not is_listing and (not words or words.startswith("#")):
-            goes_on = False
-            continue
-        is_prose = not is_listing and not is_fence and not words.startswith(("|", "<"))
-        # Behind the sign of a list no sentence ends.
-        item = re.match(r"(?:\d+\.|-) (.*)", words) if is_prose else None
-        if not goes_on or item or (found[-1][1] and not is_prose and not words.startswith("<")):
-            found.append([section, is_prose, ""])
-        goes_on, is_listing = True, is_listing ^ is_fence
-        if found[-1][1] and words.startswith("<!--"):
-            found[-1][2] += "\nThis mark begins a line, which then is no text:"
-        found[-1][2] += "\n" + (item[1] if item else words)
-    return found
-
-
-def sentences(text):
-    """Full stops that something follows which begins a sentence, and the last."""
-    return len(re.findall(r"(?<!\.)\.(?=\s+[A-Z`*(])", text.strip().replace(".)", "."))) + 1
-
-
-def marks_of(page, errors):
-    """The marks, but for those of text that demands nothing."""
-    marks = []
-    for section, is_prose, text in blocks(page):
-        *parts, rest = re.split(r"<!-- r:(.*?) -->", text)
-        for before, mark in zip(parts[::2], parts[1::2]):
-            if mark == "-":
-                continue
-            if is_prose and sentences(before) > 1:
-                errors.append(f"r:{mark} stands behind more than one sentence:{before}")
-            if not re.fullmatch(re.escape(section) + r"/\d+", mark):
-                errors.append(f"r:{mark} stands in section {section}")
-            if mark in marks:
-                errors.append(f"r:{mark} stands in the specification twice")
-            marks.append(mark)
-        if rest.strip():
-            errors.append(f"section {section}, no mark stands behind:{rest}")
-    return marks
-
-
 def evidence(quoted, read):
-    """Why a row's name is none of a test, a recorded result, a rule or a proof."""
+    """What is wrong with the name of a test, a recorded result, a rule or a proof; None if it exists."""
     if not re.fullmatch("`.+`", quoted):
         return f"`{quoted}` is no name in backticks"
     path, _, item = quoted.strip("`").partition("::")
@@ -93,19 +42,22 @@ def evidence(quoted, read):
 
 
 def traceability(page, table, read):
-    """The marks, and what is wrong: marks and names that are missing, doubled or unknown."""
+    """The number of demands, and the errors: sections without a row, and rows of unknown sections or evidence."""
+    sections = re.findall(r"^#+ (\d[\d.]*?)\.? ", page, re.MULTILINE)
+    # A section that consists of others has its demands there.
+    demanding = [section for section in sections if not any(other.startswith(section + ".") for other in sections)]
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in table.splitlines() if line.startswith("| ")]
+    rows = [row for row in rows if row[0] != "section" and not row[0].startswith("---")]
     errors = []
-    marks = marks_of(page, errors)
-    rows = [[cell.strip() for cell in line.split("|")] for line in table.splitlines() if line.startswith("| ")]
-    rows = [row for row in rows[1:] if not row[1].startswith("---")]
-    for _, mark, *cells in rows:
-        if mark not in marks:
-            errors.append(f"the specification has no mark r:{mark}")
-        names = cells[1].split(", ") if len(cells) > 1 else [""]
-        errors += [f"r:{mark}: {fault}" for name in names if (fault := evidence(name, read))]
-    counts = {mark: sum(row[1] == mark for row in rows) for mark in marks}
-    errors += [f"docs/traceability.md has {count} rows for r:{mark}" for mark, count in counts.items() if count != 1]
-    return len(counts), errors
+    for section, demand, *cells in rows:
+        where = f"section {section}, {demand}"
+        if section not in sections:
+            errors.append(f"{where}: the specification has no such section")
+        names = cells[0].split(", ") if cells else [""]
+        errors += [f"{where}: {fault}" for name in names if (fault := evidence(name, read))]
+    used = {row[0] for row in rows}
+    errors += [f"docs/traceability.md has no row for section {section}" for section in demanding if section not in used]
+    return len(rows), errors
 
 
 LIBRARIES = ["tess-core", "tess-simd", "tess-gpu", "tess-wgpu", "tess-surface", "tess-verify"]
@@ -149,7 +101,7 @@ def public(libraries, files):
 def main(words):
     if words == ["traceability"]:
         count, faults = traceability(read("docs/specification.md"), read("docs/traceability.md"), read)
-        print(f"{count} sentences of the specification, each with what sees a violation")
+        print(f"{count} demands of the specification, each with what sees a violation")
     elif words == ["public"]:
         known = subprocess.run(["git", "ls-files", "--", "*.rs"], cwd=ROOT, check=True, capture_output=True, text=True)
         count, faults = public(LIBRARIES, {path: read(path) for path in known.stdout.splitlines()})

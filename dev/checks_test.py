@@ -4,13 +4,10 @@ from checks import public, traceability
 
 
 def test_traceability():
-    page = (
-        "# Page\n\n## 1. One\n\nIt is. <!-- r:1/1 --> So. And so. <!-- r:- -->\n\n1. Item one: <!-- r:1/2 -->\n\n"
-        "   | a |\n   | --- |\n   <!-- r:1/3 -->\n\n```\ncode. More\n```\n<!-- r:1/4 -->\n"
-    )
+    page = "# Page\n\n## 1. One\n\nIt is.\n\n## 2. Two\n\n### 2.1 A\n\nSo.\n\n### 2.2 B\n\n| 1 | a |\n"
     table = (
-        "| mark | demands | seen by |\n| --- | --- | --- |\n| 1/1 | a | `t.rs::one` |\n| 1/2 | b | `golden/a.csv`, "
-        "`t.rs::one` |\n| 1/3 | c | `docs/rules.md::same` |\n| 1/4 | d | `rtl/dv/formal/prove_place.sv` |\n"
+        "| section | demands | seen by |\n| --- | --- | --- |\n| 1 | a | `t.rs::one` |\n| 1 | b | `golden/a.csv`, "
+        "`t.rs::one` |\n| 2.1 | c | `docs/rules.md::same` |\n| 2.2 | d | `rtl/dv/formal/prove_place.sv` |\n"
     )
     tests = "#[test]\nfn one() {}\nfn two() {}\n#[test]\n#[ignore]\nfn three() {}"
     texts = {"t.rs": tests, "docs/rules.md": "\n| `same` | x |", "golden/a.csv": "", "rtl/dv/formal/prove_place.sv": ""}
@@ -22,20 +19,14 @@ def test_traceability():
 
     assert traceability(page, table, read) == (4, []), "as it is"
     for text, old, new, expected in [
-        (page, "It is. <!-- r:1/1 -->", "It is. More. <!-- r:1/1 -->", "r:1/1 stands behind more than one"),
-        (page, "<!-- r:- -->", "", "no mark stands behind: So. And so."),
-        (page, "one: <!-- r:1/2 -->", "one:", "no mark stands behind:\nItem one:"),
-        (page, "\n   <!-- r:1/3 -->", "", "no mark stands behind:\n| a |"),
-        (page, "r:1/2", "r:1/1", "r:1/1 stands in the specification twice"),
-        (page, "r:1/2", "r:2/2", "r:2/2 stands in section 1"),
-        (page, "It is.", "It is.\n<!-- r:1/7 --> More.", "This mark begins a line"),
-        (table, "| 1/1 | a | `t.rs::one` |\n", "", "has 0 rows for r:1/1"),
-        (table, "| 1/2 |", "| 1/1 |", "has 2 rows for r:1/1"),
-        (table, "| 1/2 |", "| 1/9 |", "has no mark r:1/9"),
-        (table, "`t.rs::one` |\n| 1/2", "|\n| 1/2", "r:1/1: `` is no name"),
-        (table, "t.rs::one", "t.rs::two", "r:1/1: there is no t.rs::two"),
+        (page, "### 2.2 B", "### 2.3 B", "section 2.2, d: the specification has no such section"),
+        (page, "## 2. Two", "## 3. Three\n\nMore.\n\n## 2. Two", "no row for section 3"),
+        (table, "| 2.1 | c | `docs/rules.md::same` |\n", "", "no row for section 2.1"),
+        (table, "| 1 | b |", "| 9 | b |", "section 9, b: the specification has no such section"),
+        (table, "`t.rs::one` |\n| 1", "|\n| 1", "section 1, a: `` is no name"),
+        (table, "t.rs::one", "t.rs::two", "section 1, a: there is no t.rs::two"),
         (table, "t.rs::one", "t.rs::three", "there is no t.rs::three"),
-        (table, "t.rs::one", "u.rs::one", "r:1/1: u.rs: no file"),
+        (table, "t.rs::one", "u.rs::one", "section 1, a: u.rs: no file"),
         (table, "same", "other", "there is no docs/rules.md::other"),
         (table, "golden/a.csv", "t.rs", "there is no t.rs"),
     ]:

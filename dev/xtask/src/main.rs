@@ -90,7 +90,7 @@ usage: cargo xtask <command>
           (bookworm), 25.0.7 on 13 (trixie); the other one may be asked for
   public  name the public items of the published libraries that nothing outside uses
   traceability
-          compare the marks of docs/specification.md with docs/traceability.md, and that with the tests it names
+          check that docs/traceability.md has each section of docs/specification.md and that the evidence it names exists
   features [PACKAGE...]
           check that every published package, or these, compiles with none of its features, each, and all
   ports [brief] [NAME...]
