@@ -67,7 +67,8 @@ pub fn parse(list: &str) -> Result<Vec<ListedFault>, String> {
         } else if let Some(fault) = line.strip_prefix("fault ") {
             let reason = lines.next_if(|(_, line)| line.starts_with("equivalent: "));
             let block = lines.by_ref().map(|(_, line)| line);
-            let (right, new) = texts(block).ok_or(wrong("`fault` goes on with `<<<`, `===`, `>>>`"))?;
+            let (right, new) =
+                texts(block).ok_or(wrong("`fault` goes on with `<<<`, `===`, `>>>`"))?;
             let (tests, filters) = seen_by.clone().ok_or(wrong("no `seen by` before it"))?;
             faults.push(ListedFault {
                 name: fault.to_owned(),
