@@ -2,7 +2,6 @@
 
 use crate::command::{self, cargo};
 use serde::Deserialize;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// A package of the workspace.
@@ -14,8 +13,6 @@ pub(crate) struct Package {
     /// The registries that take it; `None` means any.
     publish: Option<Vec<String>>,
     pub(crate) targets: Vec<Target>,
-    /// The features, each with what it turns on.
-    pub(crate) features: BTreeMap<String, Vec<String>>,
 }
 
 /// A library, program, test, example or bench of a package.
