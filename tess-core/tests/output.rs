@@ -1,13 +1,12 @@
 //! All ways out of a patch agree: sinks, slices, vectors and predicted counts.
 
-mod common;
-
 use proptest::prelude::*;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{
     Buffer, BufferTooSmall, Config, Counter, Counts, DomainPoint, MAX_INDICES, MAX_POINTS,
     OutputPrimitive, Partitioning, Patch, PatchFactors, QuadFactors,
 };
+use tess_testkit::strategies;
 
 /// Value of unwritten elements.
 const POINT: DomainPoint = DomainPoint::from_bits(0xDEAD_BEEF, 0xDEAD_BEEF);
@@ -51,14 +50,14 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn sinks_slices_vectors_and_counts(config in common::config(), factors in common::factors()) {
+    fn sinks_slices_vectors_and_counts(config in strategies::config(), factors in strategies::factors()) {
         check_buffers(config, factors)?;
     }
 
     #[test]
     fn buffers_that_are_too_small(
-        config in common::config(),
-        factors in common::factors(),
+        config in strategies::config(),
+        factors in strategies::factors(),
         fraction in 0u32..100,
     ) {
         let patch = Patch::new(config, factors);
@@ -84,7 +83,7 @@ proptest! {
         partitioning in prop::sample::select(&Partitioning::ALL[..]),
         reduction in prop::sample::select(&[Reduction::Min, Reduction::Max, Reduction::Average][..]),
         axes in prop::sample::select(&[QuadAxes::One, QuadAxes::Two][..]),
-        factors in common::factors(),
+        factors in strategies::factors(),
     ) {
         let outer_count = match factors {
             PatchFactors::Isoline(_) => 2,

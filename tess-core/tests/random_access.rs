@@ -1,6 +1,5 @@
 //! Both formulations give the same elements: on every topology, and on random patches.
 
-mod common;
 #[path = "common/shown.rs"]
 mod shown;
 
@@ -10,6 +9,7 @@ use tess_core::{
     Config, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, Patch, PatchFactors,
     Primitive, QuadFactors, Sink, SplitOrder, TriangleFactors,
 };
+use tess_testkit::strategies;
 
 /// The sequential formulation's elements, primitives kept apart.
 #[derive(Clone, Default)]
@@ -133,7 +133,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
     #[test]
-    fn any_factors_in_any_configuration(config in common::config(), factors in common::factors()) {
+    fn any_factors_in_any_configuration(config in strategies::config(), factors in strategies::factors()) {
         assert_equal(config, factors);
     }
 }

@@ -1,8 +1,5 @@
 //! Sentences of the specification that no comparison of whole outputs would single out.
 
-mod common;
-
-use common::from_fixed;
 use proptest::prelude::*;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS, ceil, floor};
 use tess_core::place::steps;
@@ -13,6 +10,7 @@ use tess_core::{
     Config, Domain, DomainPoint, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning,
     Patch, PatchFactors, ProcessedPatch, SplitOrder, Tessellation, place,
 };
+use tess_testkit::strategies::{self, from_fixed};
 
 fn patch(partitioning: Partitioning, factors: PatchFactors) -> Patch {
     Patch::new(Config::new(partitioning, OutputPrimitive::TriangleCw), factors)
@@ -23,7 +21,7 @@ proptest! {
 
     /// Section 1: pow2 is integer.
     #[test]
-    fn pow2_is_integer(config in common::config(), factors in common::factors()) {
+    fn pow2_is_integer(config in strategies::config(), factors in strategies::factors()) {
         let [pow2, integer] = [Partitioning::Pow2, Partitioning::Integer]
             .map(|partitioning| Patch::new(Config { partitioning, ..config }, factors).tessellate());
         prop_assert!(pow2 == integer, "{config:?} {factors:?}");
@@ -31,7 +29,7 @@ proptest! {
 
     /// Section 12: what a checker may demand of patches that are far from the table's exceptions.
     #[test]
-    fn areas_are_positive_far_above_integers(config in common::config(), factors in common::factors()) {
+    fn areas_are_positive_far_above_integers(config in strategies::config(), factors in strategies::factors()) {
         let config = Config { output: OutputPrimitive::TriangleCw, ..config };
         let patch = Patch::new(config, factors);
         let processed = patch.processed().factors().copied();

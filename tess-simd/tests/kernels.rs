@@ -2,16 +2,14 @@
 //!
 //! `TESS_KERNEL="stages/points/quad 6"` runs one entry in one round, as a message says; a name alone runs all its rounds.
 
-#[path = "common/levels.rs"]
-mod levels;
 #[path = "kernels/table.rs"]
 mod table;
 
-use levels::levels;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::scope;
 use table::{Entry, SEED, TABLE};
 use tess_simd::{Kernel, Level};
+use tess_testkit::levels::levels;
 
 /// Rounds in which every partitioning, output and split order occurs, with random inputs and with extreme ones.
 const ROUNDS: u32 = 64;

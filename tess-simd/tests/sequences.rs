@@ -19,8 +19,6 @@ mod expected;
 mod found;
 #[path = "sequences/kept.rs"]
 mod kept;
-#[path = "common/levels.rs"]
-mod levels;
 #[path = "common/patches.rs"]
 #[expect(dead_code, reason = "batches are compared by columns here")]
 mod patches;
@@ -61,7 +59,7 @@ fn sequences_at_avx512() {
 
 /// Draws sequences and makes their calls at a level.
 fn any_sequence(level: Level) {
-    if !levels::levels().contains(&level) {
+    if !tess_testkit::levels::levels().contains(&level) {
         return;
     }
     let began = Instant::now();

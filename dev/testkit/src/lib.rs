@@ -1,11 +1,17 @@
-//! Tools of the project's own tests beside `tess-verify`: backends with planted faults, which every
-//! comparison must notice, lists of faults in sources, the invariants of spec section 12, options
-//! crossed by pairs, and the verdict of the circuit's bench.
+//! Shared parts of the project's own tests. Without features it has no dependencies, so that the
+//! development commands can use it: lists of faults in sources, the planted faults of the circuit and
+//! the verdict of its bench, and options crossed by pairs. The features are in `Cargo.toml`.
 
 pub mod circuit;
+#[cfg(feature = "kit")]
 pub mod faults;
+#[cfg(feature = "kit")]
 pub mod invariants;
+#[cfg(feature = "levels")]
+pub mod levels;
 pub mod listed;
 pub mod pairs;
 pub mod shader_faults;
+#[cfg(feature = "strategies")]
+pub mod strategies;
 pub mod verdict;

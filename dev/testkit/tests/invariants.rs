@@ -1,20 +1,18 @@
 //! The invariants of spec section 12 hold for any factors, and each is seen to fail.
 
-#[path = "../../../tess-core/tests/common/mod.rs"]
-mod common;
-
 use proptest::prelude::*;
 use tess_core::{Config, DomainPoint, OutputPrimitive, Tessellation};
 use tess_testkit::invariants::{
     Violation, all, area, counts, crack_free, manifold, range, separability, symmetry, winding,
 };
+use tess_testkit::strategies;
 use tess_verify::Case;
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
     #[test]
-    fn hold_for_any_factors(config in common::config(), factors in common::factors()) {
+    fn hold_for_any_factors(config in strategies::config(), factors in strategies::factors()) {
         let case = Case { config, factors };
         let holds = all(&case, &case.patch().tessellate());
         prop_assert!(holds.is_ok(), "{case}: {holds:?}");

@@ -1,17 +1,11 @@
 //! Planted faults: `cargo mutants` changes one thing at a time and demands that a test fails.
 
-// The testkit's modules alone, as this program is built before the libraries.
-#[path = "../../testkit/src/circuit.rs"]
-#[expect(unreachable_pub, reason = "it is public in the testkit")]
-pub(crate) mod circuit;
 mod fault;
-#[path = "../../testkit/src/listed.rs"]
-#[expect(unreachable_pub, reason = "it is public in the testkit")]
-pub(crate) mod listed;
 mod planted;
 
 use crate::command::{cargo, in_file, read, shown, workspace};
 use std::fs;
+use tess_testkit::circuit;
 
 /// A crate and the tests that must see its faults, the fastest pass first. Each pass tries what the
 /// one before it missed.

@@ -1,12 +1,12 @@
 //! Whole batches, bit for bit the core's: every configuration, level, format and numbering.
 
-use crate::levels::levels;
 use crate::patches::{Patches, compare, configs, difference};
 use tess_core::{
     Config, Domain, DomainPoint, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
     SplitOrder, Tessellation, TriangleFactors,
 };
 use tess_simd::{Level, Numbering, Output, Tessellator};
+use tess_testkit::levels::levels;
 use tess_verify::generate::SplitMix64;
 
 const SAME: fn(DomainPoint) -> DomainPoint = |point| point;

@@ -5,8 +5,6 @@ mod buffers;
 mod exact;
 mod examples;
 mod groups;
-#[path = "../common/levels.rs"]
-mod levels;
 #[path = "../common/patches.rs"]
 mod patches;
 #[cfg(feature = "rayon")]

@@ -14,8 +14,6 @@ mod edges;
 mod errors;
 mod factors;
 mod flatness;
-#[path = "../../../tess-simd/tests/common/levels.rs"]
-mod levels;
 mod models;
 mod normals;
 mod point_normal;

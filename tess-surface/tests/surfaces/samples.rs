@@ -1,9 +1,9 @@
 //! Many vertices at a time: the bits of one at a time, whichever lanes they are in.
 
-use crate::levels::levels;
 use crate::models::{bumps, models, rational_ball};
 use tess_core::{Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_surface::{DisplacedModel, Level, LevelUnavailable, Model, Sample};
+use tess_testkit::levels::levels;
 
 /// Domain points of a cut whose edges and inside are of several lengths.
 fn points(domain: Domain) -> Vec<[f32; 2]> {

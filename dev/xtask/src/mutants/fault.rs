@@ -1,9 +1,9 @@
 //! The lists of faults that are planted by hand: `dev/xtask/faults/*.faults`.
 
-use super::listed::{ListedFault, parse};
 use crate::command::{self, in_file};
 use std::fs;
 use std::path::{Path, PathBuf};
+use tess_testkit::listed::{ListedFault, parse};
 
 /// A file with a fault in it.
 #[derive(Debug, PartialEq, Eq)]

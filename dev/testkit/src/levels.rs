@@ -7,7 +7,11 @@ const VARIABLE: &str = "TESS_REQUIRE_LEVELS";
 
 /// The levels to compare at: every one of this machine. One that it lacks is reported, and fails the
 /// test if the environment variable `TESS_REQUIRE_LEVELS` asks for it.
-pub(crate) fn levels() -> Vec<Level> {
+///
+/// # Panics
+/// The variable asks for a level that this machine lacks, or names none.
+#[must_use]
+pub fn levels() -> Vec<Level> {
     let required = std::env::var(VARIABLE).unwrap_or_default();
     let required = required_levels(&required).unwrap_or_else(|error| panic!("{VARIABLE}: {error}"));
     let (available, missing): (Vec<_>, Vec<_>) =
@@ -23,7 +27,10 @@ pub(crate) fn levels() -> Vec<Level> {
 }
 
 /// The levels that a value asks for: `all`, or names with commas between them.
-fn required_levels(value: &str) -> Result<Vec<Level>, String> {
+///
+/// # Errors
+/// A name that no level has.
+pub fn required_levels(value: &str) -> Result<Vec<Level>, String> {
     if value == "all" {
         return Ok(Level::ALL.to_vec());
     }
@@ -36,14 +43,4 @@ fn required_levels(value: &str) -> Result<Vec<Level>, String> {
             })
         })
         .collect()
-}
-
-#[test]
-fn the_variable_names_levels() {
-    let of = |value| required_levels(value);
-    assert_eq!(of(""), Ok(vec![]), "not set");
-    assert_eq!(of("all"), Ok(Level::ALL.to_vec()), "all");
-    assert_eq!(of("avx2, baseline"), Ok(vec![Level::Avx2, Level::Baseline]), "names");
-    let error = of("avx2,neon").expect_err("no such level");
-    assert!(error.contains("neon") && error.contains("avx512"), "{error}");
 }

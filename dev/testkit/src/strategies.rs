@@ -1,4 +1,4 @@
-//! Helpers of the core's tests.
+//! Strategies of property tests: factors of any domain, and every configuration.
 
 use proptest::prelude::*;
 use tess_core::{
@@ -7,7 +7,7 @@ use tess_core::{
 };
 
 /// Bit patterns of factors: any at all, and those around which things change.
-pub(crate) fn factor() -> impl Strategy<Value = f32> {
+pub fn factor() -> impl Strategy<Value = f32> {
     let special = prop::sample::select(vec![
         0x0000_0000, // 0
         0x8000_0000, // -0
@@ -39,13 +39,14 @@ pub(crate) fn factor() -> impl Strategy<Value = f32> {
 }
 
 /// The binary32 number of 15.16 bits below 2^24, exactly.
+#[must_use]
 #[expect(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "24 bits, a power of two")]
-pub(crate) fn from_fixed(bits: u32) -> f32 {
+pub fn from_fixed(bits: u32) -> f32 {
     bits as f32 / 65536.0
 }
 
 /// Factors of any domain, all from [`factor`]; small patches are as likely as large ones.
-pub(crate) fn factors() -> impl Strategy<Value = PatchFactors> {
+pub fn factors() -> impl Strategy<Value = PatchFactors> {
     prop_oneof![
         [factor(), factor()].prop_map(|[density, detail]| {
             PatchFactors::Isoline(IsolineFactors { density, detail })
@@ -62,7 +63,7 @@ pub(crate) fn factors() -> impl Strategy<Value = PatchFactors> {
 }
 
 /// Every configuration.
-pub(crate) fn config() -> impl Strategy<Value = Config> {
+pub fn config() -> impl Strategy<Value = Config> {
     let partitioning = prop::sample::select(&Partitioning::ALL[..]);
     let output = prop::sample::select(&OutputPrimitive::ALL[..]);
     let split = prop::sample::select(&SplitOrder::ALL[..]);
