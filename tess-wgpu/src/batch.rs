@@ -1,11 +1,19 @@
 //! A batch of patches, which is made once and encoded each frame.
 
-use crate::buffers::Buffers;
-use crate::dispatches::{Dispatch, dispatches};
+pub(crate) mod buffers;
+mod dispatches;
+pub(crate) mod outputs;
+pub(crate) mod read_back;
+#[cfg(feature = "measure")]
+mod taps;
+pub(crate) mod tessellator;
+
+use crate::device::limits;
+use crate::device::pipelines::Pipelines;
 use crate::error::Error;
-use crate::limits;
-use crate::outputs::{Outputs, Patches};
-use crate::pipelines::Pipelines;
+use buffers::Buffers;
+use dispatches::{Dispatch, dispatches};
+use outputs::{Outputs, Patches};
 use tess_gpu::{Capacity, Limits, Plan, Resource, Setup, Stage, Workgroups, Written};
 
 /// Patches of one [`Setup`] with the caller's buffers, and every buffer and bind group in between.

@@ -45,7 +45,7 @@ pub enum Error {
         got: u64,
     },
     /// A buffer would be larger than the device allows. Tessellate fewer patches at a time, or open
-    /// the device with higher limits ([`crate::Wanted::Everything`]).
+    /// the device with higher limits ([`crate::DeviceLimits::Highest`]).
     #[error(
         "the buffer `{buffer}` needs {needed} bytes, and the device allows {limit}; \
          tessellate fewer patches at a time"

@@ -1,14 +1,14 @@
 //! The tessellation stage: a hull and a domain function in WGSL, drawn.
 
+mod build;
 mod builder;
 mod choices;
+mod factor_pass;
 mod feedback;
 mod fit;
 mod frames;
 mod gl;
-mod make;
 mod modules;
-mod origin;
 mod output;
 mod passes;
 mod room;
@@ -20,12 +20,13 @@ pub use builder::StageBuilder;
 pub use choices::{Factors, Overflow, PatchCount, Points, Room};
 pub use feedback::Feedback;
 
+use crate::Tessellator;
 use crate::batch::check_groups;
+use crate::device::gpu;
 use crate::error::Error;
-use crate::{Tessellator, gpu};
+use factor_pass::FactorPass;
 use feedback::Feedbacks;
 use fit::Fit;
-use origin::Origin;
 use output::StageOutput;
 use room::{Form, Lull};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -70,7 +71,7 @@ pub struct TessellationStage {
     factors: wgpu::Buffer,
     /// The number of patches of the frame.
     count: wgpu::Buffer,
-    origin: Origin,
+    factor_pass: FactorPass,
     fit: Option<Fit>,
     pulled: Option<wgpu::BindGroupLayout>,
     /// None if the caller draws with its own.
@@ -224,12 +225,12 @@ impl TessellationStage {
         encoder: &mut wgpu::CommandEncoder,
         patches: &[PatchFactors],
     ) -> Result<(), Error> {
-        let host = self.origin.host.as_ref().ok_or(StageError::NotHostFactors)?;
+        let host = self.factor_pass.host.as_ref().ok_or(StageError::NotHostFactors)?;
         let (got, most) = (u32::try_from(patches.len()).unwrap_or(u32::MAX), self.form.patches);
         if got > most {
             return Err(StageError::TooManyPatches { got, most }.into());
         }
-        crate::whole::check_domains(self.form.setup, patches)?;
+        crate::batch::read_back::check_domains(self.form.setup, patches)?;
         let words = factor_words(patches);
         let bytes: &[u8] = bytemuck::cast_slice(&words);
         if bytes.is_empty() {

@@ -4,7 +4,7 @@ use crate::app::{self, Args, Frame, Show};
 use crate::terrain::Terrain;
 use std::error::Error;
 use std::time::Instant;
-use tess_wgpu::{Gpu, Stopwatch, Wanted};
+use tess_wgpu::{Gpu, Stopwatch, DeviceLimits};
 
 /// Pixels across and down.
 const SIZE: [u32; 2] = [960, 720];
@@ -13,7 +13,7 @@ const SIZE: [u32; 2] = [960, 720];
 /// many frames of each.
 pub(crate) fn run(args: &Args) -> Result<(), Box<dyn Error>> {
     let frames: usize = args.number("bench", 20)?;
-    let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))?;
+    let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))?;
     let watch = Stopwatch::new(&gpu).ok();
     let clock = if watch.is_some() { "the device's timestamps" } else { "the host's clock" };
     println!("{} by {clock}, {} x {} pixels", gpu.name(), SIZE[0], SIZE[1]);

@@ -1,8 +1,9 @@
 //! A frame's needs, learnt some frames later without waiting.
 
 use super::fit::{Fit, Found};
+use crate::device::gpu;
 use crate::error::{Error, checked};
-use crate::{Batch, Gpu, gpu};
+use crate::{Batch, Gpu};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 use tess_gpu::layout::Status;

@@ -53,9 +53,10 @@
 //! counts back would make the host wait, or leave the frame to the next one's scale.
 
 use super::passes;
+use crate::Tessellator;
+use crate::device::pipelines::PipelineKey;
+use crate::device::{gpu, pipeline};
 use crate::error::Error;
-use crate::pipelines::PipelineKey;
-use crate::{Tessellator, gpu, pipeline};
 use std::sync::Arc;
 use tess_gpu::{Access, Capacity, Counting, Setup};
 use wgpu::BufferUsages as Usage;

@@ -3,8 +3,9 @@
 use super::feedback::{self, Feedback};
 use super::output::{StageOutput, Stored};
 use super::{PatchCount, Room, StageError, TessellationStage, fit, locked};
+use crate::Gpu;
+use crate::device::gpu;
 use crate::error::Error;
-use crate::{Gpu, gpu};
 use tess_gpu::{Capacity, Resource};
 use wgpu::BufferUsages as Usage;
 
@@ -45,7 +46,7 @@ impl TessellationStage {
         self.adapt()?;
         gpu::recorded(&self.device, || {
             encoder.copy_buffer_to_buffer(&count, offset, &self.count, 0, 4);
-            self.origin.encode(encoder, &self.bind_groups);
+            self.factor_pass.encode(encoder, &self.bind_groups);
             if let Some(fit) = &self.fit {
                 fit.encode(encoder);
             }

@@ -1,8 +1,9 @@
 //! Compute pipelines of the stage, and how their threads are laid out.
 
+use crate::Tessellator;
+use crate::device::pipeline;
+use crate::device::pipelines::PipelineKey;
 use crate::error::Error;
-use crate::pipelines::PipelineKey;
-use crate::{Tessellator, pipeline};
 use std::sync::Arc;
 use tess_gpu::{Access, Resource};
 

@@ -6,7 +6,7 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFacto
 use tess_gpu::sizes::{BLOCK, SECTION, TILE};
 use tess_gpu::{Capacity, Dispatch, IndexType, Limits, Numbering, Plan, Setup, Stage, Workgroups};
 use tess_verify::generate::SplitMix64;
-use tess_wgpu::{Gpu, Outputs, Tessellator, Wanted};
+use tess_wgpu::{DeviceLimits, Gpu, Outputs, Tessellator};
 use wgpu::BufferUsages;
 
 /// Limits that cut after 65536 patches, a few hundred tiles and 5 workgroups.
@@ -162,7 +162,7 @@ fn rows(plan: &Plan, stage: Stage) -> u32 {
 #[ignore = "6 GiB on a device that binds 3 at once: cargo test --release -p tess-wgpu \
             --test batches cut -- --ignored"]
 fn more_workgroups_than_a_row_has() {
-    let everything = Gpu::open_with(Wanted::Everything, wgpu::Features::empty());
+    let everything = Gpu::open_with(DeviceLimits::Highest, wgpu::Features::empty());
     let gpu = pollster::block_on(everything).unwrap_or_else(|error| panic!("{error}"));
     let tessellator = Tessellator::new(&gpu.device);
     let mut machine = Machine { gpu, tessellator };

@@ -11,7 +11,7 @@ use tess_gpu::{Numbering, Setup, Stage};
 use tess_testkit::listed::{self, ListedFault};
 use tess_verify::generate::{IndexWidth, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
-use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
+use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
 /// Runs whose median is taken.
 const SAMPLES: usize = 7;
@@ -36,7 +36,7 @@ pub(crate) struct AblationArguments {
 pub(crate) fn run(arguments: &AblationArguments) -> Result<()> {
     // For variants that use them.
     let features = Stopwatch::FEATURES | wgpu::Features::SUBGROUP;
-    let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, features))?;
+    let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, features))?;
     let stopwatch = Stopwatch::new(&gpu)?;
     let variants = variants(&std::fs::read_to_string(&arguments.edits)?)?;
     println!("{}", gpu.name());

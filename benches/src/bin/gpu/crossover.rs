@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
 use tess_gpu::Numbering;
 use tess_verify::generate::Workload;
-use tess_wgpu::{Batch, Gpu, Stopwatch, Tessellator, Wanted};
+use tess_wgpu::{Batch, DeviceLimits, Gpu, Stopwatch, Tessellator};
 
 pub(crate) fn run() -> Result<()> {
-    let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))?;
+    let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))?;
     let stopwatch = Stopwatch::new(&gpu)?;
     println!("{}; CPU level {}", gpu.name(), tess_simd::Level::detect());
     for name in ["uniform-1", "uniform-4", "uniform-16", "uniform-64", "character"] {

@@ -8,7 +8,7 @@ use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup};
 use tess_verify::generate::Workload;
-use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
+use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
 /// How many meshes there are.
 const MESHES: u32 = 256;
@@ -17,7 +17,7 @@ const LONG_ENOUGH: Duration = Duration::from_millis(700);
 
 /// Prints the device's time for each way, in microseconds.
 pub(crate) fn run() -> Result<()> {
-    let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))?;
+    let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))?;
     let stopwatch = Stopwatch::new(&gpu)?;
     println!("{}", gpu.name());
     let workload = Workload::named("character").remove(0);

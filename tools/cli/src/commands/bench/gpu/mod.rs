@@ -12,7 +12,7 @@ use tess_gpu::{Copies, Setup};
 use tess_verify::BackendError;
 use tess_verify::generate::{Calls, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
-use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
+use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
 mod fill;
 
@@ -48,7 +48,7 @@ struct Timed {
 
 impl GpuRunner {
     pub(super) fn new(args: &BenchCommand) -> Result<Self, Failure> {
-        let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))
+        let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))
             .map_err(Failure::unavailable)?;
         let stopwatch = Stopwatch::new(&gpu).map_err(|error| {
             Failure::unavailable(format!("{} cannot be measured: {error}", gpu.name()))

@@ -5,16 +5,17 @@ use super::choices::Factors;
 use super::passes;
 use super::room::Form;
 use super::{UserGroup, modules, source, wgsl};
+use crate::Tessellator;
+use crate::device::pipelines::PipelineKey;
+use crate::device::{gpu, pipeline};
 use crate::error::Error;
-use crate::pipelines::PipelineKey;
-use crate::{Tessellator, gpu, pipeline};
 use std::sync::Arc;
 use tess_gpu::{Access, Resource, Setup};
 use wgpu::BufferUsages as Usage;
 
 /// The pass that writes the raw factors of a frame.
 #[derive(Debug)]
-pub(super) struct Origin {
+pub(super) struct FactorPass {
     pipeline: Arc<wgpu::ComputePipeline>,
     /// Its own bindings and their group.
     own: wgpu::BindGroup,
@@ -35,7 +36,7 @@ pub(super) fn check(given: &wgpu::Buffer, needed: u64) -> Result<(), Error> {
     Ok(())
 }
 
-impl Origin {
+impl FactorPass {
     /// `factors` and `count` are the stage's: the pass reads the number of patches and writes the factors.
     pub(super) async fn new(
         builder: &StageBuilder<'_>,

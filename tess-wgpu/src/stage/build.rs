@@ -5,11 +5,12 @@ use super::choices::{Factors, Overflow, Points};
 use super::output::{StageOutput, Stored};
 use super::room::Lull;
 use super::wgsl::Declaration;
-use super::{Fit, Origin, StageError, TessellationStage};
-use super::{gl, modules, origin, passes, source, wgsl};
+use super::{FactorPass, Fit, StageError, TessellationStage};
+use super::{factor_pass, gl, modules, passes, source, wgsl};
+use crate::Tessellator;
+use crate::device::pipelines::PipelineKey;
+use crate::device::{gpu, limits, pipeline};
 use crate::error::{Error, checked};
-use crate::pipelines::PipelineKey;
-use crate::{Tessellator, gpu, limits, pipeline};
 use std::future::Future;
 use std::pin::pin;
 use std::sync::Arc;
@@ -73,7 +74,7 @@ async fn stage(
     let size = form.factor_bytes();
     let factors = gpu::empty(device, "factors of the stage", size, usage | Usage::COPY_SRC)?;
     let count = gpu::empty(device, "number of patches", 4, usage)?;
-    let origin = Origin::new(&builder, (form, &tessellator), [&factors, &count]).await?;
+    let factor_pass = FactorPass::new(&builder, (form, &tessellator), [&factors, &count]).await?;
     let pulled = pulled_layout(&tessellator, setup, points)?;
     let pipeline = match builder.makes_pipeline {
         true => Some(render_pipeline(&builder, &tessellator, pulled.as_ref()).await?),
@@ -101,7 +102,7 @@ async fn stage(
         bind_groups: builder.bind_groups.into_iter().map(|group| (group, Vec::new())).collect(),
         factors,
         count,
-        origin,
+        factor_pass,
         fit,
         pulled,
         pipeline,
@@ -131,7 +132,7 @@ fn check(builder: &StageBuilder<'_>, device: &wgpu::Device) -> Result<(), Error>
         return Err(StageError::TooManyFactors { needed, limit }.into());
     }
     if let Factors::Buffer(given) = builder.factors {
-        origin::check(given, needed)?;
+        factor_pass::check(given, needed)?;
     }
     source::check_names(builder.source, builder.setup(), builder.points)?;
     let declared = wgsl::declarations(builder.source);

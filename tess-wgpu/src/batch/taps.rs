@@ -1,7 +1,7 @@
 //! Stage taps: the value of one stage of the shaders, read for comparison with the golden model's.
 
+use crate::device::pipeline::group;
 use crate::error::Error;
-use crate::pipeline::group;
 use crate::{Gpu, Tessellator};
 use tess_gpu::sizes::WORKGROUP;
 use tess_gpu::{Setup, Tap};

@@ -1,9 +1,9 @@
 //! The buffers of a batch: the caller's and those in between.
 
+use super::outputs::{Outputs, Patches};
+use crate::device::gpu;
+use crate::device::pipelines::Pipelines;
 use crate::error::Error;
-use crate::gpu;
-use crate::outputs::{Outputs, Patches};
-use crate::pipelines::Pipelines;
 use tess_gpu::{Plan, Resource, Setup, Span};
 
 /// Everything that the stages bind: the buffer of each resource, in the order of [`Resource::ALL`].

@@ -1,9 +1,9 @@
 //! Batches of one device, made.
 
+use super::outputs::{Outputs, Patches};
 use crate::Batch;
+use crate::device::pipelines::{Edit, Pipelines};
 use crate::error::Error;
-use crate::outputs::{Outputs, Patches};
-use crate::pipelines::{Edit, Pipelines};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 #[cfg(feature = "measure")]
 use tess_gpu::Stage;

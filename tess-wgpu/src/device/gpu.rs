@@ -1,7 +1,7 @@
 //! A device, and moving bytes to and from it.
 
+use super::open::{self, DeviceLimits};
 use crate::error::{Error, StageError, checked};
-use crate::open::{self, Wanted};
 use futures_channel::oneshot;
 use std::fmt;
 use std::future::{Future, poll_fn};
@@ -31,14 +31,14 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
     pub async fn open() -> Result<Self, Error> {
-        Self::open_with(Wanted::Defaults, wgpu::Features::empty()).await
+        Self::open_with(DeviceLimits::Default, wgpu::Features::empty()).await
     }
 
     /// Opens the first adapter with these limits, and with the optional features that it has.
     ///
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
-    pub async fn open_with(wanted: Wanted, optional: wgpu::Features) -> Result<Self, Error> {
+    pub async fn open_with(wanted: DeviceLimits, optional: wgpu::Features) -> Result<Self, Error> {
         open::first(wanted, optional).await
     }
 

@@ -1,7 +1,7 @@
 //! Pipelines and tables of one device, each made when it is first asked for.
 
+use super::{gpu, limits, pipeline};
 use crate::error::{Error, checked};
-use crate::{gpu, limits, pipeline};
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::{Arc, Weak};

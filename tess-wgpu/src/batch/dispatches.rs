@@ -1,9 +1,9 @@
 //! The dispatches of a plan with their pipelines and bind groups.
 
-use crate::buffers::Buffers;
+use super::buffers::Buffers;
+use crate::device::pipeline;
+use crate::device::pipelines::Pipelines;
 use crate::error::Error;
-use crate::pipeline;
-use crate::pipelines::Pipelines;
 use tess_gpu::{Plan, Setup, Stage, Workgroups};
 
 /// One stage over one part of the batch.

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::{Batch, Gpu, Outputs, Tessellator};
-use tess_core::PatchFactors;
+use tess_core::{Patch, PatchFactors};
 use tess_gpu::layout::{DrawIndexed, Status, factor_words};
 use tess_gpu::{IndexType, Setup};
 
@@ -22,7 +22,8 @@ pub struct ReadBack {
 }
 
 impl Tessellator {
-    /// Counts the batch, makes buffers of that size, tessellates and reads everything back.
+    /// Tessellates these patches and reads everything back. The buffers get the size that the model
+    /// ([`tess_core`]) counts.
     ///
     /// # Errors
     /// [`Error::WrongDomain`] for patches of another domain than the setup's; an error of size if the
@@ -46,38 +47,85 @@ impl Tessellator {
         setup: Setup,
         patches: &[PatchFactors],
     ) -> Result<ReadBack, Error> {
-        use wgpu::BufferUsages as Usage;
         check_domains(setup, patches)?;
         let words = factor_words(patches);
-        let factors = gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE)?;
+        let usage = wgpu::BufferUsages::STORAGE;
+        let factors = gpu.upload("factors", bytemuck::cast_slice(&words), usage)?;
         let count = u32::try_from(patches.len())
             .map_err(|_| Error::TooManyPatches { got: patches.len() })?;
-        let needed = run(gpu, &self.batch(setup, count, &factors, Outputs::CountOnly)?).await?;
-        let indices = needed.primitives() * u64::from(setup.indices_per_primitive());
-        let usage = Usage::STORAGE | Usage::COPY_SRC;
-        let point_buffer = gpu.buffer("points", 8 * needed.points(), usage)?;
-        let index_bytes = u64::from(setup.index_type.bytes()) * indices;
-        let index_buffer = gpu.buffer("indices", index_bytes.next_multiple_of(8), usage)?;
-        let outputs = Outputs::Buffers { points: &point_buffer, indices: &index_buffer };
-        let batch = self.batch(setup, count, &factors, outputs)?;
-        let status = run(gpu, &batch).await?;
-        if !status.fits() {
-            let (points, primitives) = (needed.points(), needed.primitives());
+        let room = model_counts(setup, patches);
+        let mut run = Run::new(self, gpu, setup, (count, &factors), room).await?;
+        // Only shaders that are wrong count otherwise. What they give is read back too.
+        if !run.status.fits() && counts(&run.status) != room {
+            run = Run::new(self, gpu, setup, (count, &factors), counts(&run.status)).await?;
+        }
+        if !run.status.fits() {
+            let [points, primitives] = counts(&run.status);
             return Err(Error::OutputTooLarge { points, primitives });
         }
-        let draw = gpu.read_async(batch.draw_arguments(), size_of::<DrawIndexed>() as u64).await?;
+        run.read(gpu, setup).await
+    }
+}
+
+/// The points and primitives that the model counts.
+fn model_counts(setup: Setup, patches: &[PatchFactors]) -> [u64; 2] {
+    patches.iter().fold([0; 2], |[points, primitives], &factors| {
+        let counts = Patch::new(setup.config, factors).counts();
+        [points + u64::from(counts.points), primitives + u64::from(counts.primitives)]
+    })
+}
+
+/// The points and primitives that a batch counted.
+const fn counts(status: &Status) -> [u64; 2] {
+    [status.points(), status.primitives()]
+}
+
+/// A batch that has run, and its output on the device.
+struct Run {
+    batch: Batch,
+    points: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    status: Status,
+}
+
+impl Run {
+    /// Makes a batch with room for these points and primitives, and runs it.
+    async fn new(
+        tessellator: &mut Tessellator,
+        gpu: &Gpu,
+        setup: Setup,
+        (count, factors): (u32, &wgpu::Buffer),
+        [points, primitives]: [u64; 2],
+    ) -> Result<Self, Error> {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        let points = gpu.buffer("points", 8 * points, usage)?;
+        let index_bytes = u64::from(setup.primitive_bytes()) * primitives;
+        let indices = gpu.buffer("indices", index_bytes.next_multiple_of(8), usage)?;
+        let outputs = Outputs::Buffers { points: &points, indices: &indices };
+        let batch = tessellator.batch(setup, count, factors, outputs)?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        batch.encode(&mut encoder);
+        gpu.submit(encoder)?;
+        let status = gpu.read_async(batch.status(), size_of::<Status>() as u64).await?;
+        let status = bytemuck::pod_read_unaligned(&status);
+        Ok(Self { batch, points, indices, status })
+    }
+
+    /// Reads everything back.
+    async fn read(&self, gpu: &Gpu, setup: Setup) -> Result<ReadBack, Error> {
+        let arguments = self.batch.draw_arguments();
+        let draw = gpu.read_async(arguments, size_of::<DrawIndexed>() as u64).await?;
+        let [points, primitives] = counts(&self.status);
+        let points = gpu.read_async(&self.points, 8 * points).await?;
+        let count = primitives * u64::from(setup.indices_per_primitive());
+        let bytes = (count * u64::from(setup.index_type.bytes())).next_multiple_of(4);
+        let indices = gpu.read_async(&self.indices, bytes).await?;
         Ok(ReadBack {
-            status,
+            status: self.status,
             draw: bytemuck::pod_read_unaligned(&draw),
-            begins: begins(gpu, &batch).await?,
-            points: bytemuck::pod_collect_to_vec(
-                &gpu.read_async(&point_buffer, 8 * needed.points()).await?,
-            ),
-            indices: widened(
-                setup,
-                &gpu.read_async(&index_buffer, index_bytes.next_multiple_of(4)).await?,
-                indices,
-            ),
+            begins: begins(gpu, &self.batch).await?,
+            points: bytemuck::pod_collect_to_vec(&points),
+            indices: widened(setup, &indices, count),
         })
     }
 }
@@ -114,13 +162,4 @@ async fn begins(gpu: &Gpu, batch: &Batch) -> Result<Vec<[u32; 2]>, Error> {
     };
     let begin = |patch| batch.plan().offset_entries(patch).into_iter().fold([0; 2], sum);
     Ok((0..batch.plan().patches()).map(begin).collect())
-}
-
-/// Runs a batch; returns its status.
-async fn run(gpu: &Gpu, batch: &Batch) -> Result<Status, Error> {
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    batch.encode(&mut encoder);
-    gpu.submit(encoder)?;
-    let status = gpu.read_async(batch.status(), size_of::<Status>() as u64).await?;
-    Ok(bytemuck::pod_read_unaligned(&status))
 }

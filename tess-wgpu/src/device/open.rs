@@ -6,16 +6,16 @@ use wgpu::Backends;
 
 /// The limits to open a device with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
+pub enum DeviceLimits {
     /// WebGPU's default limits.
-    Defaults,
+    Default,
     /// The highest limits of the adapter.
-    Everything,
+    Highest,
 }
 
 /// Opens the first adapter that gives a device: those of OpenGL come last, since wgpu would prefer an old GPU
 /// with too little of OpenGL to a Vulkan driver in software.
-pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Gpu, Error> {
+pub(crate) async fn first(wanted: DeviceLimits, optional: wgpu::Features) -> Result<Gpu, Error> {
     let asked = Backends::from_env();
     let backends = asked.unwrap_or_else(wgpu::Instance::enabled_backend_features);
     let mut reasons = Vec::new();
@@ -40,7 +40,11 @@ pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Gp
 }
 
 /// Opens the first adapter of these backends, or says why not.
-async fn of(backends: Backends, wanted: Wanted, optional: wgpu::Features) -> Result<Gpu, String> {
+async fn of(
+    backends: Backends,
+    wanted: DeviceLimits,
+    optional: wgpu::Features,
+) -> Result<Gpu, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
     // WGPU_DEBUG=0 leaves out of shaders what debuggers want, which takes drivers long to read.
@@ -62,8 +66,8 @@ async fn of(backends: Backends, wanted: Wanted, optional: wgpu::Features) -> Res
         ));
     }
     let required_limits = match wanted {
-        Wanted::Defaults => wgpu::Limits::default(),
-        Wanted::Everything => adapter.limits(),
+        DeviceLimits::Default => wgpu::Limits::default(),
+        DeviceLimits::Highest => adapter.limits(),
     };
     let descriptor = wgpu::DeviceDescriptor {
         required_features: adapter.features() & optional,
