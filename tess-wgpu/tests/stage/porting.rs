@@ -2,7 +2,7 @@
 
 use crate::bindings::{Bound, bind};
 use crate::common::objects;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, QuadFactors};
 use tess_gpu::surfaces;
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
@@ -22,7 +22,7 @@ fn the_blocks_of_the_porting_guide_compile() {
     let texture =
         objects::view_of(&objects::plain(&gpu, wgpu::TextureFormat::R8Unorm, [1, 1], usage));
     let blocks = blocks();
-    assert_eq!(blocks.len(), 3, "terrain, PN triangles, GLSL");
+    assert_eq!(blocks.len(), 4, "terrain, PN triangles, GLSL, a quadtree");
     for (number, block) in blocks.into_iter().enumerate() {
         let (domain, third) = match number {
             1 => (Domain::Triangle, Bound::Read(&read)),
@@ -47,4 +47,34 @@ fn the_blocks_of_the_porting_guide_compile() {
         let wrong = wgsl.replace("-> Vertex", "-> vec4f");
         assert!(build(&wrong).is_err(), "block {number} with a wrong domain function");
     }
+}
+
+/// Where the edge v = 0 of a quad has its points, in 2^-16.
+fn edge(partitioning: Partitioning, factor: f32) -> Vec<u32> {
+    let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
+    let points = Patch::new(config, QuadFactors::uniform(factor)).tessellate().points;
+    let on_edge = points.iter().filter(|point| point.v.to_bits() == 0);
+    let mut places: Vec<_> = on_edge.map(|point| point.u.to_bits()).collect();
+    places.sort_unstable();
+    places
+}
+
+/// What the guide says of neighbours of different size.
+#[test]
+fn short_edges_have_the_points_of_a_long_one() {
+    let meets = |partitioning, factor: f32| {
+        let short = edge(partitioning, 0.5 * factor);
+        let second = short.iter().skip(1).map(|place| 0x8000 + place / 2);
+        let both: Vec<_> = short.iter().map(|place| place / 2).chain(second).collect();
+        both == edge(partitioning, factor)
+    };
+    for factor in [2.0, 4.0, 8.0, 16.0, 32.0, 64.0] {
+        for partitioning in [Partitioning::Integer, Partitioning::Pow2] {
+            assert!(meets(partitioning, factor), "{partitioning:?} {factor}");
+        }
+        let is_in_range = factor > 2.0;
+        assert_eq!(meets(Partitioning::FractionalEven, factor), is_in_range, "even {factor}");
+        assert!(!meets(Partitioning::FractionalOdd, factor), "odd {factor}");
+    }
+    assert!(!meets(Partitioning::Integer, 6.0), "thirds are rounded");
 }
