@@ -15,16 +15,37 @@ function value(formula, numbers) {
   return Math.ceil(sum / multiple) * multiple;
 }
 
+const SHADERS = new URL("./shaders/", import.meta.url);
+
+// A file of the folder of shaders.
+async function get(name, base) {
+  const response = await fetch(new URL(name, base));
+  if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
+  return response;
+}
+
+export async function surfacesWgsl(names, base = SHADERS) {
+  const modules = await (await get("surfaces/modules.json", base)).json();
+  const find = (name) => modules.find((module) => module.name === name) ?? refuse("module", name, modules.map(({ name }) => name));
+  const all = new Set(names.flatMap((name) => [...find(name).needs, name]));
+  const texts = [...all].map(async (name) => (await get(`surfaces/${find(name).file}`, base)).text());
+  return (await Promise.all(texts)).join("\n");
+}
+
+function refuse(what, value, choices) {
+  throw new RangeError(`there is no ${what} ${JSON.stringify(value)}; choose ${choices.join(", ")}`);
+}
+
+const DOMAINS = ["isoline", "tri", "quad"];
+const PARTITIONINGS = ["integer", "pow2", "fractional_odd", "fractional_even"];
+
 export class Tessellator {
-  static async load(device, { domain, partitioning, base = new URL("./shaders/", import.meta.url) }) {
-    const get = async (name) => {
-      const response = await fetch(new URL(name, base));
-      if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
-      return response;
-    };
+  static async load(device, { domain, partitioning, base = SHADERS }) {
+    if (!DOMAINS.includes(domain)) refuse("domain", domain, DOMAINS);
+    if (!PARTITIONINGS.includes(partitioning)) refuse("partitioning", partitioning, PARTITIONINGS);
     const folder = `${domain}-${partitioning}`;
-    const manifest = await (await get(`${folder}/manifest.json`)).json();
-    const words = await (await get("tables.bin")).arrayBuffer();
+    const manifest = await (await get(`${folder}/manifest.json`, base)).json();
+    const words = await (await get("tables.bin", base)).arrayBuffer();
     const tables = device.createBuffer({ size: words.byteLength, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
     device.queue.writeBuffer(tables, 0, words);
     const type = ({ kind, is_written }) => kind === "uniform" ? kind : is_written ? "storage" : "read-only-storage";
@@ -33,7 +54,7 @@ export class Tessellator {
       const entries = bindings.map((entry) =>
         ({ binding: entry.binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: type(entry) } }));
       const layout = device.createPipelineLayout({ bindGroupLayouts: [device.createBindGroupLayout({ entries })] });
-      const module = device.createShaderModule({ code: await (await get(`${folder}/${file}`)).text() });
+      const module = device.createShaderModule({ code: await (await get(`${folder}/${file}`, base)).text() });
       return [name, await device.createComputePipelineAsync({ layout, compute: { module, entryPoint } })];
     };
     const pipelines = new Map(await Promise.all(manifest.stages.map(pipeline)));
@@ -45,7 +66,11 @@ export class Tessellator {
   }
 
   async tessellate(factors) {
-    const patches = factors.length / this.manifest.setup.factors_per_patch;
+    const { domain, factors_per_patch: each } = this.manifest.setup;
+    const patches = factors.length / each;
+    if (!Number.isInteger(patches) || patches === 0) {
+      throw new RangeError(`${factors.length} factors: a patch of domain ${domain} has ${each}`);
+    }
     const run = async (room, results) => {
       const batch = this.batch(patches, room);
       try {
@@ -71,7 +96,8 @@ export class Tessellator {
 class Batch {
   constructor({ device, manifest, tables, pipelines }, patches, { points, primitives }) {
     const plan = manifest.plans.find((plan) => plan.min_patches <= patches && patches <= plan.max_patches);
-    if (!Number.isInteger(patches) || !plan || points > plan.max_points || primitives > plan.max_primitives) {
+    if (!Number.isInteger(patches)) throw new RangeError(`a batch has a whole number of patches, not ${patches}`);
+    if (!plan || points > plan.max_points || primitives > plan.max_primitives) {
       throw new RangeError(`${patches} patches, ${points} points, ${primitives} primitives: not one batch`);
     }
     const { maxComputeWorkgroupsPerDimension: max_workgroups, maxStorageBufferBindingSize: most } = device.limits;

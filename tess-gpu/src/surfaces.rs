@@ -1,15 +1,4 @@
-//! Surfaces as WGSL text, for shaders that compute factors or evaluate domain points themselves.
-//!
-//! Each module has functions only: no bindings and no entry points. Join the modules that you need, and those that they
-//! need, with your own text, in any order. The formulas are those of [`tess-surface`](https://docs.rs/tess-surface);
-//! comments name its files.
-//!
-//! The tessellation stage of `tess-wgpu` joins [`HELPERS`] to every hull and domain function by itself; leave the modules
-//! in it out there. Names that begin with `tess_` are in `HELPERS`, all others are not.
-//!
-//! Within one pipeline both sides of an edge get the same bits, because they call the same function with the same
-//! values. The CPU's results and other devices' may differ in their last bits: WGSL allows devices to fuse operations,
-//! and to divide and take roots with errors of some units in the last place.
+#![doc = include_str!("../shaders/surfaces/README.md")]
 
 /// The text of a module.
 macro_rules! module {
@@ -63,6 +52,38 @@ pub const PN_TRIANGLE: &str = module!("pn_triangle");
 /// Positions and normals of displaced surfaces.
 pub const DISPLACEMENT: &str = module!("displacement");
 
+/// A module, for programs that write or serve all of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Module {
+    /// The name in the tables above; `NAME.wgsl` is its file.
+    pub name: &'static str,
+    /// The text.
+    pub source: &'static str,
+    /// The names of all modules that it cannot do without.
+    pub needs: &'static [&'static str],
+}
+
+/// All modules.
+pub const MODULES: &[Module] = &[
+    Module { name: "flat", source: FLAT, needs: &[] },
+    Module { name: "pn_edge", source: PN_EDGE, needs: &[] },
+    Module { name: "factors", source: FACTORS, needs: &["pn_edge"] },
+    Module { name: "culling", source: CULLING, needs: &[] },
+    Module { name: "height", source: HEIGHT, needs: &[] },
+    Module { name: "bezier", source: BEZIER, needs: &[] },
+    Module {
+        name: "bezier_factors",
+        source: BEZIER_FACTORS,
+        needs: &["bezier", "factors", "pn_edge"],
+    },
+    Module { name: "pn", source: POINT_NORMAL, needs: &["pn_edge"] },
+    Module { name: "pn_triangle", source: PN_TRIANGLE, needs: &["bezier", "pn", "pn_edge"] },
+    Module { name: "displacement", source: DISPLACEMENT, needs: &[] },
+];
+
+/// The documentation of this module in Markdown, with the tables of all modules and functions.
+pub const README: &str = include_str!("../shaders/surfaces/README.md");
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -76,30 +97,81 @@ mod tests {
         Ok(module.functions.iter().filter_map(|(_, function)| function.name.clone()).collect())
     }
 
-    /// Every module with those that it needs is valid, and has the functions that its users call.
+    fn module(name: &str) -> &'static Module {
+        MODULES.iter().find(|module| module.name == name).expect("a module that is needed is there")
+    }
+
+    /// Every module is valid with those that it needs, and not without any of them.
     #[test]
-    fn modules_are_valid() {
-        for (module, needs, expected) in [
-            (FLAT, &[][..], &["tess_along", "tess_on_quad", "tess_on_triangle"][..]),
-            (PN_EDGE, &[], &["tess_pn_edge_point"]),
-            (FACTORS, &[PN_EDGE], &["tess_edge_by_distance", "tess_inside_quad"]),
-            (CULLING, &[], &["tess_is_outside", "tess_faces_away"]),
-            (HEIGHT, &[], &["tess_sample", "tess_bilinear"]),
-            (BEZIER, &[], &["bezier_patch", "bezier_patch_position", "bezier_patch_normal"]),
-            (BEZIER_FACTORS, &[BEZIER, FACTORS, PN_EDGE], &["bezier_edge_by_distance"]),
-            (
-                POINT_NORMAL,
-                &[PN_EDGE],
-                &["pn_triangle_position", "pn_triangle_normal", "pn_quad_normal"],
-            ),
-            (PN_TRIANGLE, &[BEZIER, POINT_NORMAL, PN_EDGE], &["pn_triangle_point"]),
-            (DISPLACEMENT, &[], &["displaced_position", "displaced_normal"]),
-            (HELPERS, &[BEZIER, BEZIER_FACTORS, POINT_NORMAL, PN_TRIANGLE, DISPLACEMENT], &[]),
-        ] {
-            let names = functions(&[&[module], needs].concat().join("\n"))
-                .unwrap_or_else(|error| panic!("{error}"));
-            let has = |name: &&str| names.iter().any(|known| known == name);
-            assert!(expected.iter().all(has), "{expected:?} are among {names:?}");
+    fn modules_are_valid_with_what_they_need() {
+        for Module { name, source, needs } in MODULES {
+            let with = |left_out: Option<&str>| {
+                let needed = needs.iter().filter(|need| Some(**need) != left_out);
+                let needed = needed.map(|need| module(need).source);
+                functions(&needed.chain([*source]).collect::<Vec<_>>().join("\n"))
+            };
+            with(None).unwrap_or_else(|error| panic!("{name}: {error}"));
+            for need in *needs {
+                assert!(with(Some(need)).is_err(), "{name} does not need {need}");
+            }
+        }
+    }
+
+    /// The first column of the rows of a table in [`README`], whose head begins with this word.
+    fn rows(head: &str) -> Vec<[&'static str; 2]> {
+        let (_, table) = README.split_once(&format!("| {head} |")).expect("the table");
+        let lines = table.lines().skip(2).take_while(|line| line.starts_with('|'));
+        let cells = lines.map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
+        cells.map(|cells| [cells[1], cells[2]]).collect()
+    }
+
+    /// The names between backticks, without parameters.
+    fn names(cell: &str) -> Vec<&str> {
+        let quoted = cell.split('`').skip(1).step_by(2);
+        quoted.map(|name| name.split('(').next().unwrap_or(name)).collect()
+    }
+
+    #[test]
+    fn the_tables_have_every_module_and_function() {
+        let listed: Vec<_> =
+            rows("module").iter().map(|[name, needs]| (names(name)[0], names(needs))).collect();
+        let own: Vec<_> = MODULES.iter().map(|it| (it.name, it.needs.to_vec())).collect();
+        assert_eq!(listed, own, "modules");
+        let mut listed: Vec<_> =
+            rows("function").iter().flat_map(|[cell, _]| names(cell)).collect();
+        let all: Vec<_> = MODULES.iter().map(|module| module.source).collect();
+        let mut own = functions(&all.join("\n")).unwrap_or_else(|error| panic!("{error}"));
+        listed.sort_unstable();
+        own.sort_unstable();
+        assert_eq!(listed, own, "functions");
+    }
+
+    #[test]
+    fn the_stage_joins_the_first_five() {
+        let first: Vec<_> = MODULES[..5].iter().map(|module| module.source).collect();
+        assert_eq!(first.join("\n"), HELPERS, "in the order of the table");
+    }
+
+    /// A parameter of the table that a function does not have misleads whoever calls it.
+    #[test]
+    fn the_table_has_the_parameters() {
+        for [cell, _] in rows("function") {
+            for call in cell.split('`').skip(1).step_by(2).filter(|call| call.contains('(')) {
+                let (name, parameters) = call.trim_end_matches(')').split_once('(').expect("both");
+                let module = MODULES.iter().find(|it| it.source.contains(&format!("fn {name}(")));
+                let (_, rest) = module
+                    .expect("a function")
+                    .source
+                    .split_once(&format!("fn {name}("))
+                    .expect("it");
+                let declared = rest.split_once(") ->").expect("a result").0;
+                // Types have commas of their own.
+                let names = declared
+                    .split(':')
+                    .map(|part| part.rsplit([',', ' ', '\n']).next().unwrap_or(part));
+                let names: Vec<_> = names.take(declared.matches(':').count()).collect();
+                assert_eq!(parameters.split(", ").collect::<Vec<_>>(), names, "{name}");
+            }
         }
     }
 

@@ -6,6 +6,7 @@ mod languages;
 mod manifest;
 mod plan;
 mod structures;
+mod surfaces;
 #[cfg(test)]
 mod tests;
 mod translation;
@@ -29,9 +30,10 @@ use translation::{Target, Translation};
 /// Write the compute shaders for any API, with a manifest that says how to run them
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The folder gets a file for each stage, tables.bin with the constants that they look up, and the same
-manifest twice: manifest.json, and tess_shaders.h for C99. bindings/vulkan is a host in C that needs
-nothing else. Tests compile spirv, glsl and hlsl; of msl only what C++ shares.
+The folder gets a file for each stage, tables.bin with the constants that they look up, and the same manifest twice: \
+manifest.json, and tess_shaders.h for C99. With wgsl it also gets surfaces/, functions for shaders of your own: factors by \
+rule, culling, surfaces without cracks. bindings/vulkan is a host in C that needs nothing else. Tests compile spirv, glsl and \
+hlsl; no Metal compiler has seen msl.
 
 Examples:
   tess shaders --target spirv --domain quad -o shaders/
@@ -155,6 +157,7 @@ pub(crate) fn spirv(
 
 /// Everything that the folder gets.
 struct Shaders {
+    target: Target,
     manifest: Manifest,
     files: Vec<(String, Vec<u8>)>,
     tables: Vec<u8>,
@@ -178,6 +181,7 @@ impl Shaders {
         let manifest = Manifest::new(setup, translation, stages, plans, structures);
         let words = tables(setup.config.split);
         Ok(Self {
+            target: translation.target,
             manifest,
             files,
             tables: words.iter().flat_map(|word| word.to_le_bytes()).collect(),
@@ -191,6 +195,9 @@ impl Shaders {
         }
         fs::write(folder.join(manifest::TABLES_FILE), &self.tables)?;
         fs::write(folder.join(manifest::FILE), json(&self.manifest))?;
+        if self.target == Target::Wgsl {
+            surfaces::write(folder)?;
+        }
         fs::write(folder.join("tess_shaders.h"), header::text(&self.manifest))
     }
 }

@@ -1,0 +1,37 @@
+//! The folder `surfaces` beside shaders in WGSL: modules of functions for shaders of the user's own.
+
+use crate::output::json;
+use serde::Serialize;
+use std::fs;
+use std::io;
+use std::path::Path;
+use tess_gpu::surfaces::{MODULES, README};
+
+/// The folder.
+pub(super) const FOLDER: &str = "surfaces";
+
+/// A module in `modules.json`.
+#[derive(Serialize)]
+struct Entry {
+    name: &'static str,
+    file: String,
+    /// Names of the modules that it cannot do without.
+    needs: &'static [&'static str],
+}
+
+/// Writes the folder into another: a file for each module, their list, and the tables of modules and functions.
+///
+/// # Errors
+/// A file cannot be written.
+pub(super) fn write(folder: &Path) -> io::Result<()> {
+    let folder = folder.join(FOLDER);
+    fs::create_dir(&folder)?;
+    let mut entries = Vec::new();
+    for module in MODULES {
+        let file = format!("{}.wgsl", module.name);
+        fs::write(folder.join(&file), module.source)?;
+        entries.push(Entry { name: module.name, file, needs: module.needs });
+    }
+    fs::write(folder.join("modules.json"), json(&entries))?;
+    fs::write(folder.join("README.md"), format!("# Surfaces\n\n{README}"))
+}
