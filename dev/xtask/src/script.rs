@@ -24,9 +24,13 @@ mod tests {
 
     #[test]
     fn scripts_see_the_faults_that_they_must() {
-        for tests in
-            ["benches/records_test.py", "dev/checks_test.py", "integrations/mesa/compare_test.py"]
-        {
+        for tests in [
+            "benches/records_test.py",
+            "dev/checks_test.py",
+            "dev/links_test.py",
+            "dev/xtask/src/dist/try_readme_test.py",
+            "integrations/mesa/compare_test.py",
+        ] {
             assert_eq!(run(tests, &[]), Ok(()), "{tests}");
         }
     }
@@ -34,6 +38,11 @@ mod tests {
     #[test]
     fn every_sentence_has_what_sees_a_violation() {
         assert_eq!(run(CHECKS, &["traceability"]), Ok(()), "docs/traceability.md");
+    }
+
+    #[test]
+    fn every_link_leads_somewhere() {
+        assert_eq!(run("dev/links.py", &[]), Ok(()), "links of documents");
     }
 
     #[test]
