@@ -1,10 +1,10 @@
 # The library in front of this folder, for find_package(tess):
 #
 #   tess::tess    the shared library, or the archive where that is all there is
-#   tess::static  the archive, with what it needs from the system
+#   tess::static  the archive, with what it needs from the system; the linker leaves out functions that nobody calls
 #
 # Paths are relative to this file, so that the installation may move.
-cmake_minimum_required(VERSION 3.12)
+cmake_minimum_required(VERSION 3.13)
 include(CMakeFindDependencyMacro)
 get_filename_component(TESS_PREFIX "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 
@@ -24,13 +24,21 @@ if(WIN32)
     set_target_properties(tess::tess PROPERTIES IMPORTED_IMPLIB "${TESS_PREFIX}/lib/libtess.dll.a")
   endif()
   set(TESS_SYSTEM kernel32 ntdll userenv ws2_32 dbghelp)
+  set(TESS_UNUSED -Wl,--gc-sections)
 else()
   tess_target(tess::tess SHARED "${TESS_PREFIX}/lib/libtess${CMAKE_SHARED_LIBRARY_SUFFIX}")
   find_dependency(Threads)
   set(TESS_SYSTEM Threads::Threads ${CMAKE_DL_LIBS} m)
+  if(APPLE)
+    set(TESS_UNUSED -Wl,-dead_strip)
+  else()
+    set(TESS_UNUSED -Wl,--gc-sections)
+  endif()
 endif()
 if(TARGET tess::static)
-  set_target_properties(tess::static PROPERTIES INTERFACE_LINK_LIBRARIES "${TESS_SYSTEM}")
+  set_target_properties(tess::static PROPERTIES
+    INTERFACE_LINK_LIBRARIES "${TESS_SYSTEM}"
+    INTERFACE_LINK_OPTIONS "${TESS_UNUSED}")
   if(NOT TARGET tess::tess)
     add_library(tess::tess INTERFACE IMPORTED)
     set_target_properties(tess::tess PROPERTIES INTERFACE_LINK_LIBRARIES tess::static)

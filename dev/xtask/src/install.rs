@@ -17,6 +17,10 @@ use std::process::Command;
 /// System libraries that a Rust static library needs.
 const SYSTEM_LIBRARIES: &str = "-lpthread -ldl -lm";
 
+/// Has the linker of this system leave out the functions of an archive that a program does not call.
+const WITHOUT_UNUSED: &str =
+    if cfg!(target_os = "macos") { "-Wl,-dead_strip" } else { "-Wl,--gc-sections" };
+
 /// Has cargo list what it built on its standard output.
 const MESSAGES: &str = "--message-format=json-render-diagnostics";
 
@@ -246,7 +250,7 @@ fn description() -> String {
          Version: {VERSION}\n\
          Cflags: -I${{includedir}}\n\
          Libs: -L${{libdir}} -ltess\n\
-         Libs.private: {SYSTEM_LIBRARIES}\n"
+         Libs.private: {WITHOUT_UNUSED} {SYSTEM_LIBRARIES}\n"
     )
 }
 

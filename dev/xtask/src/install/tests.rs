@@ -67,6 +67,12 @@ fn programs_find_what_is_installed() {
     shell(&folder, "rm usr/lib/libtess.so*");
     shell(&folder, "cc patch.c $(pkg-config --cflags --static --libs tess) -o static");
     assert_eq!(shell(&folder, &format!("./static {arguments}")), shared, "the same patch");
+    shell(&folder, "cc patch.c -Iusr/include usr/lib/libtess.a -lpthread -ldl -lm -o whole");
+    let size = |name: &str| fs::metadata(folder.join(name)).expect("a program").len();
+    for small in ["static", "build/batch_static"] {
+        let (small, whole) = (size(small), size("whole"));
+        assert!(4 * small < 3 * whole, "what is not called is left out: {small} of {whole} bytes");
+    }
 
     let version = shell(&folder, "pkg-config --modversion tess");
     assert_eq!(version.trim_end(), VERSION, "as the package");
