@@ -1,12 +1,15 @@
-// Tries the package in a page that has nothing else: node try.mjs PACKAGE CASES. Recorded cases must come out to the bit.
+// Tries the package in pages that have nothing else: node try.mjs FOLDER CASES. The folder has the package below
+// node_modules and the README's page as index.html. Recorded cases must come out to the bit.
 
 import { createRequire } from "node:module";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
-const [packed, cases] = process.argv.slice(2);
+const [folder, cases] = process.argv.slice(2);
+const packed = join(folder, "node_modules/tess-webgpu");
 const { chromium } = createRequire(join(process.env.EXPLORER_MODULES, "/"))("playwright-core");
 const PAGE = "http://localhost/";
+const README_PAGE = "http://127.0.0.1/";
 
 // The recorded batches of each setup that the package has.
 function recorded() {
@@ -26,7 +29,7 @@ function recorded() {
 
 // In the page: tessellates a batch of all patches, and says where it differs.
 async function compare([domain, partitioning, batch]) {
-  const { Tessellator, unpackWgsl } = await import("/tess.js");
+  const { Tessellator, surfacesWgsl, unpackWgsl } = await import("/tess.js");
   const device = await (await navigator.gpu.requestAdapter()).requestDevice();
   const problems = [];
   device.onuncapturederror = ({ error }) => problems.push(error.message);
@@ -46,17 +49,53 @@ async function compare([domain, partitioning, batch]) {
     if (at >= 0) problems.push(`${name}[${at}]: observed ${output[name][at]}, expected ${words[at]}`);
     if (words.length !== output[name].length) problems.push(`${name}: ${output[name].length}, expected ${words.length}`);
   }
-  const { messages } = await device.createShaderModule({ code: unpackWgsl }).getCompilationInfo();
-  problems.push(...messages.map(({ message }) => message));
-  for (const room of [{ points: 2 ** 30, primitives: 1 }, { points: 2 ** 33, primitives: 1 }]) {
+  const modules = ["bezier_factors", "pn_triangle", "flat", "culling", "height", "displacement"];
+  for (const code of [unpackWgsl, await surfacesWgsl(modules)]) {
+    const { messages } = await device.createShaderModule({ code }).getCompilationInfo();
+    problems.push(...messages.map(({ message }) => message));
+  }
+  const refused = async (what, call) => {
     try {
-      tessellator.batch(1, room);
-      problems.push(`room for ${room.points} points is not refused`);
+      await call();
+      problems.push(`${what} is not refused`);
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;
     }
-  }
+  };
+  await refused("an unknown domain", () => Tessellator.load(device, { domain: "triangle", partitioning }));
+  await refused("an unknown partitioning", () => Tessellator.load(device, { domain, partitioning: "odd" }));
+  await refused("an unknown module", () => surfacesWgsl(["curves"]));
+  await refused("a patch and a half", () => tessellator.tessellate(factors.subarray(1)));
+  await refused("no patch", () => tessellator.tessellate([]));
+  await refused("half a patch", () => tessellator.batch(0.5));
+  await refused("room for 2^30 points", () => tessellator.batch(1, { points: 2 ** 30, primitives: 1 }));
+  await refused("room for 2^33 points", () => tessellator.batch(1, { points: 2 ** 33, primitives: 1 }));
   return { problems, points: expected.patches.length };
+}
+
+// In the README's page: its text, and the share of its canvas that the triangle fills.
+async function drawn() {
+  const canvas = document.querySelector("canvas");
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+  copy.drawImage(await createImageBitmap(canvas), 0, 0);
+  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+  const filled = data.filter((value, i) => i % 4 === 2 && value === 255).length;
+  return { text: document.querySelector("p").textContent, share: filled / (canvas.width * canvas.height) };
+}
+
+// Opens the README's page, which says how much it draws.
+async function openReadmePage(page) {
+  const errors = [];
+  page.on("pageerror", (error) => errors.push(error.message));
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  await page.goto(README_PAGE);
+  await page.waitForFunction(() => document.querySelector("p").textContent !== "", null, { timeout: 60_000 });
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  const { text, share } = await page.evaluate(drawn);
+  if (errors.length > 0 || text !== "19 points, 29 triangles") throw new Error(`the README's page: ${text} ${errors.join("\n")}`);
+  // Half of the square, less the diagonal.
+  if (Math.abs(share - 0.5) > 0.01) throw new Error(`the README's page fills ${share} of its canvas, not half`);
+  console.log("test the README's page ... ok");
 }
 
 const folders = readdirSync(join(packed, "shaders"));
@@ -67,8 +106,13 @@ await page.route(PAGE + "**", (route) => {
   const name = new URL(route.request().url()).pathname.slice(1);
   return name === "" ? route.fulfill({ contentType: "text/html", body: "<!doctype html>" }) : route.fulfill({ path: join(packed, name) });
 });
+await page.route(README_PAGE + "**", (route) => {
+  const name = new URL(route.request().url()).pathname.slice(1);
+  return route.fulfill(name === "favicon.ico" ? { status: 204 } : { path: join(folder, name || "index.html") });
+});
+await openReadmePage(page);
 await page.goto(PAGE);
-let compared = 0, passed = 0;
+let compared = 0, passed = 1;
 for (const [setup, batch] of Object.entries(recorded())) {
   if (!folders.includes(setup)) throw new Error(`the package has no ${setup}`);
   const [domain, partitioning] = setup.split("-");

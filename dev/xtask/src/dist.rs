@@ -3,6 +3,8 @@
 mod bill;
 mod c;
 mod pack;
+mod program;
+mod readme;
 mod shaders;
 
 use crate::command::{self, in_file, target, workspace};
@@ -20,6 +22,7 @@ type Pack = fn(&Release) -> Result<(), String>;
 
 /// The parts of a release.
 const PARTS: &[(&str, Pack)] = &[
+    ("tess", program::pack),
     ("shaders", shaders::pack),
     ("npm", shaders::pack_npm),
     ("covergroups", covergroups),
@@ -102,14 +105,17 @@ fn wheel(release: &Release) -> Result<(), String> {
     python::release(&release.epoch, &release.out.join(bill::file(name)), |file| release.take(file))
 }
 
-/// `tess_uvm` with its covergroups, and the DPI-C interface where its file lists expect it.
+/// `tess_uvm` with its covergroups, the DPI-C interface and the circuit of its example, in folders as its file lists expect
+/// them.
 fn covergroups(release: &Release) -> Result<(), String> {
     let stage = release.stage(&format!("tess-uvm-{VERSION}"))?;
-    pack::copy_tracked("bindings/uvm", &stage.join("uvm"))?;
-    pack::copy_tracked("bindings/c/verilog", &stage.join("c/verilog"))?;
-    pack::copy_tracked("bindings/c/include/tess.h", &stage.join("c/include/tess.h"))?;
-    let file = stage.join("uvm/src/tess_covergroups.svh");
+    let files =
+        ["bindings/uvm/**", "bindings/c/verilog/*", "bindings/c/include/tess.h", "rtl/tess*"];
+    pack::copy_tree(&files, &stage)?;
+    let file = stage.join("bindings/uvm/src/tess_covergroups.svh");
     command::run(tess()?.args(["coverage", "--covergroups"]).arg(file))?;
+    readme::put("bindings/uvm/README.md", &stage, "bindings/uvm/README.md")?;
+    readme::put("dev/xtask/src/dist/readmes/uvm.md", &stage, "README.md")?;
     release.archive(&stage, &format!("tess-uvm-{VERSION}.tar.gz"))
 }
 

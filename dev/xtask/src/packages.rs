@@ -1,8 +1,9 @@
 //! The workspace's packages, as `cargo metadata` lists them.
 
-use crate::command::{self, cargo};
+use crate::command::{self, cargo, workspace};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// A package of the workspace.
 #[derive(Debug, Deserialize)]
@@ -66,7 +67,21 @@ struct Metadata {
 /// # Errors
 /// `cargo metadata` fails.
 pub(crate) fn all() -> Result<Vec<Package>, String> {
-    let text = command::output(&mut cargo("metadata --no-deps --format-version 1"))?;
+    of(&mut cargo("metadata --no-deps --format-version 1"))
+}
+
+/// The package in this folder, which is a workspace of its own.
+///
+/// # Errors
+/// As for [`all`], or the folder has no package.
+pub(crate) fn at(folder: &str) -> Result<Package, String> {
+    let manifest = workspace().join(folder).join("Cargo.toml");
+    let mut metadata = cargo("metadata --no-deps --format-version 1 --manifest-path");
+    of(metadata.arg(manifest))?.pop().ok_or_else(|| format!("{folder} has no package"))
+}
+
+fn of(metadata: &mut Command) -> Result<Vec<Package>, String> {
+    let text = command::output(metadata)?;
     let metadata: Metadata = serde_json::from_str(&text).map_err(|error| error.to_string())?;
     Ok(metadata.packages)
 }

@@ -18,7 +18,17 @@ pub(crate) fn send() -> Result<(), String> {
         return Err(format!("a published version is a commit; commit these first:\n{changed}"));
     }
     // The copies of the licences are no commit's.
-    with_licences(&mut cargo("publish --workspace --allow-dirty"))
+    with_licences(&mut cargo("publish --workspace --allow-dirty"))?;
+    APART.iter().try_for_each(|folder| command::run(in_folder(&mut cargo("publish"), folder)))
+}
+
+/// Published packages that are workspaces of their own. They depend on published versions of the others, so they come
+/// after them, and nothing but `cargo xtask integrations` builds them before.
+const APART: &[&str] = &["integrations/bevy"];
+
+/// The command with the manifest in this folder of the workspace.
+fn in_folder<'a>(cargo: &'a mut Command, folder: &str) -> &'a mut Command {
+    cargo.arg("--manifest-path").arg(workspace().join(folder).join("Cargo.toml"))
 }
 
 /// Runs a command while each published package has a copy of the licences, as each is an archive of its own.
@@ -45,8 +55,21 @@ pub(crate) fn pack() -> Result<Vec<PathBuf>, String> {
     let mut pack = cargo("package --no-verify --allow-dirty");
     pack.args(published.iter().flat_map(|package| ["--package", &package.name]));
     with_licences(&mut pack)?;
-    let file = |it: &Package| command::target().join(format!("package/{}.crate", it.full_name()));
-    Ok(published.iter().map(file).collect())
+    let mut names: Vec<_> = published.iter().map(Package::full_name).collect();
+    names.extend(pack_apart()?);
+    let file = |name: &String| command::target().join(format!("package/{name}.crate"));
+    Ok(names.iter().map(file).collect())
+}
+
+/// Packs the packages of [`APART`]; gives their names with their versions. Their locks are left out: no registry has the
+/// versions of this workspace that they would name.
+fn pack_apart() -> Result<Vec<String>, String> {
+    let pack = |folder: &&str| {
+        let mut pack = cargo("package --no-verify --allow-dirty --exclude-lockfile --target-dir");
+        command::run(in_folder(pack.arg(command::target()), folder))?;
+        Ok(packages::at(folder)?.full_name())
+    };
+    APART.iter().map(pack).collect()
 }
 
 /// Packs and builds every published package as the registry would get it, without sending it.
@@ -60,7 +83,9 @@ pub(crate) fn dry_run() -> Result<(), String> {
     // Whether it builds is asked, with every dependency; nobody runs or debugs the result.
     publish.env("CARGO_PROFILE_DEV_DEBUG", "0");
     // A developer's changes are packed too; what is published comes from a clean checkout.
-    with_licences(publish.arg("--allow-dirty"))
+    with_licences(publish.arg("--allow-dirty"))?;
+    println!("\nONLY PACKED: {}; `cargo xtask integrations` builds it", pack_apart()?.join(", "));
+    Ok(())
 }
 
 /// Removes what an earlier dry run left of the packages. Cargo takes them from a registry that is a
@@ -146,7 +171,8 @@ pub(crate) const LICENCES: &[&str] = &["LICENSE-APACHE", "LICENSE-MIT"];
 /// Files and keys of the manifest that published packages lack, one line for each.
 fn lacking() -> Result<Vec<String>, String> {
     let mut lacking = Vec::new();
-    for package in packages::published()? {
+    let apart: Result<Vec<_>, _> = APART.iter().map(|folder| packages::at(folder)).collect();
+    for package in packages::published()?.into_iter().chain(apart?) {
         let read = |name| command::read(&package.folder().join(name));
         let manifest = read("Cargo.toml")?;
         let has = |key: &&str| manifest.lines().any(|line| line.starts_with(key));

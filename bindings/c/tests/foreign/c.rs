@@ -46,7 +46,7 @@ pub(crate) fn readme_program_runs() -> Result<(), Failed> {
     command.arg(&source).arg(libraries()?.archive).args(SYSTEM_LIBRARIES);
     run(command.arg("-o").arg(&target))?;
     let printed = run(&mut Command::new(target))?;
-    match rest.contains(&format!("`{}`", printed.trim_end())) {
+    match rest.contains(&format!("\n{printed}")) {
         true => Ok(()),
         false => Err(format!("the README does not say that it prints {printed}").into()),
     }

@@ -3,6 +3,7 @@
 use super::VERSION;
 use super::bill::{self, SYSTEM};
 use super::pack::{Release, copy_tracked};
+use super::readme;
 use crate::command::{self, cargo, in_file};
 use crate::{install, setup};
 use std::fs;
@@ -24,9 +25,10 @@ pub(super) fn pack(release: &Release) -> Result<(), String> {
     let stage = release.stage(&name)?;
     install(&stage)?;
     copy_tracked("bindings/c/examples", &stage.join("examples"))?;
-    copy_tracked("bindings/c/README.md", &stage.join("README.md"))?;
+    copy_tracked("bindings/c/verilog", &stage.join("verilog"))?;
     bill(release)?;
     copy(&release.out.join(bill::licences_file("c")), &stage.join("LICENCES-DEPENDENCIES.txt"))?;
+    readme::put("bindings/c/README.md", &stage, "README.md")?;
     release.archive(&stage, &format!("{name}.tar.gz"))
 }
 
@@ -55,6 +57,8 @@ pub(super) fn pack_deb(release: &Release) -> Result<(), String> {
     }
     bill(release)?;
     copy(&release.out.join(bill::licences_file("c")), &documents.join("dependencies.txt"))?;
+    copy_tracked("bindings/c/examples", &documents.join("examples"))?;
+    readme::put("dev/xtask/src/dist/readmes/deb.md", &documents, "README.Debian")?;
     write(&documents.join("copyright"), COPYRIGHT)?;
     write(&documents.join("changelog"), &changelog(release)?)?;
     let mut gzip = Command::new("gzip");

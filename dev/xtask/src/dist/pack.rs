@@ -102,21 +102,37 @@ pub(super) fn empty(folder: &Path) -> Result<(), String> {
 
 /// Copies what git tracks of a folder of the workspace, or one file.
 pub(super) fn copy_tracked(from: &str, to: &Path) -> Result<(), String> {
-    let mut list = Command::new("git");
-    list.args(["ls-files", "--", from]).current_dir(workspace());
-    let names = command::output(&mut list)?;
-    if names.is_empty() {
-        return Err(format!("git tracks nothing of {from}"));
-    }
-    for name in names.lines() {
-        let path = workspace().join(name);
-        let to = match name.strip_prefix(from) {
-            Some("") | None => to.to_owned(),
-            Some(inside) => to.join(inside.trim_start_matches('/')),
-        };
-        let folder = to.parent().unwrap_or(&to);
-        let copied = fs::create_dir_all(folder).and_then(|()| fs::copy(&path, &to));
-        copied.map_err(|error| in_file(&path, &error))?;
+    for name in tracked(from)? {
+        match name.strip_prefix(from) {
+            Some("") | None => copy(&name, to)?,
+            Some(inside) => copy(&name, &to.join(inside.trim_start_matches('/')))?,
+        }
     }
     Ok(())
+}
+
+/// Copies what git tracks of these folders, files or patterns (`rtl/*.sv`) to their paths below `to`.
+pub(super) fn copy_tree(patterns: &[&str], to: &Path) -> Result<(), String> {
+    for pattern in patterns {
+        tracked(&format!(":(glob){pattern}"))?
+            .iter()
+            .try_for_each(|name| copy(name, &to.join(name)))?;
+    }
+    Ok(())
+}
+
+/// The files that git tracks of a folder or pattern of the workspace, of which there must be some.
+fn tracked(pattern: &str) -> Result<Vec<String>, String> {
+    let mut list = Command::new("git");
+    list.args(["ls-files", "--", pattern]).current_dir(workspace());
+    let names: Vec<_> = command::output(&mut list)?.lines().map(str::to_owned).collect();
+    if names.is_empty() { Err(format!("git tracks nothing of {pattern}")) } else { Ok(names) }
+}
+
+/// Copies a file of the workspace, into a folder that is made.
+fn copy(name: &str, to: &Path) -> Result<(), String> {
+    let path = workspace().join(name);
+    let folder = to.parent().unwrap_or(to);
+    let copied = fs::create_dir_all(folder).and_then(|()| fs::copy(&path, to));
+    copied.map(drop).map_err(|error| in_file(&path, &error))
 }

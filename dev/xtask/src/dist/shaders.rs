@@ -1,7 +1,7 @@
 //! The shaders of the usual setups: in every language for hosts without Rust, and as WGSL with a host for browsers.
 
 use super::pack::{Release, copy_tracked};
-use super::{VERSION, tess};
+use super::{VERSION, readme, tess};
 use crate::command::{self, in_file, workspace};
 use std::fs;
 use std::path::Path;
@@ -34,6 +34,17 @@ fn setups(folder: &Path) -> impl Iterator<Item = std::path::PathBuf> {
     names.map(move |name| folder.join(name))
 }
 
+/// Moves one copy of the modules for shaders of the user's own to `shared`, and removes the others.
+fn share_surfaces(folder: &Path, shared: &Path) -> Result<(), String> {
+    for setup in setups(folder) {
+        let own = setup.join("surfaces");
+        let moved =
+            if shared.exists() { fs::remove_dir_all(&own) } else { fs::rename(&own, shared) };
+        moved.map_err(|error| in_file(&own, &error))?;
+    }
+    Ok(())
+}
+
 /// Keeps one copy of the tables, which depend on the order of splits alone: `keep` says what becomes of each.
 fn share_tables(
     folder: &Path,
@@ -57,19 +68,22 @@ fn share_tables(
 pub(super) fn pack(release: &Release) -> Result<(), String> {
     let name = format!("tess-shaders-{VERSION}");
     let stage = release.stage(&name)?;
-    copy_tracked("docs/shaders.md", &stage.join("README.md"))?;
     copy_tracked("bindings/vulkan", &stage.join("vulkan"))?;
     let shared = stage.join("tables.bin");
     for language in LANGUAGES {
         write(language, &stage.join(language))?;
         share_tables(&stage.join(language), &shared, |own| fs::hard_link(&shared, own))?;
     }
+    share_surfaces(&stage.join("wgsl"), &stage.join("surfaces"))?;
+    readme::put("docs/shaders.md", &stage, "shaders.md")?;
+    readme::put("bindings/vulkan/README.md", &stage, "vulkan/README.md")?;
+    readme::put("dev/xtask/src/dist/readmes/shaders.md", &stage, "README.md")?;
     release.archive(&stage, &format!("{name}.tar.gz"))
 }
 
 pub(super) fn pack_npm(release: &Release) -> Result<(), String> {
     let stage = release.stage("package")?;
-    for file in ["tess.js", "tess.d.ts", "README.md"] {
+    for file in ["tess.js", "tess.d.ts"] {
         copy_tracked(&format!("bindings/webgpu/{file}"), &stage.join(file))?;
     }
     let description = workspace().join("bindings/webgpu/package.json");
@@ -82,5 +96,7 @@ pub(super) fn pack_npm(release: &Release) -> Result<(), String> {
     share_tables(&shaders, &shaders.join("tables.bin"), |own| {
         fs::remove_file(own.with_file_name("tess_shaders.h"))
     })?;
+    share_surfaces(&shaders, &shaders.join("surfaces"))?;
+    readme::put("bindings/webgpu/README.md", &stage, "README.md")?;
     release.archive(&stage, &format!("tess-webgpu-{VERSION}.tgz"))
 }

@@ -5,56 +5,89 @@
 patch='tri integer triangle_cw ruler 40a00000 40a00000 40a00000 40a00000'
 equal() { test "$1" = "$2" || { echo "observed $1, expected $2" >&2; exit 1; }; }
 
-# The library below $1, found by pkg-config and CMake, with the examples in $2.
-use_c() {
-    cc "$2/patch.c" $(PKG_CONFIG_PATH=$1/lib/pkgconfig pkg-config --cflags --libs tess) -o patch
-    equal "$(LD_LIBRARY_PATH=$1/lib ./patch $patch | sed -n 1p)" 'points 27'
-    cmake -S "$2/cmake" -B build -DCMAKE_PREFIX_PATH="$1"
-    cmake --build build
-    build/batch
-    build/batch_static
+# No file in these folders, which have what an archive has, names a folder of the machine that built it. What pip writes
+# beside a package (direct_url.json) does, so an installed package is no folder for this.
+unnamed() {
+    for folder in "$ROOT/" "$HOME/"; do
+        if grep -rlF "$folder" "$@"; then
+            echo "these name $folder, a folder of the machine that built them" >&2
+            exit 1
+        fi
+    done
+}
+
+# Does what the README at the top of an archive says, here, where all archives of the release are.
+follow() {
+    ln -sf "$OUT"/* .
+    tar -xOf "$1" --wildcards --no-wildcards-match-slash '*/README.md' > README.md
+    python3 -B "$ROOT/dev/xtask/src/dist/try_readme.py" README.md
 }
 
 case $1 in
+tess)
+    follow tess-[0-9]*.tar.gz
+    unnamed tess-*-gnu
+    glibc=$(sed -n 's/.*(glibc \(.*\) or later).*/\1/p' README.md)
+    newest=$(objdump -T tess-*-gnu/tess | sed -n 's/.*(GLIBC_\([0-9.]*\)).*/\1/p' | sort -uV | tail -n 1)
+    equal "$newest" "$glibc" ;;
 shaders)
-    tar -xf "$OUT"/tess-shaders-*.tar.gz --strip-components=1
-    cc -std=c99 -Ispirv/tri-integer -o host vulkan/*.c -lvulkan
-    printf '\0\0\240\100%.0s' 1 2 3 4 > factors
-    ./host spirv/tri-integer factors
+    follow tess-shaders-*.tar.gz
+    cd tess-shaders-*/
+    unnamed .
     equal "$(wc -c < factors.points) $(wc -c < factors.indices)" "$((27 * 8)) $((37 * 12))"
     for file in spirv/*/*.spv; do spirv-val --target-env vulkan1.1 "$file"; done
     for file in glsl/*/*.comp; do glslangValidator -G "$file"; done ;;
 npm)
-    npm install --no-audit --no-fund "$OUT"/tess-webgpu-*.tgz typescript@5 @webgpu/types@0.1
+    follow tess-webgpu-*.tgz
+    npm install --no-audit --no-fund typescript@5 @webgpu/types@0.1
     cat > program.mts <<'END'
-import { Tessellator, type Output } from "tess-webgpu";
+import { Tessellator, surfacesWgsl, type Output } from "tess-webgpu";
+export const text: Promise<string> = surfacesWgsl(["factors"]);
 export const run = async (device: GPUDevice): Promise<Output> =>
   (await Tessellator.load(device, { domain: "tri", partitioning: "integer" })).tessellate([1, 2, 3, 4]);
 END
     node_modules/.bin/tsc --strict --noEmit --module nodenext --target es2022 program.mts
-    node "$ROOT/bindings/webgpu/try.mjs" node_modules/tess-webgpu "$ROOT/golden/cases.txt" ;;
+    unnamed node_modules/tess-webgpu
+    node "$ROOT/bindings/webgpu/try.mjs" . "$ROOT/golden/cases.txt" ;;
 covergroups)
-    tar -xf "$OUT"/tess-uvm-*.tar.gz --strip-components=1
-    cmp uvm/src/tess_uvm.sv "$ROOT/bindings/uvm/src/tess_uvm.sv"
-    grep -c '^ *covergroup ' uvm/src/tess_covergroups.svh ;;
+    ls "$OUT"/tess-c-*.tar.gz || { echo 'its README also takes the archive of the part c: try both' >&2; exit 1; }
+    follow tess-uvm-*.tar.gz
+    cd tess-uvm-*/
+    unnamed .
+    cmp bindings/uvm/src/tess_uvm.sv "$ROOT/bindings/uvm/src/tess_uvm.sv"
+    grep -c '^ *covergroup ' bindings/uvm/src/tess_covergroups.svh
+    # The example's list names files that are here.
+    verilator --lint-only -F rtl/tess.f --top-module tess_axis ;;
 c)
-    mkdir moved
-    tar -xf "$OUT"/tess-c-*.tar.gz --strip-components=1 -C moved
-    use_c "$PWD/moved" moved/examples ;;
+    follow tess-c-*.tar.gz
+    unnamed tess-c-*-gnu
+    # An installation may move.
+    mv tess-c-*-gnu moved
+    cc moved/examples/patch.c $(PKG_CONFIG_PATH=$PWD/moved/lib/pkgconfig pkg-config --cflags --libs tess) -o patch
+    equal "$(LD_LIBRARY_PATH=moved/lib ./patch $patch | sed -n 1p)" 'points 27'
+    cmake -S moved/examples/cmake -B again -DCMAKE_PREFIX_PATH="$PWD/moved"
+    cmake --build again
+    again/batch
+    again/batch_static ;;
 deb)
     # It warns that one package has both what programs load and what they are built with.
     lintian --allow-root --fail-on error "$OUT"/libtess-dev_*.deb
     dpkg -i "$OUT"/libtess-dev_*.deb
     trap 'dpkg -r libtess-dev' EXIT
-    use_c /usr "$ROOT/bindings/c/examples" ;;
+    zcat -f /usr/share/doc/libtess-dev/README.Debian* > README.md
+    python3 -B "$ROOT/dev/xtask/src/dist/try_readme.py" README.md
+    build/batch
+    build/batch_static ;;
 python)
-    for archive in "$OUT"/tess_model-*.whl "$OUT"/tess_model-*.tar.gz; do
-        python3 -m venv --clear venv
-        venv/bin/pip install -q "$archive"
-        program='import tess_model; p = tess_model.Patch("tri", outer=[5, 5, 5], inner=5); print(len(p.points), len(p.indices))'
-        equal "$(venv/bin/python -c "$program")" '27 37'
-        equal "$(grep -rlF "$ROOT/" venv/lib/*/site-packages/tess_model* || echo unnamed)" unnamed
-    done
+    mkdir wheel sources
+    python3 -m zipfile -e "$OUT"/tess_model-*.whl wheel
+    tar -xf "$OUT"/tess_model-*.tar.gz -C sources
+    unnamed wheel sources
+    python3 -m venv venv
+    (. venv/bin/activate; follow tess_model-*.tar.gz)
+    python3 -m venv --clear venv
+    venv/bin/pip install -q "$OUT"/tess_model-*.tar.gz
+    equal "$(venv/bin/python draw.py)" '43 points, 62 triangles'
     venv/bin/pip install -q auditwheel 'cyclonedx-python-lib[json-validation]'
     tag=$(basename "$OUT"/tess_model-*-abi3-*.whl .whl | sed 's/.*-abi3-//; s/\..*//')
     venv/bin/auditwheel show "$OUT"/tess_model-*.whl | tee shown
@@ -75,20 +108,18 @@ crates)
     for file in "$OUT"/*.crate; do
         tar -xf "$file"
         folder=$(basename "$file" .crate)
+        unnamed "$folder"
         echo "${folder%-*} = { path = '$folder' }" >> Cargo.toml
     done
     echo '[dependencies]' >> Cargo.toml
     for name in core simd gpu surface verify wgpu; do echo "tess-$name = '*'" >> Cargo.toml; done
-    cat > src/main.rs <<'END'
-use tess_core::{Config, DomainPoint, OutputPrimitive, Partitioning, PatchFactors};
-use tess_simd::{Numbering, Output, Tessellator};
-fn main() {
-    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-    let mut output = Output::<DomainPoint, u32>::new();
-    let patch = PatchFactors::Triangle([5.0; 4].into());
-    Tessellator::new(config).tessellate(&[patch], Numbering::PerPatch, &mut output).unwrap();
-    println!("{} {}", output.points().len(), output.indices().len());
-}
-END
-    equal "$(cargo run -q)" '27 111' ;;
+    # The first example of each README that needs no device.
+    for name in core simd surface verify; do
+        echo "fn $name() {"
+        echo 'println!("{:?}", (|| {'
+        sed -n '/^```rust$/,/^```$/{/^```$/q; /^```/d; s/^# //; p}' "tess-$name"-*/README.md
+        echo '})()); }'
+    done > src/main.rs
+    echo 'fn main() { core(); simd(); surface(); verify(); }' >> src/main.rs
+    equal "$(cargo run -q | tr '\n' ' ')" '() Ok(()) Ok(()) () ' ;;
 esac
