@@ -148,7 +148,7 @@ def run(place, variants):
     for variant in variants:
         manifest = Path(place.environment(variant)["VK_DRIVER_FILES"])
         if not manifest.exists():
-            sys.exit(f"{manifest} is missing: `cargo xtask mesa build {place.version}` makes it")
+            sys.exit(f"{manifest} is missing: `cargo xtask mesa build` makes it")
     workspace = Path(__file__).resolve().parent.parent.parent
     subprocess.run(["cargo", "build", "--package", "tess-program"], cwd=workspace, check=True)
     program = place.folder.parent.parent / "debug/tess"

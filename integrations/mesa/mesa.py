@@ -1,10 +1,10 @@
 """Mesa's lavapipe (Vulkan) and llvmpipe (OpenGL) with this library as their tessellator: `cargo xtask mesa` runs this.
 
-    mesa.py [build | compare | test] [VERSION]
+    mesa.py [build | compare | test]
 
-Gets Mesa's sources from Debian, builds the drivers as they are and with the patches beside this file, all below
-target/mesa, and compares what they draw. `test` runs this project's tests of Vulkan and OpenGL on the drivers with all
-patches. The version is that of this machine's Debian, unless another one is named.
+Gets Mesa's sources from Debian 13 (trixie), on Debian 12 too; builds the drivers as they are and with the patches beside this
+file, all below target/mesa; and compares what they draw. `test` runs this project's tests of Vulkan and OpenGL on the
+drivers with all patches.
 """
 
 import json
@@ -23,53 +23,38 @@ HERE = Path(__file__).resolve().parent
 WORKSPACE = HERE.parent.parent
 ROOT = Path(os.environ.get("CARGO_TARGET_DIR", WORKSPACE / "target")).absolute() / "mesa"
 
-# Mesa with the first patches of a release, by their number.
+VERSION = "25.0.7"
+
+# Debian's release that has this version.
+RELEASE = "trixie"
+
+# Mesa with the first patches, by their number.
 VARIANTS = {"unpatched": 0, "0001": 1, "0001+0002": 2}
 
 LAVAPIPE = "src/gallium/targets/lavapipe/libvulkan_lvp.so"
 DRI = "src/gallium/targets/dri"
 EGL = "src/egl/libEGL_mesa.so.0"
 
-# Of each version: Debian's name of its release, the folder of its patches, options of its build, the oldest meson that its
-# build runs with, its Vulkan, its libraries as the build and as a variant's folder has them (they find each other by
-# paths from their own), and whether EGL looks for llvmpipe in the folder that LIBGL_DRIVERS_PATH names.
-RELEASES = {
-    "22.3.6": {
-        "codename": "bookworm",
-        "patches": "patches",
-        "options": "-Dplatforms=x11,wayland -Dgallium-drivers=swrast -Dglvnd=true -Dgallium-omx=disabled",
-        "meson": (0, 53),
-        "vulkan": "1.3.230",
-        "libraries": {
-            LAVAPIPE: LAVAPIPE,
-            f"{DRI}/libgallium_dri.so": f"{DRI}/swrast_dri.so",
-            f"{EGL}.0.0": EGL,
-            "src/mapi/shared-glapi/libglapi.so.0.0.0": "src/mapi/shared-glapi/libglapi.so.0",
-        },
-        "drivers_path": True,
-    },
-    "25.0.7": {
-        "codename": "trixie",
-        "patches": "patches-25.0.7",
-        # Wayland's windows want protocols that are newer than bookworm.
-        "options": "-Dplatforms=x11 -Dgallium-drivers=llvmpipe -Dglvnd=enabled",
-        "meson": (1, 1),
-        "vulkan": "1.4.305",
-        "libraries": {
-            LAVAPIPE: LAVAPIPE,
-            f"{DRI}/libgallium-25.0.7.so": f"{DRI}/libgallium-25.0.7.so",
-            f"{EGL}.0.0": EGL,
-        },
-        "drivers_path": False,
-    },
+# The libraries as the build has them, and as a variant's folder does: they find each other by paths from their own.
+LIBRARIES = {
+    LAVAPIPE: LAVAPIPE,
+    f"{DRI}/libgallium-{VERSION}.so": f"{DRI}/libgallium-{VERSION}.so",
+    f"{EGL}.0.0": EGL,
 }
 
-# The options of every version: lavapipe and llvmpipe behind EGL, and what they need.
+# The version of Vulkan that lavapipe has.
+VULKAN = "1.4.305"
+
+# The oldest meson that runs the build.
+MESON = (1, 1)
+
+# lavapipe, and llvmpipe behind EGL. Wayland's windows need newer protocols than Debian 12 has.
 OPTIONS = """
--Dbuildtype=release -Dvulkan-drivers=swrast -Dllvm=enabled -Dshared-llvm=enabled -Dopengl=true -Dshared-glapi=enabled
--Degl=enabled -Dglx=disabled -Dgbm=disabled -Dgles1=disabled -Dgles2=enabled -Dgallium-vdpau=disabled
--Dgallium-va=disabled -Dgallium-xa=disabled -Dvalgrind=disabled -Dlibunwind=disabled -Dlmsensors=disabled
--Dbuild-tests=false -Dmicrosoft-clc=disabled -Dvideo-codecs= -Dzstd=disabled -Dshader-cache=disabled
+-Dbuildtype=release -Dvulkan-drivers=swrast -Dgallium-drivers=llvmpipe -Dllvm=enabled -Dshared-llvm=enabled -Dopengl=true
+-Dshared-glapi=enabled -Dplatforms=x11 -Dglvnd=enabled -Degl=enabled -Dglx=disabled -Dgbm=disabled -Dgles1=disabled
+-Dgles2=enabled -Dgallium-vdpau=disabled -Dgallium-va=disabled -Dgallium-xa=disabled -Dvalgrind=disabled
+-Dlibunwind=disabled -Dlmsensors=disabled -Dbuild-tests=false -Dmicrosoft-clc=disabled -Dvideo-codecs= -Dzstd=disabled
+-Dshader-cache=disabled
 """
 
 
@@ -82,11 +67,11 @@ def run(*command, **options):
 
 
 class Place:
-    """Where everything of one release lies."""
+    """The folders of sources, builds and drivers."""
 
-    def __init__(self, version):
-        self.version, self.release = version, RELEASES[version]
-        self.folder = ROOT / version
+    def __init__(self):
+        self.version = VERSION
+        self.folder = ROOT / VERSION
         self.source = self.folder / "source"
         self.folder.mkdir(parents=True, exist_ok=True)
 
@@ -94,19 +79,17 @@ class Place:
         """The environment in which Vulkan is a variant's lavapipe, and OpenGL its llvmpipe."""
         driver = self.folder / variant
         found = {"VK_DRIVER_FILES": driver / "lvp_icd.json", "__EGL_VENDOR_LIBRARY_FILENAMES": driver / "50_mesa.json"}
-        if self.release["drivers_path"]:
-            found["LIBGL_DRIVERS_PATH"] = driver / DRI
         return {name: str(path) for name, path in found.items()}
 
     def apt(self, codename, *words, folder):
-        """Runs `apt-get` with the lists of one release of Debian, which are of this program's own: the system's stay."""
+        """Runs `apt-get` with lists of one release of Debian that are this program's own; the system's lists stay."""
         lists = ROOT / "debian" / codename
         (lists / "lists/partial").mkdir(parents=True, exist_ok=True)
         keys = "/usr/share/keyrings/debian-archive-keyring.gpg"
         of = f"[signed-by={keys}] {mirror()} {codename} main\n"
         (lists / "sources.list").write_text(f"deb {of}deb-src {of}")
         own = ["-q", f"-oDir::Etc::SourceList={lists}/sources.list", "-oDir::Etc::SourceParts=/dev/null"]
-        # What is cached of the system's lists is of others.
+        # The caches are of the system's lists.
         own += [f"-oDir::State::Lists={lists}/lists", "-oDir::Cache::pkgcache=", "-oDir::Cache::srcpkgcache="]
         run("apt-get", *own, "update", cwd=lists)
         run("apt-get", *own, *words, cwd=folder)
@@ -126,11 +109,11 @@ class Place:
         """Mesa's sources with Debian's patches, as a commit, so that `git` brings a changed file back."""
         if self.source.exists():
             return
-        self.apt(self.release["codename"], "source", "mesa", folder=self.folder)
-        unpacked = self.folder / f"mesa-{self.version}"
+        self.apt(RELEASE, "source", "mesa", folder=self.folder)
+        unpacked = self.folder / f"mesa-{VERSION}"
         if not unpacked.exists():
-            sys.exit(f"Debian's {self.release['codename']} has another version of Mesa than {self.version}")
-        # Sources of the newer format come with the patches applied, and say so.
+            sys.exit(f"Debian's {RELEASE} has another version of Mesa than {VERSION}, for which the patches are")
+        # Some formats of sources come with Debian's patches applied.
         if not (unpacked / ".pc/applied-patches").exists():
             for name in (unpacked / "debian/patches/series").read_text().splitlines():
                 if name and not name.startswith("#"):
@@ -143,7 +126,7 @@ class Place:
     def become(self, variant):
         """Makes the sources those of a variant. Files that stay the same are not touched: little is built again."""
         run("git", "checkout", "-q", ".", cwd=self.source)
-        for patch in sorted((HERE / self.release["patches"]).iterdir())[: VARIANTS[variant]]:
+        for patch in sorted((HERE / "patches").iterdir())[: VARIANTS[variant]]:
             run("patch", "-s", "-p1", "--no-backup-if-mismatch", "-i", patch, cwd=self.source)
         for file in ("tess_mesa.c", "tess_mesa.h"):
             to = self.source / "src/gallium/auxiliary/tessellator" / file
@@ -153,7 +136,7 @@ class Place:
     def meson(self):
         """The system's meson, or one of Python's package index where the system's is too old."""
         said = subprocess.run(["/usr/bin/meson", "--version"], capture_output=True, text=True, check=True).stdout
-        if tuple(int(number) for number in said.split(".")[:2]) >= self.release["meson"]:
+        if tuple(int(number) for number in said.split(".")[:2]) >= MESON:
             return "/usr/bin/meson"
         if not (ROOT / "venv/bin/meson").exists():
             # Mesa's build imports Mako and PyYAML, which the system has.
@@ -162,22 +145,22 @@ class Place:
         return ROOT / "venv/bin/meson"
 
     def build(self, variant):
-        """Builds a variant, in the folder of all, and keeps its libraries with what EGL and the Vulkan loader want."""
+        """Builds a variant in the folder that all share, and keeps its libraries, with manifests for EGL and Vulkan."""
         self.become(variant)
         build, driver = self.folder / "build", self.folder / variant
-        # The environment's variable counts in the first set-up of a folder alone.
+        # The environment's variable counts only when a folder is set up for the first time.
         options = ["--reconfigure"] if (build / "build.ninja").exists() else []
         options += [f"-Dpkg_config_path={ROOT}/tess/lib/pkgconfig", f"--prefix={self.folder}/install"]
-        options += OPTIONS.split() + self.release["options"].split()
+        options += OPTIONS.split()
         options += ["-Dtessellator=tess"] if VARIANTS[variant] else []
         # The system's Python has Mako.
         path = {**os.environ, "PATH": f"/usr/bin:{os.environ['PATH']}"}
         run(self.meson(), "setup", *options, build, self.source, env=path)
-        run("ninja", "-C", build, *self.release["libraries"], env=path)
-        for built, kept in self.release["libraries"].items():
+        run("ninja", "-C", build, *LIBRARIES, env=path)
+        for built, kept in LIBRARIES.items():
             (driver / kept).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(build / built, driver / kept)
-        lavapipe = {"library_path": str(driver / LAVAPIPE), "api_version": self.release["vulkan"]}
+        lavapipe = {"library_path": str(driver / LAVAPIPE), "api_version": VULKAN}
         for file, icd in (("50_mesa.json", {"library_path": str(driver / EGL)}), ("lvp_icd.json", lavapipe)):
             (driver / file).write_text(json.dumps({"file_format_version": "1.0.0", "ICD": icd}, indent=2) + "\n")
 
@@ -205,13 +188,10 @@ def mirror():
 
 def main(words):
     work = words.pop(0) if words and words[0] in ("build", "compare", "test") else "all"
-    own = [version for version, release in RELEASES.items() if release["codename"] == codename()]
-    version, *rest = words or own or [None]
-    if version not in RELEASES or rest:
-        known = " and ".join(f"{version} of Debian's {release['codename']}" for version, release in RELEASES.items())
-        sys.exit(f"mesa [build | compare | test] [VERSION]; this is {codename()}, and the versions are {known}")
-    print(f"Mesa {version}, of Debian's {RELEASES[version]['codename']}")
-    place = Place(version)
+    if words:
+        sys.exit(f"mesa [build | compare | test], not `{' '.join(words)}`")
+    print(f"Mesa {VERSION}, of Debian's {RELEASE}")
+    place = Place()
     if work in ("all", "build"):
         place.build_all()
     if work in ("all", "compare"):

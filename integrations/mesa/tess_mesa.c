@@ -1,12 +1,12 @@
 /*
  * Mesa's interface of a tessellator (src/gallium/auxiliary/tessellator/p_tessellator.h), over tess.h.
  *
- * Mesa's draw module makes a tessellator for each run of an evaluation shader, hands it one patch a call and
+ * Mesa's draw module makes a tessellator for each run of an evaluation shader, passes it one patch per call and
  * destroys it. A tessellator is in one call at a time; any number of threads may have tessellators. Memory grows
- * to the largest patch so far and is kept: a destroyed tessellator waits, one for each configuration, for
- * the next p_tess_init, as a new one learns its patches and grows its buffers again.
+ * to the largest patch so far and is kept: one destroyed tessellator for each configuration waits for
+ * the next p_tess_init, because a new one would learn its patches and grow its buffers again.
  *
- * Mesa has no way to hear of an error. Without memory a patch has no points, which Mesa skips.
+ * The interface has no errors. Without memory a patch has no points, and Mesa skips it.
  */
 #include <stdbool.h>
 #include <stddef.h>
@@ -17,11 +17,6 @@
 #include "tess_mesa.h"
 
 #include "tess.h"
-
-/* Mesa 23.2 and later call it `enum mesa_prim`; the numbers are the same. */
-#ifndef TESS_MESA_PRIM
-#define TESS_MESA_PRIM enum pipe_prim_type
-#endif
 
 /* The numbers of the three domains in OpenGL, and so in each of Mesa's enumerations. */
 enum { PRIM_LINES = 1, PRIM_TRIANGLES = 4, PRIM_QUADS = 7 };
@@ -152,7 +147,7 @@ output_of(uint32_t domain, bool cw, bool point_mode)
 }
 
 struct pipe_tessellator *
-p_tess_init(TESS_MESA_PRIM tes_prim_mode, enum pipe_tess_spacing spacing, bool tes_vertex_order_cw,
+p_tess_init(enum mesa_prim tes_prim_mode, enum pipe_tess_spacing spacing, bool tes_vertex_order_cw,
             bool tes_point_mode)
 {
    TessConfig config = {0};

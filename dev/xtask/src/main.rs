@@ -82,12 +82,11 @@ usage: cargo xtask <command>
   install --prefix FOLDER [--target TARGET]
           build the C library and install headers, both libraries, `tess.pc` and CMake's package there, so that
           `cc program.c $(pkg-config --cflags --libs tess)` works
-  mesa [build | compare | test] [22.3.6 | 25.0.7]
-          get Mesa's sources from Debian, build its drivers lavapipe (Vulkan) and llvmpipe (OpenGL) as they are
-          and with this library as their tessellator (in target/mesa, never installed), and compare them:
-          docs/hosts/mesa.md. Takes half an hour on two cores, most of it to compare. `test` runs the tests of
-          Vulkan and OpenGL on the patched drivers. The version is that of this machine's Debian: 22.3.6 on 12
-          (bookworm), 25.0.7 on 13 (trixie); the other one may be asked for
+  mesa [build | compare | test]
+          get the sources of Mesa 25.0.7 from Debian, build its drivers lavapipe (Vulkan) and llvmpipe (OpenGL) as
+          they are and with this library as their tessellator (in target/mesa, never installed), and compare them:
+          docs/hosts/mesa.md. Runs on Debian 12 and 13, and takes 45 minutes on two cores. `test` runs the tests of
+          Vulkan and OpenGL on the patched drivers
   public  name the public items of the published libraries that nothing outside uses
   traceability
           check that docs/traceability.md has each section of docs/specification.md and that the evidence it names exists
@@ -107,8 +106,9 @@ usage: cargo xtask <command>
   publish [send]
           pack and build every published package as a registry would get it; without `send`, send nothing
   dist [--try] [PART...]
-          pack a release, or these parts of it, into target/dist: shaders npm covergroups c deb python crates; with
-          `--try` pack twice, compare the bytes, and use each archive where nothing else of the project is
+          pack a release, or these parts of it, into target/dist: tess shaders npm covergroups c deb python crates;
+          with `--try` pack twice, compare the bytes, and use each archive as its README says, where nothing else of
+          the project is
   deny [advisories]
           check the licences and sources of dependencies, and known vulnerabilities on request
   semver REVISION

@@ -32,7 +32,7 @@ static const char *const OUTPUTS[] = {"point", "line", "triangle_cw", "triangle_
 
 /* ---- the words of Mesa ---- */
 
-static const enum pipe_prim_type PRIMS[] = {PIPE_PRIM_LINES, PIPE_PRIM_TRIANGLES, PIPE_PRIM_QUADS};
+static const enum mesa_prim PRIMS[] = {MESA_PRIM_LINES, MESA_PRIM_TRIANGLES, MESA_PRIM_QUADS};
 static const enum pipe_tess_spacing SPACINGS[] = {
    PIPE_TESS_SPACING_EQUAL, PIPE_TESS_SPACING_EQUAL, PIPE_TESS_SPACING_FRACTIONAL_ODD,
    PIPE_TESS_SPACING_FRACTIONAL_EVEN};

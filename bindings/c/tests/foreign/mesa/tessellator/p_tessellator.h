@@ -1,6 +1,6 @@
 /*
  * The declarations by which Mesa's draw module calls a tessellator, written for the tests of integrations/mesa:
- * names, numbers and layouts as Mesa 22.3 has them, so that tess_mesa.c compiles and runs without Mesa.
+ * names, numbers and layouts as Mesa 25.0 has them, so that tess_mesa.c compiles and runs without Mesa.
  */
 #ifndef PIPE_TESSELLATOR_H
 #define PIPE_TESSELLATOR_H
@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum pipe_prim_type { PIPE_PRIM_LINES = 1, PIPE_PRIM_TRIANGLES = 4, PIPE_PRIM_QUADS = 7 };
+enum mesa_prim { MESA_PRIM_LINES = 1, MESA_PRIM_TRIANGLES = 4, MESA_PRIM_QUADS = 7 };
 
 enum pipe_tess_spacing {
    PIPE_TESS_SPACING_FRACTIONAL_ODD = 0,
@@ -32,7 +32,7 @@ struct pipe_tessellator_data {
    float *domain_points_v;
 };
 
-struct pipe_tessellator *p_tess_init(enum pipe_prim_type tes_prim_mode, enum pipe_tess_spacing spacing,
+struct pipe_tessellator *p_tess_init(enum mesa_prim tes_prim_mode, enum pipe_tess_spacing spacing,
                                      bool tes_vertex_order_cw, bool tes_point_mode);
 void p_tess_destroy(struct pipe_tessellator *pipe_ts);
 void p_tessellate(struct pipe_tessellator *pipe_ts, const struct pipe_tessellation_factors *tess_factors,
