@@ -3,8 +3,8 @@
 use crate::component::Tessellated;
 use bevy::asset::{AssetServer, Assets, Handle};
 use bevy::ecs::prelude::*;
-use bevy::platform::collections::HashMap;
-use bevy::shader::Shader;
+use bevy::platform::collections::{HashMap, HashSet};
+use bevy::shader::{Shader, ShaderImport};
 use std::borrow::Cow;
 use std::sync::Arc;
 use tess_core::{Config, Domain};
@@ -76,6 +76,17 @@ fn fragment_shader(text: &str, name: &str) -> Shader {
     Shader::from_wesl(format!("{IMPORTS}{text}\n{own}"), format!("bevy_tess/{name}.wesl"))
 }
 
+/// The modules that an import may name: `a::b::c` is the module `c`, or the item `c` of the module `b`.
+fn modules_of(import: &ShaderImport) -> impl Iterator<Item = &str> {
+    let path = match import {
+        ShaderImport::Custom(path) => Some(path.as_str()),
+        ShaderImport::AssetPath(_) => None,
+    };
+    path.into_iter()
+        .flat_map(|path| [Some(path), path.rsplit_once("::").map(|(outer, _)| outer)])
+        .flatten()
+}
+
 /// The shaders of all entities with one key.
 #[derive(Debug)]
 pub(crate) struct Program {
@@ -91,8 +102,6 @@ pub(crate) struct Program {
 /// Every program so far, and the program of each entity.
 #[derive(Debug, Resource)]
 pub(crate) struct Programs {
-    /// The modules of [`IMPORTS`] and [`PREPASS`].
-    library: [Handle<Shader>; 8],
     /// The fragment shader of prepasses.
     prepass: Handle<Shader>,
     all: HashMap<Key, Arc<Program>>,
@@ -101,27 +110,32 @@ pub(crate) struct Programs {
 
 impl FromWorld for Programs {
     fn from_world(world: &mut World) -> Self {
-        let assets = world.resource::<AssetServer>();
-        let library = [
-            "render/pbr_types",
-            "render/pbr_functions",
-            "render/pbr_fragment",
-            "render/pbr_prepass_functions",
-            "render/mesh_view_bindings",
-            "render/forward_io",
-            "prepass/bindings",
-            "prepass/io",
-        ]
-        .map(|name| assets.load(format!("embedded://bevy_pbr/{name}.wesl")));
-        let prepass = assets.add(fragment_shader(PREPASS, "prepass"));
-        Self { library, prepass, all: HashMap::default(), of_entities: HashMap::default() }
+        let prepass = world.resource::<AssetServer>().add(fragment_shader(PREPASS, "prepass"));
+        Self { prepass, all: HashMap::default(), of_entities: HashMap::default() }
     }
 }
 
 impl Programs {
-    /// Whether the shaders' imports are there.
-    pub(crate) fn are_ready(&self, assets: &AssetServer) -> bool {
-        self.library.iter().all(|shader| assets.is_loaded(shader))
+    /// Whether all of Bevy's modules are loaded that the shaders import, and those that these modules import. Bevy loads
+    /// some modules later than others, and warns of a shader that is compiled before.
+    pub(crate) fn are_ready(&self, server: &AssetServer, shaders: &Assets<Shader>) -> bool {
+        let own = self.all.values().map(|program| &program.fragment).chain([&self.prepass]);
+        let mut imports: Vec<&ShaderImport> = Vec::new();
+        for handle in own {
+            let Some(shader) = shaders.get(handle) else { return false };
+            imports.extend(&shader.imports);
+        }
+        let mut seen = HashSet::new();
+        while let Some(import) = imports.pop() {
+            for module in modules_of(import).filter(|module| seen.insert(*module)) {
+                let file = format!("embedded://{}.wesl", module.replace("::", "/"));
+                // Nobody loads a module of a feature that is off, nor an item.
+                let Some(handle) = server.get_handle::<Shader>(file) else { continue };
+                let Some(shader) = shaders.get(&handle) else { return false };
+                imports.extend(&shader.imports);
+            }
+        }
+        true
     }
 
     pub(crate) fn of(&self, entity: Entity) -> Option<&Arc<Program>> {

@@ -7,7 +7,7 @@ use crate::eye::Casting;
 use crate::is_on_cpu;
 use crate::program::{Program, Programs};
 use crate::shape::Shape;
-use bevy::asset::AssetServer;
+use bevy::asset::{AssetServer, Assets};
 use bevy::ecs::prelude::*;
 use bevy::light::NotShadowReceiver;
 use bevy::math::Affine3A;
@@ -15,6 +15,7 @@ use bevy::pbr::PreviousGlobalTransform;
 use bevy::render::Extract;
 use bevy::render::renderer::RenderDevice;
 use bevy::render::sync_world::MainEntity;
+use bevy::shader::Shader;
 use bevy::transform::components::GlobalTransform;
 use std::sync::Arc;
 
@@ -39,6 +40,8 @@ pub(crate) struct Extracted {
     pub(crate) casting: Casting,
     pub(crate) is_on_gpu: bool,
     pub(crate) wireframe: bool,
+    /// Whether the shaders' imports have been loaded.
+    are_ready: bool,
 }
 
 type ExtractedSurface<'a> = (
@@ -56,14 +59,16 @@ pub(crate) fn extract(
     settings: Extract<Res<TessSettings>>,
     casting: Extract<Res<Casting>>,
     programs: Extract<Res<Programs>>,
-    assets: Extract<Res<AssetServer>>,
+    assets: Extract<(Res<AssetServer>, Res<Assets<Shader>>)>,
     surfaces: Extract<Query<ExtractedSurface<'_>>>,
 ) {
     extracted.items.clear();
     extracted.wireframe = settings.wireframe;
     extracted.casting.clone_from(&casting);
     extracted.is_on_gpu = !is_on_cpu(&settings, Some(&device));
-    if !extracted.is_on_gpu || !programs.are_ready(&assets) {
+    let (server, shaders) = &*assets;
+    extracted.are_ready = extracted.are_ready || programs.are_ready(server, shaders);
+    if !extracted.is_on_gpu || !extracted.are_ready {
         return;
     }
     extracted.items.extend(surfaces.iter().filter_map(|surface| {
