@@ -29,6 +29,7 @@ const LONG: &[&str] = &[
     "tess-wgpu/tests/batches/main.rs",
     "tess-wgpu/tests/stage/main.rs",
     "tess-wgpu/tests/sequences/main.rs",
+    "tess-gpu/tests/twins/main.rs",
     "tools/cli/tests/shaders/main.rs",
     "tess-gpu/tests/shaders.rs",
     "tess-verify/tests/golden.rs",
@@ -37,9 +38,26 @@ const LONG: &[&str] = &[
     "bindings/c/tests/foreign.rs",
 ];
 
-/// The programs that need more than the model, the CPU and Vulkan, with the names of the tests that do; none are all.
-const BEYOND: &[(&str, &[&str])] =
-    &[("tess-wgpu/tests/gl/main.rs", &[]), ("bindings/c/tests/foreign.rs", &["rtl_", "uvm_"])];
+/// Tests that only [`Extent::All`] runs, by their program; no names are all of its tests.
+struct Beyond {
+    program: &'static str,
+    /// Beginnings of names.
+    tests: &'static [&'static str],
+}
+
+const BEYOND: &[Beyond] = &[
+    // They need OpenGL or a simulator.
+    Beyond { program: "tess-wgpu/tests/gl/main.rs", tests: &[] },
+    Beyond { program: "bindings/c/tests/foreign.rs", tests: &["rtl_", "uvm_"] },
+    // They are slow. The comparisons that stay reach the same code with fewer patches or in one language.
+    Beyond {
+        program: "tools/cli/tests/program/main.rs",
+        tests: &["backends::gpu_equals_recorded"],
+    },
+    Beyond { program: "tess-gpu/tests/twins/main.rs", tests: &[] },
+    Beyond { program: "tools/cli/tests/shaders/main.rs", tests: &[] },
+    Beyond { program: "tools/probe/tests/bench.rs", tests: &[] },
+];
 
 /// Which tests are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -104,7 +122,7 @@ pub(crate) fn jobs(extent: Extent, part: &TestSelection<'_>) -> Result<Vec<Job>,
     let root = workspace();
     let selected = match (extent, &part.paths[..]) {
         // Not the examples either, whose sources are in tests.
-        (Extent::Comparisons, []) => vec!["--tests".to_owned()],
+        (Extent::Comparisons, []) => comparisons()?,
         (_, paths) => selection(paths)?,
     };
     let messages = command::output(build.arg(MESSAGES).args(selected))?;
@@ -193,9 +211,20 @@ fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
     Ok(selections.into_iter().flatten().collect())
 }
 
-/// The tests of a program that need more than [`Extent::Comparisons`] has, from [`BEYOND`].
+/// Arguments of cargo that select the programs of [`Extent::Comparisons`].
+fn comparisons() -> Result<Vec<String>, String> {
+    let packages = packages::all()?;
+    let chosen = packages.iter().filter(|package| !APART.contains(&package.name.as_str()));
+    let targets = chosen.flat_map(|package| &package.targets).filter(|target| target.test);
+    let wanted =
+        targets.filter(|target| tests_beyond(&target.src_path).is_none_or(|t| !t.is_empty()));
+    let selections: BTreeSet<_> = wanted.map(Target::selection).collect();
+    Ok(selections.into_iter().flatten().collect())
+}
+
+/// The tests of a program that [`BEYOND`] leaves out; none are all.
 fn tests_beyond(source: &Path) -> Option<&'static [&'static str]> {
-    BEYOND.iter().find(|(file, _)| source.ends_with(file)).map(|&(_, names)| names)
+    BEYOND.iter().find(|beyond| source.ends_with(beyond.program)).map(|beyond| beyond.tests)
 }
 
 /// The command of a program that is to run.
@@ -243,16 +272,24 @@ mod tests {
 
     #[test]
     fn listed_programs_exist() {
-        for file in LONG.iter().chain(BEYOND.iter().map(|(file, _)| file)) {
+        for file in LONG.iter().chain(BEYOND.iter().map(|beyond| &beyond.program)) {
             assert!(workspace().join(file).is_file(), "{file} is listed here and is no test");
         }
         let packages = packages::all().expect("packages");
         let is_there = |name: &&str| packages.iter().any(|package| package.name == *name);
         assert!(APART.iter().all(is_there), "a package of {APART:?} has another name");
-        for (file, names) in BEYOND {
-            let text = fs::read_to_string(workspace().join(file)).expect("text");
-            let is_there = |name: &&str| text.contains(&format!("\"{name}"));
-            assert!(names.iter().all(is_there), "{file}: a test of {names:?} has another name");
+        for Beyond { program, tests } in BEYOND {
+            for name in *tests {
+                let (module, test) = name.split_once("::").unwrap_or(("", name));
+                let file = match module {
+                    "" => workspace().join(program),
+                    _ => workspace().join(program).with_file_name(format!("{module}.rs")),
+                };
+                let text = fs::read_to_string(file).expect("text");
+                let is_there =
+                    text.contains(&format!("fn {test}")) || text.contains(&format!("\"{test}"));
+                assert!(is_there, "{program}: a test of {tests:?} has another name");
+            }
         }
     }
 

@@ -26,8 +26,9 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
     report.beside_each_other(suite::jobs(extent, &TestSelection::of(arguments))?)?;
     if arguments.is_empty() {
         println!(
-            "\nNOT RUN: OpenGL, a window, simulators, Python, the explorer, the programs that measure; \
-             `cargo xtask test all` runs them"
+            "\nNOT RUN: all recorded results on the GPU, every pass of the shaders beside its twin, shaders in \
+             other languages, OpenGL, a window, simulators, Python, the explorer, the programs that measure. \
+             `cargo xtask test all` runs them, and so does `cargo xtask ci`."
         );
     }
     finish(report)
