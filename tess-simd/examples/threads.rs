@@ -17,7 +17,7 @@ pub(crate) fn main() -> Result<(), Error> {
     Tessellator::new(config).tessellate(&patches, numbering, &mut one)?;
 
     let threads = std::thread::available_parallelism().map_or(2, |count| count.get());
-    let mut tessellator = Tessellator::new(config).threads(threads);
+    let mut tessellator = Tessellator::new(config).with_threads(threads);
     let mut several: Output<[f32; 2], u32> = Output::new();
     let counts = tessellator.tessellate(&patches, numbering, &mut several)?;
 

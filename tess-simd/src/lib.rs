@@ -36,3 +36,5 @@ pub use interface::tessellator::Tessellator;
 pub use kernels::kernel_taps::Kernel;
 pub use tess_core;
 pub use tess_core::Order;
+#[cfg(feature = "rayon")]
+pub use threads::process::ThreadsError;

@@ -1,4 +1,4 @@
-//! Who counts and writes: the threads of a rayon pool, or the calling thread alone.
+//! Who counts and writes: the threads of a pool, or only the calling thread.
 //!
 //! Both define [`Workspaces`], which is kept from batch to batch.
 
@@ -7,6 +7,8 @@ mod one;
 pub(crate) mod part;
 #[cfg(feature = "rayon")]
 mod pool;
+#[cfg(feature = "rayon")]
+pub(crate) mod process;
 pub(crate) mod sizes;
 pub(crate) mod slices;
 

@@ -1,13 +1,13 @@
 /*
  * Bit-exact Direct3D 11 class tessellation.
  *
- * The caller owns all memory; a function on one patch allocates nothing. Every function returns
- * TESS_OK or the reason why it did nothing; tess_status_message() puts it in words.
- * Null and misaligned pointers, unknown numbers, buffers that are too small or overlap are refused
- * with a status, never undefined behaviour. That the memory behind a pointer is as large as the call
- * says cannot be checked: the caller must ensure it.
- * All functions may be called from any number of threads at the same time, but for those on one
- * batch: it may be in one call at a time.
+ * The caller owns all memory; functions on one patch do not allocate. Every function returns TESS_OK,
+ * or the reason why it did nothing; tess_status_message() puts it in words.
+ * Null and misaligned pointers, unknown numbers, and buffers that are too small or overlap are refused
+ * with a status and are never undefined behaviour. The library cannot check that the memory behind a
+ * pointer is as large as the call states: the caller must ensure it.
+ * All functions may be called from any number of threads at the same time, except that only one call
+ * may use a batch at a time.
  *
  * Factors are any binary32 numbers, NaN included, in the order of their domain:
  *   isoline   density, detail
@@ -28,6 +28,21 @@
  * The version as three numbers: `major << 16 | minor << 8 | patch`.
  */
 #define TESS_VERSION 256
+
+/**
+ * Buffer: the points.
+ */
+#define TESS_BUFFER_POINTS 0
+
+/**
+ * Buffer: the indices.
+ */
+#define TESS_BUFFER_INDICES 1
+
+/**
+ * Buffer: the ranges, one for each patch.
+ */
+#define TESS_BUFFER_RANGES 2
 
 /**
  * Domain: parallel lines along u, stacked in v. Factors: density, detail.
@@ -220,7 +235,7 @@
 #define TESS_LEVEL_DETECT 0
 
 /**
- * CPU level: what the library was compiled for; always available.
+ * CPU level: the instructions that the library was compiled for; always available.
  */
 #define TESS_LEVEL_BASELINE 1
 
@@ -230,7 +245,7 @@
 #define TESS_LEVEL_AVX2 2
 
 /**
- * CPU level: AVX-512 on x86-64, as processors have it from Ice Lake and Zen 4 on.
+ * CPU level: AVX-512 on x86-64, with the extensions of Ice Lake and Zen 4.
  */
 #define TESS_LEVEL_AVX512 3
 
@@ -240,7 +255,7 @@
 #define TESS_TRIANGLES_SPECIFIED 0
 
 /**
- * Triangle order: the same triangles and points, in columns that suit vertex caches of GPUs.
+ * Triangle order: the same triangles and points, in columns that suit the vertex caches of GPUs.
  */
 #define TESS_TRIANGLES_VERTEX_CACHE 1
 
@@ -255,8 +270,8 @@
 #define TESS_POINT_F32 1
 
 /**
- * Point format: as `TESS_POINT_F32`, but u and v apart. `points` is `2 * point_capacity` floats: u of each point
- * from the first float on, v of each from number `point_capacity` on.
+ * Point format: as `TESS_POINT_F32`, but u and v in two arrays. `points` has `2 * point_capacity` floats: first u of
+ * each point, then, from float number `point_capacity`, v of each point.
  */
 #define TESS_POINT_F32_APART 2
 
@@ -266,9 +281,17 @@
 #define TESS_INDEX_U32 0
 
 /**
- * Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`.
+ * Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`. With
+ * `TESS_NUMBERING_PER_BATCH` it numbers 65536 points. The last of these indices, 65535, restarts
+ * primitives in WebGL 2 and wherever primitive restart is on: keep `base_vertex` and the points of the
+ * batch together to `TESS_POINTS_WITHOUT_RESTART_U16` there.
  */
 #define TESS_INDEX_U16 1
+
+/**
+ * The points that `uint16_t` numbers from 0 without the index 65535.
+ */
+#define TESS_POINTS_WITHOUT_RESTART_U16 65535
 
 /**
  * Numbering: indices count from the first point of their patch.
@@ -281,13 +304,13 @@
 #define TESS_NUMBERING_PER_BATCH 1
 
 /**
- * Memory: the buffers may hold anything, also nothing yet.
+ * Memory: the buffers may be uninitialised.
  */
 #define TESS_MEMORY_ANY 0
 
 /**
- * Memory: every byte of the buffers was written once, by `calloc`, `memset`, an earlier call or the caller. This is
- * faster, as nothing is cleared before it is written.
+ * Memory: every byte of the buffers was written before, by `calloc`, `memset`, an earlier call or the caller. This is
+ * faster, because nothing is cleared before it is written.
  */
 #define TESS_MEMORY_INITIALISED 1
 
@@ -352,14 +375,32 @@
 #define TESS_SPECIFICATION_D3D11 2
 
 /**
- * Tessellates batches. Made by `tess_batch_create`, given back to `tess_batch_free`.
+ * A tessellator for batches. `tess_batch_create` makes it, `tess_batch_free` frees it.
  */
 typedef struct TessBatch TessBatch;
 
 /**
- * Status that every function returns: `TESS_OK` or the reason why it did nothing.
+ * The status that every function returns: `TESS_OK`, or the reason why it did nothing.
  */
 typedef uint32_t TessStatus;
+
+/**
+ * A buffer that was too small. Of several it is the first of ranges, points, indices.
+ */
+typedef struct TessShortage {
+  /**
+   * `TESS_BUFFER_...`
+   */
+  uint32_t buffer;
+  /**
+   * The elements that the output needs.
+   */
+  size_t needed;
+  /**
+   * The elements that the buffer had room for: its capacity.
+   */
+  size_t got;
+} TessShortage;
 
 /**
  * The state of the tessellator, each field one of the constants that it names.
@@ -480,11 +521,11 @@ typedef struct TessProcessedPatch {
    */
   uint32_t outcome;
   /**
-   * How many of `factors` are used: 0 if culled, else the number of the domain.
+   * The number of `factors` that are used: 0 if culled, else that of the domain.
    */
   uint32_t factor_count;
   /**
-   * The factors in the order of the input; those from `factor_count` on are all zero.
+   * The factors in the order of the input; the elements past `factor_count` are zero.
    */
   struct TessProcessedFactor factors[6];
 } TessProcessedPatch;
@@ -498,7 +539,7 @@ typedef struct TessPrimitive {
    */
   uint32_t size;
   /**
-   * The indices; those from `size` on are 0.
+   * The indices; the elements past `size` are 0.
    */
   uint32_t indices[3];
 } TessPrimitive;
@@ -619,8 +660,10 @@ typedef struct TessRange {
 } TessRange;
 
 /**
- * The buffers and formats that a batch is written in. Capacities count elements. A buffer of
+ * The buffers and formats of a batch's output. Capacities count elements. A buffer of
  * capacity 0 may be null.
+ *
+ * `ranges` is optional: null with capacity 0 asks for no ranges.
  */
 typedef struct TessBatchOutput {
   /**
@@ -640,7 +683,7 @@ typedef struct TessBatchOutput {
    */
   size_t index_capacity;
   /**
-   * Receives one range for each patch.
+   * Receives one range for each patch. Null, with a `range_capacity` of 0, if they are not wanted.
    */
   struct TessRange *ranges;
   /**
@@ -787,12 +830,13 @@ typedef struct TessFuzzOptions {
 #define TESS_WRONG_FACTOR_COUNT 4
 
 /**
- * A buffer is too small; the counts that were asked for say what is needed.
+ * A buffer is too small. The counts that were asked for have the sizes that are needed, and
+ * `tess_shortage` names the buffer.
  */
 #define TESS_BUFFER_TOO_SMALL 5
 
 /**
- * The patch or edge has no element of this number.
+ * The patch or edge has no element with this number, or a number is outside its range.
  */
 #define TESS_OUT_OF_RANGE 6
 
@@ -812,12 +856,12 @@ typedef struct TessFuzzOptions {
 #define TESS_TOO_LARGE 9
 
 /**
- * An index does not fit the index format: use wider indices or number each patch on its own.
+ * An index does not fit the index format: use wider indices, or number each patch from 0.
  */
 #define TESS_INDEX_TOO_LARGE 10
 
 /**
- * This machine, or this build, cannot run the CPU level.
+ * This machine or this build cannot run the CPU level.
  */
 #define TESS_LEVEL_UNAVAILABLE 11
 
@@ -827,7 +871,7 @@ typedef struct TessFuzzOptions {
 #define TESS_INTERNAL 12
 
 /**
- * A tessellator under test differs from the model (`tess_fuzz`) or breaks a rule (`tess_check_rules`).
+ * A tessellator under test differs from the model (`tess_fuzz`), or breaks a rule (`tess_check_rules`).
  */
 #define TESS_DIFFERENT 13
 
@@ -835,6 +879,11 @@ typedef struct TessFuzzOptions {
  * Nothing was compared: the tessellator under test does not have the configuration.
  */
 #define TESS_LEFT_OUT 14
+
+/**
+ * The system starts no more threads.
+ */
+#define TESS_NO_THREADS 15
 
 #ifdef __cplusplus
 extern "C" {
@@ -857,13 +906,22 @@ const char *tess_version_string(void);
 /**
  * Meaning of a status, in English, without a newline.
  *
- * Never null: a number that is no status gives "unknown status". The text lives as long as the
- * program and must not be freed.
+ * Never null: an unknown number gives "unknown status". The text lives as long as the program and must
+ * not be freed.
  */
 const char *tess_status_message(TessStatus status);
 
 /**
- * Says how many points, primitives and indices a patch has.
+ * Says which buffer was too small in the calling thread's last call that gave
+ * `TESS_BUFFER_TOO_SMALL`. `TESS_OUT_OF_RANGE` if there was no such call.
+ *
+ * The caller must ensure:
+ * - `shortage`, if not null and aligned, is valid for writing one structure.
+ */
+TessStatus tess_shortage(struct TessShortage *shortage);
+
+/**
+ * Counts the points, primitives and indices of a patch.
  *
  * Any bit pattern of any factor is valid; a culled patch has no points and no indices.
  *
@@ -879,11 +937,11 @@ TessStatus tess_count(const struct TessConfig *config,
                       struct TessCounts *counts);
 
 /**
- * Tessellates a patch: points and indices to the start of the caller's buffers.
+ * Tessellates a patch into the caller's buffers.
  *
- * With `TESS_OK` the output is written and `counts` has its sizes; with `TESS_BUFFER_TOO_SMALL` only
- * `counts` is written, with what is needed; with any other status nothing is. Buffers and `counts`
- * must not overlap (`TESS_OVERLAP`). A buffer of capacity 0 may be null. `TESS_MAX_POINTS` and
+ * With `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only
+ * `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With any
+ * other status nothing is written. Buffers and `counts` must not overlap (`TESS_OVERLAP`). A buffer of capacity 0 may be null. `TESS_MAX_POINTS` and
  * `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
  *
  * The caller must ensure:
@@ -1014,7 +1072,8 @@ TessStatus tess_locate_primitive(const struct TessConfig *config,
                                  struct TessPrimitiveOrigin *origin);
 
 /**
- * Prepares the factors of one patch.
+ * Prepares the factors of one patch, as the HLSL functions `Process...TessFactors` do in Shader Model 5
+ * (compiler FXC). DXC generates another form, which this library does not have (specification, section 9).
  *
  * `requested` holds the outer factors and, in the places of the inside factors, the inside
  * scales. `unrounded` and `rounded` receive `factor_count` factors each; the rounded ones are
@@ -1036,11 +1095,10 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
 /**
  * Makes a tessellator for batches of one domain in one configuration.
  *
- * `level` is `TESS_LEVEL_...`; all levels give the same bits, and one that this machine lacks
- * gives `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
- * millisecond, later ones a microsecond. What a batch learns of patches takes memory as it is used,
- * 1.1 MB at most. `tess_batch_reserve` takes all of it before.
- * Pass the handle stored in `batch` to `tess_batch_free` in the end.
+ * `level` is `TESS_LEVEL_...`. All levels give the same bits; one that this machine lacks gives
+ * `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
+ * millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it grows, at
+ * most 1.1 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with `tess_batch_free`.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1060,7 +1118,7 @@ TessStatus tess_batch_create(const struct TessConfig *config,
 void tess_batch_free(struct TessBatch *batch);
 
 /**
- * Takes all the memory that a batch may ever need, so that no later call with it allocates: 1.1 MB.
+ * Takes all the memory that a batch may ever need, 1.1 MB per thread, so that no later call allocates.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1068,10 +1126,10 @@ void tess_batch_free(struct TessBatch *batch);
 TessStatus tess_batch_reserve(struct TessBatch *batch);
 
 /**
- * Sets the order in which later calls write triangles, `TESS_TRIANGLES_...`; at first it is the specification's.
+ * Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch has the specification's.
  *
  * `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two to four times as
- * long with it. What the batch learned of patches is forgotten.
+ * long with it. The batch forgets what it learned of patches.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1080,11 +1138,17 @@ TessStatus tess_batch_set_triangles(struct TessBatch *batch,
                                     uint32_t order);
 
 /**
- * Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads` threads; at first it is
- * one. 0 gives `TESS_OUT_OF_RANGE`. The output stays the same.
+ * Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads` threads. A new batch has
+ * one; 0 gives `TESS_OUT_OF_RANGE`. The output does not depend on the number.
  *
- * A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the process share. Each thread
- * takes up to 1.1 MB. What the batch learned of patches is forgotten.
+ * A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the process share: a thread for
+ * each processor, or as many as the environment variable `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.1 MB.
+ * The batch forgets what it learned of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and
+ * changes nothing.
+ *
+ * After `fork` the child may use batches that its parent made, with any number of threads: it starts threads of its own
+ * with the first large batch. Where it cannot, it writes batches on the calling thread. No other thread may be in a
+ * call on these batches when the process forks.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1093,7 +1157,7 @@ TessStatus tess_batch_set_threads(struct TessBatch *batch,
                                   uint32_t threads);
 
 /**
- * Says at which CPU level, `TESS_LEVEL_...`, a batch runs.
+ * Gets the CPU level that a batch runs at, `TESS_LEVEL_...`.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`.
@@ -1102,7 +1166,7 @@ TessStatus tess_batch_set_threads(struct TessBatch *batch,
 TessStatus tess_batch_level(const struct TessBatch *batch, uint32_t *level);
 
 /**
- * Says how large the output of a batch is.
+ * Counts a batch: the sizes of its output.
  *
  * `factors` holds the factors of one patch after another; `factor_count` counts floats and is a
  * multiple of the domain's number of factors, else `TESS_WRONG_FACTOR_COUNT`.
@@ -1123,9 +1187,11 @@ TessStatus tess_batch_count(struct TessBatch *batch,
  * Tessellates a batch into the caller's buffers.
  *
  * The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has its
- * sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is needed; with any other
- * status nothing is. Buffers, factors and `counts` must not overlap (`TESS_OVERLAP`). A call allocates
- * where a patch has point counts that this batch has not met before; after `tess_batch_reserve` none does.
+ * sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the sizes that are needed;
+ * `tess_shortage` names the buffer. With any other status nothing is written. No ranges are written if
+ * `ranges` is null and `range_capacity` 0. Buffers, factors and `counts` must not overlap
+ * (`TESS_OVERLAP`). A call allocates where a patch has point counts that this batch has not met before;
+ * after `tess_batch_reserve` none does.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1146,13 +1212,13 @@ TessStatus tess_batch_run(struct TessBatch *batch,
                           struct TessBatchCounts *counts);
 
 /**
- * Says where the output of each group of patches lies.
+ * Gets the range of each group of patches in a batch's output.
  *
- * `ranges` has the range of each of `patch_count` patches, as `tess_batch_run` wrote them; `starts` has
- * the numbers of the patches at which `group_count` groups begin. A group ends where the next one
- * begins, the last one with the batch. A group that begins before the one before it, or past the end
- * of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written. `groups` must not overlap the others
- * (`TESS_OVERLAP`).
+ * `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them; `starts` holds the
+ * numbers of the patches at which `group_count` groups begin, in ascending order. A group ends where the
+ * next one begins, the last one at the end of the batch. A start below the one before it, or past the end
+ * of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written. `groups` must not overlap the other
+ * arrays (`TESS_OVERLAP`).
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1169,20 +1235,20 @@ TessStatus tess_batch_groups(const struct TessRange *ranges,
                              struct TessRange *groups);
 
 /**
- * Tessellates one patch into the caller's buffers: `tess_batch_run` for those who have one patch at a time,
- * as drivers, emulators and test benches do.
+ * Tessellates one patch into the caller's buffers: `tess_batch_run` for callers that have one patch at a
+ * time, such as drivers, emulators and test benches.
  *
- * `factors` holds the factors of one patch: 2, 4 or 6 floats. Of `output` the ranges, the numbering and
- * `base_vertex` are ignored; indices count from the patch's first point. With `TESS_OK` the output is
- * written and `counts` has its sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is
- * needed; with any other status nothing is. Up to 64 elements behind the output are overwritten in either
- * buffer, as far as it has room for them; a call is fastest where it has. Buffers, factors and `counts`
- * must not overlap (`TESS_OVERLAP`).
+ * `factors` holds the factors of one patch: 2, 4 or 6 floats. The ranges, numbering and `base_vertex` of
+ * `output` are ignored; indices count from the patch's first point. With `TESS_OK` the output is
+ * written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the
+ * sizes that are needed; `tess_shortage` names the buffer. With any other status nothing is written. Up to 64 elements past the output may be overwritten in either
+ * buffer, as far as it has room for them; a call with that much room is the fastest. Buffers, factors and
+ * `counts` must not overlap (`TESS_OVERLAP`).
  *
  * A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of 2022 with
- * AVX-512). With `TESS_MEMORY_INITIALISED` and the factors of the patch before, it takes 19 ns and 28 ns on one of
- * 2024. It takes less than `tess_batch_run` with one patch, which counts twice. Large patches cost what they
- * cost there. A call allocates where a patch has point counts that this batch has not met before; after
+ * AVX-512). With `TESS_MEMORY_INITIALISED` and the same factors as the previous patch, it takes 19 ns and
+ * 28 ns on a server of 2024. It is faster than `tess_batch_run` with one patch, which counts twice; for large
+ * patches the two take equally long. A call allocates where a patch has point counts that this batch has not met before; after
  * `tess_batch_reserve` none does.
  *
  * The caller must ensure:
@@ -1203,8 +1269,8 @@ TessStatus tess_batch_patch(struct TessBatch *batch,
                             struct TessCounts *counts);
 
 /**
- * A factor for segments of `segment` pixels on the straight edge from `a` to `b`. `pixels_per_unit` is how many pixels
- * a length of 1 covers at distance 1: for a picture of height h and field of view f, h / (2 tan(f / 2)).
+ * A factor for segments of `segment` pixels on the straight edge from `a` to `b`. `pixels_per_unit` is the number of
+ * pixels that a length of 1 covers at distance 1: for a picture of height h and field of view f, h / (2 tan(f / 2)).
  */
 float tess_edge_by_screen_size(struct TessVec3 a,
                                struct TessVec3 b,
@@ -1231,24 +1297,24 @@ float tess_edge_by_curvature(struct TessCorner a,
 float tess_inside_triangle(float u0, float v0, float w0);
 
 /**
- * An inside factor of a quad with these factors on the two edges that run the same way: their mean. Factor U is that of
- * the edges V=0 and V=1, factor V that of U=0 and U=1.
+ * An inside factor of a quad with these factors on the two edges that run the same way: their mean. Inside factor U is
+ * the mean of the edges V=0 and V=1, inside factor V the mean of the edges U=0 and U=1.
  */
 float tess_inside_quad(float one,
                        float other);
 
 /**
  * Whether a ball is wholly outside one of the six planes of a projection with z from 0 to w, as in Direct3D, Vulkan,
- * Metal and WebGPU: 1 or 0. The ball must hold the whole patch, its displacement included. A patch that is outside
- * gets factors of 0.
+ * Metal and WebGPU: 1 or 0. The ball must hold the whole patch, including its displacement. Give a patch that is
+ * outside factors of 0.
  */
 uint32_t tess_is_outside(struct TessMat4 clip_from_world,
                          struct TessVec3 center,
                          float radius);
 
 /**
- * Whether all of a surface turns its back to the eye: 1 or 0. The surface lies in a ball, and its normals are within an
- * angle of the unit vector `axis`, less than 90 degrees; `sine` is that angle's sine.
+ * Whether all of a surface faces away from the eye: 1 or 0. The ball holds the surface. Its normals are within an angle
+ * of less than 90 degrees of the unit vector `axis`; `sine` is the sine of that angle.
  */
 uint32_t tess_faces_away(struct TessVec3 center,
                          float radius,
@@ -1259,14 +1325,14 @@ uint32_t tess_faces_away(struct TessVec3 center,
 /**
  * Compares a tessellator with the model on the patch that a fuzzer's bytes stand for.
  *
- * Any bytes are a patch, of a configuration that the options ask for; most are small, and boundaries are
- * frequent. Without options (null), the comparison is exact and every configuration is asked for.
+ * Any bytes are a patch of a configuration that the options ask for. Most patches are small, and boundaries
+ * are frequent. Without options (null) the comparison is exact, and every configuration is asked for.
  *
  * - `TESS_OK`: equal.
  * - `TESS_LEFT_OUT`: the tessellator does not have the configuration; nothing was compared. Count these: a run
  *   in which every patch is left out shows nothing.
- * - `TESS_DIFFERENT`: a finding, and `message` has the case as a line that `tess patch --cases` takes, a
- *   command that shows what is right, and the first difference. The message ends with a zero byte and is cut
+ * - `TESS_DIFFERENT`: a finding. `message` receives the case as a line for `tess patch --cases`, a command
+ *   that shows the right output, and the first difference. The message ends with a zero byte and is cut
  *   off at `message_capacity` bytes; 1024 are enough.
  *
  * `message` must not overlap `data` (`TESS_OVERLAP`; nothing was compared). This function allocates.
@@ -1287,19 +1353,19 @@ TessStatus tess_fuzz(const uint8_t *data,
                      size_t message_capacity);
 
 /**
- * Asks a tessellator for the patches of `tess gen --rules` and judges its outputs by the rules of a standard.
+ * Asks a tessellator for the patches of `tess gen --rules`, and judges its outputs by the rules of a standard.
  *
  * `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come after the 12 170
- * systematic ones of the standard split order. The model is not asked, but for the number of primitives in
+ * systematic ones of the standard split order. The model is used only for the number of primitives in
  * Direct3D 11. Patches of configurations that the tessellator does not have are left out.
  *
  * - `TESS_OK`: no rule is broken.
  * - `TESS_DIFFERENT`: a rule is broken, or the tessellator failed.
  * - `TESS_LEFT_OUT`: it has none of the configurations; nothing was judged.
  *
- * `report` then has what `tess check --rules` prints: each rule as held, broken or not exercised, with the smallest
- * patches that break it; or the patch at which the tessellator failed. It ends with a zero byte and is cut off at
- * `report_capacity` bytes; 8192 are enough. This function allocates.
+ * `report` receives the text that `tess check --rules` prints: each rule as held, broken or not exercised, with the
+ * smallest patches that break it; or the patch at which the tessellator failed. It ends with a zero byte and is cut
+ * off at `report_capacity` bytes; 8192 are enough. This function allocates.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:

@@ -18,7 +18,9 @@
 #include <iterator>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
+#include <utility>
 
 namespace tess {
 
@@ -52,11 +54,31 @@ enum class Numbering : uint32_t { per_patch = TESS_NUMBERING_PER_PATCH, per_batc
 /// A status that is not TESS_OK.
 class Error : public std::runtime_error {
 public:
-    explicit Error(TessStatus status) : std::runtime_error(tess_status_message(status)), status(status) {}
+    explicit Error(TessStatus status) : Error(status, tess_status_message(status)) {}
     TessStatus status;
+
+protected:
+    Error(TessStatus status, const std::string &message) : std::runtime_error(message), status(status) {}
+};
+
+/// TESS_BUFFER_TOO_SMALL: which buffer, and how many elements it needs.
+class BufferTooSmall : public Error {
+public:
+    explicit BufferTooSmall(const TessShortage &shortage)
+        : Error(TESS_BUFFER_TOO_SMALL, message(shortage)), shortage(shortage) {}
+    TessShortage shortage;
+
+private:
+    static std::string message(const TessShortage &shortage) {
+        const char *const names[] = {"point", "index", "range"};
+        return std::string("the ") + names[shortage.buffer] + " buffer holds " + std::to_string(shortage.got)
+            + " elements, but " + std::to_string(shortage.needed) + " are needed";
+    }
 };
 
 inline void check(TessStatus status) {
+    TessShortage shortage;
+    if (status == TESS_BUFFER_TOO_SMALL && tess_shortage(&shortage) == TESS_OK) throw BufferTooSmall(shortage);
     if (status != TESS_OK) throw Error(status);
 }
 
@@ -127,15 +149,22 @@ public:
     }
 
     /// All patches. Points are of TessPoint or PointF32, indices of uint32_t or uint16_t.
-    template <class Factors, class Points, class Indices, class Ranges>
+    template <class Factors, class Points, class Indices, class Ranges,
+              class = decltype(std::data(std::declval<Ranges &>()))>
     TessBatchCounts run(const Factors &factors, Points &points, Indices &indices, Ranges &ranges,
                         Numbering numbering = Numbering::per_patch, uint32_t base_vertex = 0) {
         TessBatchOutput output = described(points, indices, numbering, base_vertex);
-        output.ranges = std::data(ranges);
+        TessRange none; // An empty container may have no memory, but null asks for no ranges.
+        output.ranges = std::data(ranges) ? std::data(ranges) : &none;
         output.range_capacity = std::size(ranges);
-        TessBatchCounts counts;
-        check(tess_batch_run(batch.get(), std::data(factors), std::size(factors), &output, &counts));
-        return counts;
+        return run(factors, output);
+    }
+
+    /// All patches, without the ranges.
+    template <class Factors, class Points, class Indices>
+    TessBatchCounts run(const Factors &factors, Points &points, Indices &indices,
+                        Numbering numbering = Numbering::per_patch, uint32_t base_vertex = 0) {
+        return run(factors, described(points, indices, numbering, base_vertex));
     }
 
     /// One patch; up to 64 elements behind its output may change.
@@ -151,6 +180,13 @@ public:
     TessBatch *get() const { return batch.get(); }
 
 private:
+    template <class Factors>
+    TessBatchCounts run(const Factors &factors, const TessBatchOutput &output) {
+        TessBatchCounts counts;
+        check(tess_batch_run(batch.get(), std::data(factors), std::size(factors), &output, &counts));
+        return counts;
+    }
+
     /// Containers of C++ have values, so every buffer is initialised.
     template <class Points, class Indices>
     static TessBatchOutput described(Points &points, Indices &indices, Numbering numbering, uint32_t base_vertex) {

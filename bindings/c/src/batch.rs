@@ -9,13 +9,16 @@ mod single;
 pub use output::{
     TESS_INDEX_U16, TESS_INDEX_U32, TESS_MEMORY_ANY, TESS_MEMORY_INITIALISED,
     TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH, TESS_POINT_F32, TESS_POINT_F32_APART,
-    TESS_POINT_FIXED, TessBatchCounts, TessBatchOutput, TessRange,
+    TESS_POINT_FIXED, TESS_POINTS_WITHOUT_RESTART_U16, TessBatchCounts, TessBatchOutput, TessRange,
 };
 pub use single::tess_batch_patch;
 
 use crate::boundary;
+use crate::shortage::{
+    TESS_BUFFER_INDICES, TESS_BUFFER_POINTS, TESS_BUFFER_RANGES, TessShortage, report,
+};
 use crate::status::{
-    TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_INTERNAL, TESS_LEVEL_UNAVAILABLE,
+    TESS_INDEX_TOO_LARGE, TESS_INTERNAL, TESS_LEVEL_UNAVAILABLE, TESS_NO_THREADS,
     TESS_OUT_OF_RANGE, TESS_TOO_LARGE, TessStatus, answer,
 };
 use crate::types::{TessConfig, listed};
@@ -23,18 +26,18 @@ use input::Patches;
 use output::in_formats;
 use run::run;
 use tess_core::{Domain, DomainPoint, Order};
-use tess_simd::{Error, Level, PatchRange, Tessellator, group_ranges};
+use tess_simd::{BatchBuffer, Error, Level, PatchRange, Tessellator, group_ranges};
 
 /// CPU level: the most capable one of this machine.
 pub const TESS_LEVEL_DETECT: u32 = 0;
-/// CPU level: what the library was compiled for; always available.
+/// CPU level: the instructions that the library was compiled for; always available.
 pub const TESS_LEVEL_BASELINE: u32 = 1;
 /// CPU level: AVX2 on x86-64.
 pub const TESS_LEVEL_AVX2: u32 = 2;
-/// CPU level: AVX-512 on x86-64, as processors have it from Ice Lake and Zen 4 on.
+/// CPU level: AVX-512 on x86-64, with the extensions of Ice Lake and Zen 4.
 pub const TESS_LEVEL_AVX512: u32 = 3;
 
-/// Tessellates batches. Made by `tess_batch_create`, given back to `tess_batch_free`.
+/// A tessellator for batches. `tess_batch_create` makes it, `tess_batch_free` frees it.
 #[derive(Debug)]
 pub struct TessBatch {
     tessellator: Tessellator,
@@ -43,11 +46,10 @@ pub struct TessBatch {
 
 /// Makes a tessellator for batches of one domain in one configuration.
 ///
-/// `level` is `TESS_LEVEL_...`; all levels give the same bits, and one that this machine lacks
-/// gives `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
-/// millisecond, later ones a microsecond. What a batch learns of patches takes memory as it is used,
-/// 1.1 MB at most. `tess_batch_reserve` takes all of it before.
-/// Pass the handle stored in `batch` to `tess_batch_free` in the end.
+/// `level` is `TESS_LEVEL_...`. All levels give the same bits; one that this machine lacks gives
+/// `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
+/// millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it grows, at
+/// most 1.1 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with `tess_batch_free`.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -87,7 +89,7 @@ pub unsafe extern "C" fn tess_batch_free(batch: *mut TessBatch) {
     }
 }
 
-/// Takes all the memory that a batch may ever need, so that no later call with it allocates: 1.1 MB.
+/// Takes all the memory that a batch may ever need, 1.1 MB per thread, so that no later call allocates.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -104,13 +106,13 @@ pub unsafe extern "C" fn tess_batch_reserve(batch: *mut TessBatch) -> TessStatus
 
 /// Triangle order: the specification's.
 pub const TESS_TRIANGLES_SPECIFIED: u32 = 0;
-/// Triangle order: the same triangles and points, in columns that suit vertex caches of GPUs.
+/// Triangle order: the same triangles and points, in columns that suit the vertex caches of GPUs.
 pub const TESS_TRIANGLES_VERTEX_CACHE: u32 = 1;
 
-/// Sets the order in which later calls write triangles, `TESS_TRIANGLES_...`; at first it is the specification's.
+/// Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch has the specification's.
 ///
 /// `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two to four times as
-/// long with it. What the batch learned of patches is forgotten.
+/// long with it. The batch forgets what it learned of patches.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -118,16 +120,25 @@ pub const TESS_TRIANGLES_VERTEX_CACHE: u32 = 1;
 pub unsafe extern "C" fn tess_batch_set_triangles(batch: *mut TessBatch, order: u32) -> TessStatus {
     answer(|| {
         let order = listed(&[Order::Specification, Order::VertexCache], order)?;
-        // SAFETY: as this function asks for it.
-        unsafe { remade(batch, |tessellator| tessellator.order(order)) }
+        boundary::check(batch)?;
+        // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
+        let batch = unsafe { &mut *batch };
+        batch.tessellator.set_order(order);
+        Ok(())
     })
 }
 
-/// Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads` threads; at first it is
-/// one. 0 gives `TESS_OUT_OF_RANGE`. The output stays the same.
+/// Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads` threads. A new batch has
+/// one; 0 gives `TESS_OUT_OF_RANGE`. The output does not depend on the number.
 ///
-/// A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the process share. Each thread
-/// takes up to 1.1 MB. What the batch learned of patches is forgotten.
+/// A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the process share: a thread for
+/// each processor, or as many as the environment variable `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.1 MB.
+/// The batch forgets what it learned of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and
+/// changes nothing.
+///
+/// After `fork` the child may use batches that its parent made, with any number of threads: it starts threads of its own
+/// with the first large batch. Where it cannot, it writes batches on the calling thread. No other thread may be in a
+/// call on these batches when the process forks.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -138,29 +149,18 @@ pub unsafe extern "C" fn tess_batch_set_threads(batch: *mut TessBatch, threads: 
             return Err(TESS_OUT_OF_RANGE);
         }
         let threads = usize::try_from(threads).map_err(|_| TESS_OUT_OF_RANGE)?;
-        // SAFETY: as this function asks for it.
-        unsafe { remade(batch, |tessellator| tessellator.threads(threads)) }
+        boundary::check(batch)?;
+        // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
+        let batch = unsafe { &mut *batch };
+        if threads > 1 {
+            Tessellator::start_threads().map_err(|_| TESS_NO_THREADS)?;
+        }
+        batch.tessellator.set_threads(threads);
+        Ok(())
     })
 }
 
-/// Exchanges a batch's tessellator for another one.
-///
-/// # Safety
-/// - As for [`tess_batch_reserve`].
-unsafe fn remade(
-    batch: *mut TessBatch,
-    make: impl FnOnce(Tessellator) -> Tessellator,
-) -> Result<(), TessStatus> {
-    boundary::check(batch)?;
-    // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
-    let batch = unsafe { &mut *batch };
-    // Another one of the same configuration stands there meanwhile: it takes no memory.
-    let another = Tessellator::new(batch.tessellator.config());
-    batch.tessellator = make(std::mem::replace(&mut batch.tessellator, another));
-    Ok(())
-}
-
-/// Says at which CPU level, `TESS_LEVEL_...`, a batch runs.
+/// Gets the CPU level that a batch runs at, `TESS_LEVEL_...`.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`.
@@ -182,7 +182,7 @@ pub unsafe extern "C" fn tess_batch_level(batch: *const TessBatch, level: *mut u
     })
 }
 
-/// Says how large the output of a batch is.
+/// Counts a batch: the sizes of its output.
 ///
 /// `factors` holds the factors of one patch after another; `factor_count` counts floats and is a
 /// multiple of the domain's number of factors, else `TESS_WRONG_FACTOR_COUNT`.
@@ -216,9 +216,11 @@ pub unsafe extern "C" fn tess_batch_count(
 /// Tessellates a batch into the caller's buffers.
 ///
 /// The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has its
-/// sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is needed; with any other
-/// status nothing is. Buffers, factors and `counts` must not overlap (`TESS_OVERLAP`). A call allocates
-/// where a patch has point counts that this batch has not met before; after `tess_batch_reserve` none does.
+/// sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the sizes that are needed;
+/// `tess_shortage` names the buffer. With any other status nothing is written. No ranges are written if
+/// `ranges` is null and `range_capacity` 0. Buffers, factors and `counts` must not overlap
+/// (`TESS_OVERLAP`). A call allocates where a patch has point counts that this batch has not met before;
+/// after `tess_batch_reserve` none does.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -253,13 +255,13 @@ pub unsafe extern "C" fn tess_batch_run(
     })
 }
 
-/// Says where the output of each group of patches lies.
+/// Gets the range of each group of patches in a batch's output.
 ///
-/// `ranges` has the range of each of `patch_count` patches, as `tess_batch_run` wrote them; `starts` has
-/// the numbers of the patches at which `group_count` groups begin. A group ends where the next one
-/// begins, the last one with the batch. A group that begins before the one before it, or past the end
-/// of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written. `groups` must not overlap the others
-/// (`TESS_OVERLAP`).
+/// `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them; `starts` holds the
+/// numbers of the patches at which `group_count` groups begin, in ascending order. A group ends where the
+/// next one begins, the last one at the end of the batch. A start below the one before it, or past the end
+/// of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written. `groups` must not overlap the other
+/// arrays (`TESS_OVERLAP`).
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -297,8 +299,14 @@ pub unsafe extern "C" fn tess_batch_groups(
 }
 
 fn status_of(error: &Error) -> TessStatus {
-    match error {
-        Error::BufferTooSmall { .. } => TESS_BUFFER_TOO_SMALL,
+    let too_small = |buffer, needed, got| report(TessShortage { buffer, needed, got });
+    match *error {
+        Error::BufferTooSmall { buffer, needed, got } => match buffer {
+            BatchBuffer::Points => too_small(TESS_BUFFER_POINTS, needed, got),
+            BatchBuffer::Indices => too_small(TESS_BUFFER_INDICES, needed, got),
+            BatchBuffer::Ranges => too_small(TESS_BUFFER_RANGES, needed, got),
+            _ => TESS_INTERNAL, // a buffer that has no number yet
+        },
         Error::IndexTooLarge { .. } => TESS_INDEX_TOO_LARGE,
         Error::BatchTooLarge { .. } => TESS_TOO_LARGE,
         // Batches from C have no columns, and the list of errors may grow.

@@ -1,8 +1,12 @@
-//! Functions that `verilog/tess_dpi.sv` imports: scalars and bit patterns alone.
+//! Functions that `verilog/tess_dpi.sv` imports: only scalars and bit patterns.
 //!
-//! In `SystemVerilog` every argument is an `int unsigned`, outputs included, or the `chandle` of a patch
-//! that is held, so that calls are the same in every simulator. The functions are declared and documented in that file, with
-//! typed wrappers around them; they are no part of the C header.
+//! In `SystemVerilog` every argument is an `int unsigned`, outputs included, or the `chandle` of a
+//! held patch, so that calls are the same in every simulator. That file declares and documents the
+//! functions, with typed wrappers around them; the C header does not have them.
+//!
+//! A function on a patch takes the four numbers of its configuration and the bits of six binary32
+//! factors, of which the domain's first two, four or six are read. Numbers go out through pointers:
+//! all of them, or none if a pointer is null or misaligned.
 
 pub mod held;
 
@@ -16,106 +20,210 @@ use tess_core::{Counts, Domain, FactorContext, FixedFactor, PatchFactors, SplitO
 use tess_verify::Case;
 use tess_verify::cover::bins_hit;
 
-/// A function that `tess_dpi.sv` imports: numbers in, and a number through each pointer out, or none if a pointer is null
-/// or misaligned. `patch` stands for the ten numbers of a patch's configuration and factors.
-macro_rules! imported {
-    ($(#[$doc:meta])* $name:ident(patch $(, $input:ident)*) -> [$($output:ident),*], |$patch:ident| $values:expr) => {
-        imported! {
-            $(#[$doc])*
-            $name(
-                domain, partitioning, output, split_order, f0, f1, f2, f3, f4, f5 $(, $input)*
-            ) -> [$($output),*], {
-                let $patch = case(
-                    TessConfig { domain, partitioning, output, split: split_order },
-                    [f0, f1, f2, f3, f4, f5],
-                )?;
-                $values
-            }
-        }
-    };
-    ($(#[$doc:meta])* $name:ident($($input:ident),*) -> [$($output:ident),*], $values:expr) => {
-        $(#[$doc])*
-        ///
-        /// # Safety
-        /// - Every pointer, if not null and aligned, must be valid for writing one number.
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name($($input: u32,)* $($output: *mut u32),*) -> TessStatus {
-            answer(|| {
-                let values = $values;
-                // SAFETY: every pointer is writable, as the caller promises.
-                unsafe { write_each([$($output),*], values) }
-            })
-        }
-    };
-}
-
-imported! {
-    /// The context of a 15.16 factor: `tess_context` in scalars.
-    tess_dpi_context(factor, parity_number, split_order)
-        -> [inv_floor, inv_ceil, fraction, half_points, split, points],
-    {
+/// The context of a 15.16 factor: `tess_context` in scalars.
+///
+/// # Safety
+/// - Every pointer, if not null and aligned, must be valid for writing one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_dpi_context(
+    factor: u32,
+    parity_number: u32,
+    split_order: u32,
+    inv_floor: *mut u32,
+    inv_ceil: *mut u32,
+    fraction: *mut u32,
+    half_points: *mut u32,
+    split: *mut u32,
+    points: *mut u32,
+) -> TessStatus {
+    answer(|| {
         let c = TessContext::from(context(factor, parity_number, split_order)?);
-        [c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split, c.points]
-    }
+        let values = [c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split, c.points];
+        let pointers = [inv_floor, inv_ceil, fraction, half_points, split, points];
+        // SAFETY: every pointer is writable, as the caller promises.
+        unsafe { write_each(pointers, values) }
+    })
 }
 
-imported! {
-    /// The placement of point `p` of an edge, every signal on the way.
-    tess_dpi_place(factor, parity_number, split_order, p)
-        -> [flip, position, coarse, fine, half_location, location],
-    {
-        place_steps(&context(factor, parity_number, split_order)?, p)?
-    }
+/// The placement of point `p` of an edge, every signal on the way.
+///
+/// # Safety
+/// - Every pointer, if not null and aligned, must be valid for writing one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_dpi_place(
+    factor: u32,
+    parity_number: u32,
+    split_order: u32,
+    p: u32,
+    flip: *mut u32,
+    position: *mut u32,
+    coarse: *mut u32,
+    fine: *mut u32,
+    half_location: *mut u32,
+    location: *mut u32,
+) -> TessStatus {
+    answer(|| {
+        let values = place_steps(&context(factor, parity_number, split_order)?, p)?;
+        let pointers = [flip, position, coarse, fine, half_location, location];
+        // SAFETY: every pointer is writable, as the caller promises.
+        unsafe { write_each(pointers, values) }
+    })
 }
 
-imported! {
-    /// Factor `number` of a patch after factor processing; `outcome` alone if the patch is culled.
-    tess_dpi_process(domain, partitioning, split_order, f0, f1, f2, f3, f4, f5, number)
-        -> [outcome, clamped, rounded, fixed, parity],
-    {
+/// Factor `number` of a patch after factor processing; if the patch is culled, only `outcome` means something.
+///
+/// # Safety
+/// - Every pointer, if not null and aligned, must be valid for writing one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_dpi_process(
+    domain: u32,
+    partitioning: u32,
+    split_order: u32,
+    f0: u32,
+    f1: u32,
+    f2: u32,
+    f3: u32,
+    f4: u32,
+    f5: u32,
+    number: u32,
+    outcome: *mut u32,
+    clamped: *mut u32,
+    rounded: *mut u32,
+    fixed: *mut u32,
+    parity: *mut u32,
+) -> TessStatus {
+    answer(|| {
         let config = TessConfig { domain, partitioning, output: 0, split: split_order };
         let case = case(config, [f0, f1, f2, f3, f4, f5])?;
         if number as usize >= case.factors.domain().factors() {
             return Err(TESS_OUT_OF_RANGE);
         }
-        let processed = TessProcessedPatch::from(case.patch().processed());
-        let factor = listed(&processed.factors, number)?;
-        [processed.outcome, factor.clamped, factor.rounded, factor.fixed, factor.context.parity]
-    }
+        let patch = TessProcessedPatch::from(case.patch().processed());
+        let f = listed(&patch.factors, number)?;
+        let values = [patch.outcome, f.clamped, f.rounded, f.fixed, f.context.parity];
+        // SAFETY: every pointer is writable, as the caller promises.
+        unsafe { write_each([outcome, clamped, rounded, fixed, parity], values) }
+    })
 }
 
-imported! {
-    /// The sizes of a patch: `tess_count` in scalars.
-    tess_dpi_count(patch) -> [points, primitives, indices], |case| sizes(case.patch().counts())
+/// The sizes of a patch: `tess_count` in scalars.
+///
+/// # Safety
+/// - Every pointer, if not null and aligned, must be valid for writing one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_dpi_count(
+    domain: u32,
+    partitioning: u32,
+    output: u32,
+    split_order: u32,
+    f0: u32,
+    f1: u32,
+    f2: u32,
+    f3: u32,
+    f4: u32,
+    f5: u32,
+    points: *mut u32,
+    primitives: *mut u32,
+    indices: *mut u32,
+) -> TessStatus {
+    answer(|| {
+        let config = TessConfig { domain, partitioning, output, split: split_order };
+        let counts = case(config, [f0, f1, f2, f3, f4, f5])?.patch().counts();
+        // SAFETY: every pointer is writable, as the caller promises.
+        unsafe { write_each([points, primitives, indices], sizes(counts)) }
+    })
 }
 
-imported! {
-    /// Point `i` of a patch: `tess_point` in scalars.
-    tess_dpi_point(patch, i) -> [u, v], |case| {
+/// Point `i` of a patch: `tess_point` in scalars.
+///
+/// # Safety
+/// - Every pointer, if not null and aligned, must be valid for writing one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_dpi_point(
+    domain: u32,
+    partitioning: u32,
+    output: u32,
+    split_order: u32,
+    f0: u32,
+    f1: u32,
+    f2: u32,
+    f3: u32,
+    f4: u32,
+    f5: u32,
+    i: u32,
+    u: *mut u32,
+    v: *mut u32,
+) -> TessStatus {
+    answer(|| {
+        let config = TessConfig { domain, partitioning, output, split: split_order };
+        let case = case(config, [f0, f1, f2, f3, f4, f5])?;
         let point = TessPoint::from(case.patch().point(i).ok_or(TESS_OUT_OF_RANGE)?);
-        [point.u, point.v]
-    }
+        // SAFETY: both pointers are writable, as the caller promises.
+        unsafe { write_each([u, v], [point.u, point.v]) }
+    })
 }
 
-imported! {
-    /// Primitive `t` of a patch: `tess_primitive` in scalars.
-    tess_dpi_primitive(patch, t) -> [size, i0, i1, i2], |case| {
+/// Primitive `t` of a patch: `tess_primitive` in scalars.
+///
+/// # Safety
+/// - Every pointer, if not null and aligned, must be valid for writing one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_dpi_primitive(
+    domain: u32,
+    partitioning: u32,
+    output: u32,
+    split_order: u32,
+    f0: u32,
+    f1: u32,
+    f2: u32,
+    f3: u32,
+    f4: u32,
+    f5: u32,
+    t: u32,
+    size: *mut u32,
+    i0: *mut u32,
+    i1: *mut u32,
+    i2: *mut u32,
+) -> TessStatus {
+    answer(|| {
+        let config = TessConfig { domain, partitioning, output, split: split_order };
+        let case = case(config, [f0, f1, f2, f3, f4, f5])?;
         let primitive = case.patch().primitive(t).ok_or(TESS_OUT_OF_RANGE)?;
-        let TessPrimitive { size, indices: [i0, i1, i2], .. } = primitive.into();
-        [size, i0, i1, i2]
-    }
+        let TessPrimitive { size: vertices, indices: [a, b, c], .. } = primitive.into();
+        // SAFETY: every pointer is writable, as the caller promises.
+        unsafe { write_each([size, i0, i1, i2], [vertices, a, b, c]) }
+    })
 }
 
-imported! {
-    /// The number of the `i`-th coverage bin that a patch hits; `TESS_OUT_OF_RANGE` behind the last.
-    ///
-    /// Bins are numbered as `tess_verify::cover` lists them, in alphabetical order; one that is hit
-    /// twice comes twice. Unlike the other functions this one allocates.
-    tess_dpi_coverage(patch, i) -> [bin], |case| {
-        let hit = bins_hit(&case);
+/// The number of the `i`-th coverage bin that a patch hits; `TESS_OUT_OF_RANGE` past the last one.
+///
+/// Bins are numbered as `tess_verify::cover` lists them, in alphabetical order; one that is hit
+/// twice comes twice. Unlike the other functions this one allocates.
+///
+/// # Safety
+/// - `bin`, if not null and aligned, must be valid for writing one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_dpi_coverage(
+    domain: u32,
+    partitioning: u32,
+    output: u32,
+    split_order: u32,
+    f0: u32,
+    f1: u32,
+    f2: u32,
+    f3: u32,
+    f4: u32,
+    f5: u32,
+    i: u32,
+    bin: *mut u32,
+) -> TessStatus {
+    answer(|| {
+        let config = TessConfig { domain, partitioning, output, split: split_order };
+        let hit = bins_hit(&case(config, [f0, f1, f2, f3, f4, f5])?);
         let number = hit.get(i as usize).and_then(|number| u32::try_from(*number).ok());
-        [number.ok_or(TESS_OUT_OF_RANGE)?]
-    }
+        // SAFETY: `bin` is writable, as the caller promises.
+        unsafe { write_each([bin], [number.ok_or(TESS_OUT_OF_RANGE)?]) }
+    })
 }
 
 fn context(factor: u32, parity_number: u32, split: u32) -> Result<FactorContext, TessStatus> {

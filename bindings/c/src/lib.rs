@@ -11,6 +11,7 @@ pub mod prepare;
 pub mod probe;
 pub mod process;
 pub mod rules;
+pub mod shortage;
 pub mod status;
 pub mod surface;
 pub mod types;

@@ -1,12 +1,13 @@
 //! Whole patches, into the caller's buffers.
 
 use crate::boundary;
-use crate::status::{TESS_BUFFER_TOO_SMALL, TessStatus, answer};
+use crate::shortage::{self, TESS_BUFFER_INDICES, TESS_BUFFER_POINTS};
+use crate::status::{TessStatus, answer};
 use crate::types::{self, TessConfig, TessCounts, TessPoint};
 use std::mem::MaybeUninit;
 use tess_core::{DomainPoint, Primitive, Sink};
 
-/// Says how many points, primitives and indices a patch has.
+/// Counts the points, primitives and indices of a patch.
 ///
 /// Any bit pattern of any factor is valid; a culled patch has no points and no indices.
 ///
@@ -28,11 +29,11 @@ pub unsafe extern "C" fn tess_count(
     }
 }
 
-/// Tessellates a patch: points and indices to the start of the caller's buffers.
+/// Tessellates a patch into the caller's buffers.
 ///
-/// With `TESS_OK` the output is written and `counts` has its sizes; with `TESS_BUFFER_TOO_SMALL` only
-/// `counts` is written, with what is needed; with any other status nothing is. Buffers and `counts`
-/// must not overlap (`TESS_OVERLAP`). A buffer of capacity 0 may be null. `TESS_MAX_POINTS` and
+/// With `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only
+/// `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With any
+/// other status nothing is written. Buffers and `counts` must not overlap (`TESS_OVERLAP`). A buffer of capacity 0 may be null. `TESS_MAX_POINTS` and
 /// `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
 ///
 /// # Safety
@@ -65,12 +66,6 @@ pub unsafe extern "C" fn tess_patch(
             boundary::bytes(counts, 1)?,
         ])?;
         let needed = patch.counts();
-        let (point_count, index_count) = (needed.points as usize, needed.indices as usize);
-        if point_capacity < point_count || index_capacity < index_count {
-            // SAFETY: `counts` is writable, as the caller promises.
-            unsafe { boundary::write(counts, needed.into()) }?;
-            return Err(TESS_BUFFER_TOO_SMALL);
-        }
         // SAFETY: writable, as the caller promises, and apart from the indices and `counts`; inputs
         // were copied, so nothing else is used.
         let points = unsafe { boundary::room(points, point_capacity) }?;
@@ -78,6 +73,8 @@ pub unsafe extern "C" fn tess_patch(
         let indices = unsafe { boundary::room(indices, index_capacity) }?;
         // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
         unsafe { boundary::write(counts, needed.into()) }?;
+        shortage::check(TESS_BUFFER_POINTS, needed.points as usize, points.len())?;
+        shortage::check(TESS_BUFFER_INDICES, needed.indices as usize, indices.len())?;
         patch.emit(&mut PatchRoom { points: points.iter_mut(), indices: indices.iter_mut() });
         Ok(())
     })

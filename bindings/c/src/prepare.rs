@@ -1,4 +1,4 @@
-//! Factor preparation: what HLSL generates in front of the tessellator (specification, section 9).
+//! Factor preparation: HLSL's `Process...TessFactors` functions (specification, section 9).
 
 use crate::boundary;
 use crate::status::{TessStatus, answer};
@@ -35,7 +35,8 @@ pub struct TessPreparation {
     pub axes: u32,
 }
 
-/// Prepares the factors of one patch.
+/// Prepares the factors of one patch, as the HLSL functions `Process...TessFactors` do in Shader Model 5
+/// (compiler FXC). DXC generates another form, which this library does not have (specification, section 9).
 ///
 /// `requested` holds the outer factors and, in the places of the inside factors, the inside
 /// scales. `unrounded` and `rounded` receive `factor_count` factors each; the rounded ones are

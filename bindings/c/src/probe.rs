@@ -12,7 +12,7 @@ use tess_core::{FactorContext, FixedFactor, PointOrigin, PrimitiveOrigin, SplitO
 pub struct TessPrimitive {
     /// 1 (point), 2 (line) or 3 (triangle).
     pub size: u32,
-    /// The indices; those from `size` on are 0.
+    /// The indices; the elements past `size` are 0.
     pub indices: [u32; 3],
 }
 

@@ -32,9 +32,9 @@ pub struct TessProcessedFactor {
 pub struct TessProcessedPatch {
     /// `TESS_OUTCOME_...`
     pub outcome: u32,
-    /// How many of `factors` are used: 0 if culled, else the number of the domain.
+    /// The number of `factors` that are used: 0 if culled, else that of the domain.
     pub factor_count: u32,
-    /// The factors in the order of the input; those from `factor_count` on are all zero.
+    /// The factors in the order of the input; the elements past `factor_count` are zero.
     pub factors: [TessProcessedFactor; 6],
 }
 

@@ -2,7 +2,7 @@
 
 use std::ffi::{CStr, c_char};
 
-/// Status that every function returns: `TESS_OK` or the reason why it did nothing.
+/// The status that every function returns: `TESS_OK`, or the reason why it did nothing.
 pub type TessStatus = u32;
 
 /// Done.
@@ -15,9 +15,10 @@ pub const TESS_MISALIGNED: TessStatus = 2;
 pub const TESS_UNKNOWN_VALUE: TessStatus = 3;
 /// The number of factors does not fit the domain: 2 (isoline), 4 (triangle), 6 (quad).
 pub const TESS_WRONG_FACTOR_COUNT: TessStatus = 4;
-/// A buffer is too small; the counts that were asked for say what is needed.
+/// A buffer is too small. The counts that were asked for have the sizes that are needed, and
+/// `tess_shortage` names the buffer.
 pub const TESS_BUFFER_TOO_SMALL: TessStatus = 5;
-/// The patch or edge has no element of this number.
+/// The patch or edge has no element with this number, or a number is outside its range.
 pub const TESS_OUT_OF_RANGE: TessStatus = 6;
 /// No factor has this context.
 pub const TESS_NOT_A_CONTEXT: TessStatus = 7;
@@ -25,25 +26,27 @@ pub const TESS_NOT_A_CONTEXT: TessStatus = 7;
 pub const TESS_OVERLAP: TessStatus = 8;
 /// A size is larger than memory can be, or a batch has more than 2^32 - 1 points or indices.
 pub const TESS_TOO_LARGE: TessStatus = 9;
-/// An index does not fit the index format: use wider indices or number each patch on its own.
+/// An index does not fit the index format: use wider indices, or number each patch from 0.
 pub const TESS_INDEX_TOO_LARGE: TessStatus = 10;
-/// This machine, or this build, cannot run the CPU level.
+/// This machine or this build cannot run the CPU level.
 pub const TESS_LEVEL_UNAVAILABLE: TessStatus = 11;
 /// A defect of this library; nothing was written.
 pub const TESS_INTERNAL: TessStatus = 12;
-/// A tessellator under test differs from the model (`tess_fuzz`) or breaks a rule (`tess_check_rules`).
+/// A tessellator under test differs from the model (`tess_fuzz`), or breaks a rule (`tess_check_rules`).
 pub const TESS_DIFFERENT: TessStatus = 13;
 /// Nothing was compared: the tessellator under test does not have the configuration.
 pub const TESS_LEFT_OUT: TessStatus = 14;
+/// The system starts no more threads.
+pub const TESS_NO_THREADS: TessStatus = 15;
 
 /// Every status with its message, in the order of their numbers.
-const MESSAGES: [&CStr; 15] = [
+const MESSAGES: [&CStr; 16] = [
     c"done",
     c"a pointer is null",
     c"a pointer is not aligned",
     c"an enumeration has an unknown value",
     c"the number of factors does not fit the domain",
-    c"a buffer is too small",
+    c"a buffer is too small (tess_shortage names it)",
     c"there is no element of this number",
     c"no factor has this context",
     c"two buffers overlap",
@@ -53,12 +56,13 @@ const MESSAGES: [&CStr; 15] = [
     c"a defect of the library",
     c"the tessellator differs from what is right",
     c"nothing was compared",
+    c"no more threads can be started",
 ];
 
 /// Meaning of a status, in English, without a newline.
 ///
-/// Never null: a number that is no status gives "unknown status". The text lives as long as the
-/// program and must not be freed.
+/// Never null: an unknown number gives "unknown status". The text lives as long as the program and must
+/// not be freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_status_message(status: TessStatus) -> *const c_char {
     let message = usize::try_from(status).ok().and_then(|status| MESSAGES.get(status));

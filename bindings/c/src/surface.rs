@@ -1,6 +1,7 @@
-//! The steps of an engine in front of the tessellator: factors that open no crack, and tests that cull patches.
+//! The steps of an engine before tessellation: factors that open no cracks, and tests that cull patches.
 //!
-//! A factor of an edge gets what both patches of the edge share, and is the same to the bit whichever end comes first.
+//! The factor of an edge depends only on data that both patches of the edge share, and is the same to the bit
+//! whichever end comes first.
 //! All factors are within 1..=64; NaN gives 1. The formulas and their sources are `tess-surface`'s.
 
 use tess_surface::glam::{Mat4, Vec3};
@@ -48,8 +49,8 @@ impl From<TessCorner> for PnCorner {
     }
 }
 
-/// A factor for segments of `segment` pixels on the straight edge from `a` to `b`. `pixels_per_unit` is how many pixels
-/// a length of 1 covers at distance 1: for a picture of height h and field of view f, h / (2 tan(f / 2)).
+/// A factor for segments of `segment` pixels on the straight edge from `a` to `b`. `pixels_per_unit` is the number of
+/// pixels that a length of 1 covers at distance 1: for a picture of height h and field of view f, h / (2 tan(f / 2)).
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_edge_by_screen_size(
     a: TessVec3,
@@ -85,8 +86,8 @@ pub extern "C" fn tess_inside_triangle(u0: f32, v0: f32, w0: f32) -> f32 {
     factors::inside_triangle([u0, v0, w0])
 }
 
-/// An inside factor of a quad with these factors on the two edges that run the same way: their mean. Factor U is that of
-/// the edges V=0 and V=1, factor V that of U=0 and U=1.
+/// An inside factor of a quad with these factors on the two edges that run the same way: their mean. Inside factor U is
+/// the mean of the edges V=0 and V=1, inside factor V the mean of the edges U=0 and U=1.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_inside_quad(one: f32, other: f32) -> f32 {
     let [inside, _] = factors::inside_quad([0.0, one, 0.0, other]);
@@ -94,16 +95,16 @@ pub extern "C" fn tess_inside_quad(one: f32, other: f32) -> f32 {
 }
 
 /// Whether a ball is wholly outside one of the six planes of a projection with z from 0 to w, as in Direct3D, Vulkan,
-/// Metal and WebGPU: 1 or 0. The ball must hold the whole patch, its displacement included. A patch that is outside
-/// gets factors of 0.
+/// Metal and WebGPU: 1 or 0. The ball must hold the whole patch, including its displacement. Give a patch that is
+/// outside factors of 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_is_outside(clip_from_world: TessMat4, center: TessVec3, radius: f32) -> u32 {
     let matrix = Mat4::from_cols_array(&clip_from_world.columns);
     u32::from(culling::is_outside(&matrix, center.into(), radius))
 }
 
-/// Whether all of a surface turns its back to the eye: 1 or 0. The surface lies in a ball, and its normals are within an
-/// angle of the unit vector `axis`, less than 90 degrees; `sine` is that angle's sine.
+/// Whether all of a surface faces away from the eye: 1 or 0. The ball holds the surface. Its normals are within an angle
+/// of less than 90 degrees of the unit vector `axis`; `sine` is the sine of that angle.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_faces_away(
     center: TessVec3,

@@ -6,6 +6,7 @@ use std::path::Path;
 const SOURCES: &[&str] = &[
     "version",
     "status",
+    "shortage",
     "types",
     "patch",
     "process",

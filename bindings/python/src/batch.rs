@@ -5,11 +5,10 @@ mod work;
 use crate::arrays::{self, Array1, Array2, addresses, described, overlap, refuse_masked, writable};
 use crate::errors::{self, argument, output};
 use crate::names::{config, named, whole, whole_or_none};
-use crate::threads::Threads;
 use crate::values;
 use numpy::{PyArray, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PySlice, PyTuple};
+use pyo3::types::{PySlice, PyTuple, PyType};
 use std::sync::{Mutex, PoisonError};
 use tess_core::{Config, Domain, IsolineFactors, QuadFactors, TriangleFactors};
 use tess_simd::{BatchCounts, Numbering, OutputPoint, PatchRange};
@@ -18,12 +17,20 @@ use work::{ArrayRoom, BatchSizes, BatchWork, How};
 
 /// Tessellates batches in one configuration, on the CPU's vector units.
 ///
-/// The first one of a configuration takes about a millisecond, others a microsecond. Any number of threads may
-/// use it at a time; what it learns of patches takes up to 1.1 MB for each. The interpreter's lock is not held.
+/// Making the first one of a configuration takes about a millisecond, others a microsecond. Any number of threads
+/// may use it at a time; its knowledge of patches takes up to 1.1 MB for each of them. The interpreter's lock is not
+/// held.
 ///
 /// Args:
 ///     partitioning, output, split: As for :class:`Patch`.
-///     threads: How many threads write a batch, 1..256. The output is the same. A forked child starts its own.
+///     threads: The number of threads that write a batch, 1..256. The output does not depend on it. A forked child
+///         starts its own threads.
+///
+/// Raises:
+///     ArgumentError: Wrong names, or another number of threads.
+///     TessError: The system starts no threads.
+///
+/// A tessellator can be pickled and copied: the copy has the same settings and its own memory.
 ///
 /// >>> import numpy as np
 /// >>> from tess_model import Tessellator
@@ -57,8 +64,10 @@ impl Tessellator {
         if !(1..=most).contains(&threads) {
             return Err(argument(format!("threads must be 1 to {most}, not {threads}")));
         }
-        Threads::of_this_process(threads)?;
-        let first = tess_simd::Tessellator::new(config).threads(threads);
+        if threads > 1 {
+            tess_simd::Tessellator::start_threads().map_err(errors::threads)?;
+        }
+        let first = tess_simd::Tessellator::new(config).with_threads(threads);
         Ok(Self { config, threads, level: first.level(), idle: Mutex::new(vec![first]) })
     }
 
@@ -68,7 +77,7 @@ impl Tessellator {
         self.level.name()
     }
 
-    /// How many threads write a batch.
+    /// The number of threads that write a batch.
     #[getter]
     fn threads(&self) -> usize {
         self.threads
@@ -85,7 +94,13 @@ impl Tessellator {
         )
     }
 
-    /// The sizes of a batch's output, :class:`BatchCounts`: what ``out`` must have room for.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> (Bound<'py, PyType>, TessellatorArguments) {
+        let Config { partitioning, output, split } = self.config;
+        let arguments = (partitioning.name(), output.name(), split.name(), self.threads);
+        (py.get_type::<Self>(), arguments)
+    }
+
+    /// The sizes of a batch's output, :class:`BatchCounts`: the room that ``out`` needs.
     fn count<'py>(
         &self,
         py: Python<'py>,
@@ -93,9 +108,9 @@ impl Tessellator {
         factors: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let batch = owned(named(domain)?, factors)?;
-        let counts = self.with(|tessellator, threads| {
+        let counts = self.with(|tessellator| {
             let count = || tessellator.count(batch.batch()).map(|counted| counted.counts());
-            py.detach(|| threads.run(count)).map_err(errors::batch)
+            py.detach(count).map_err(errors::batch)
         });
         let BatchCounts { patches, points, indices } = counts?;
         values::value(py, "BatchCounts", (patches, points, indices))
@@ -109,18 +124,19 @@ impl Tessellator {
     ///         :class:`Patch`, outer then inside, float32, or uint32 for their bit patterns. Any
     ///         strides.
     ///     points: ``float32`` or ``fixed`` (uint32, 16.16); both exact.
-    ///     indices: ``uint32`` or ``uint16``.
+    ///     indices: ``uint32`` or ``uint16``. With ``base_vertex`` 16 bits number 65536 points; the last
+    ///         index, 65535, restarts primitives in WebGL 2 and wherever primitive restart is on.
     ///     base_vertex: ``None`` if the indices of each patch count from its own first point; a
     ///         number if they count through the batch, whose first point has that number.
     ///     out: Arrays (points, indices) or (points, indices, ranges) to write instead of new ones:
     ///         C-contiguous, of shapes (>= points, 2), (>= indices,) and (>= patches, 4). Their types
-    ///         are the formats. The result has views of them; what lies behind stays as it is.
+    ///         are the formats. The result has views of them; elements past the output keep their values.
     ///
     /// Raises:
     ///     ArgumentError: Wrong names or factors; indices that do not fit 16 bits; more than
     ///         2**32 - 1 points or indices.
     ///     OutputError: An array of ``out`` cannot be written. Nothing was written.
-    ///     KeyboardInterrupt: Or what else a handler of a signal raises; a part of ``out`` may be written then.
+    ///     KeyboardInterrupt: Or another exception of a signal handler; a part of ``out`` may be written then.
     #[pyo3(signature = (domain, factors, *, points = "float32", indices = "uint32",
         base_vertex = None, out = None))]
     #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
@@ -137,38 +153,38 @@ impl Tessellator {
         let batch = owned(named(domain)?, factors)?;
         let numbering = base_vertex
             .map_or(Numbering::PerPatch, |base_vertex| Numbering::PerBatch { base_vertex });
-        self.with(|tessellator, threads| {
-            let counted = py.detach(|| threads.run(|| tessellator.count(batch.batch())));
-            let counted = counted.map_err(errors::batch)?;
+        self.with(|tessellator| {
+            let counted = py.detach(|| tessellator.count(batch.batch())).map_err(errors::batch)?;
             let sizes = BatchSizes::of(&counted, numbering);
             let arrays = match out {
                 Some(out) => Arrays::given(py, out, sizes.counts)?,
                 None => Arrays::new(py, points, indices, sizes.counts)?,
             };
             if sizes.is_small() {
-                arrays.write(py, BatchWork { threads, numbering, how: How::AtOnce(counted) })?;
+                arrays.write(py, BatchWork { numbering, how: How::AtOnce(counted) })?;
             } else {
                 let how = How::Parts { tessellator, batch: batch.batch(), sizes };
-                arrays.write(py, BatchWork { threads, numbering, how })?;
+                arrays.write(py, BatchWork { numbering, how })?;
             }
             arrays.result(py, sizes.counts)
         })
     }
 }
 
+/// The arguments that make a [`Tessellator`].
+type TessellatorArguments = (&'static str, &'static str, &'static str, usize);
+
 impl Tessellator {
-    /// Lends a tessellator that no other call uses, and the threads for it. Errors: errors of `borrow`; no thread can
-    /// be started.
+    /// Lends a tessellator that no other call uses. Errors: those of `borrow`.
     fn with<T>(
         &self,
-        borrow: impl FnOnce(&mut tess_simd::Tessellator, &Threads) -> PyResult<T>,
+        borrow: impl FnOnce(&mut tess_simd::Tessellator) -> PyResult<T>,
     ) -> PyResult<T> {
-        let threads = Threads::of_this_process(self.threads)?;
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let free = idle().pop();
-        let make = || tess_simd::Tessellator::new(self.config).threads(self.threads);
+        let make = || tess_simd::Tessellator::new(self.config).with_threads(self.threads);
         let mut tessellator = free.unwrap_or_else(make);
-        let result = borrow(&mut tessellator, &threads);
+        let result = borrow(&mut tessellator);
         idle().push(tessellator);
         result
     }

@@ -6,7 +6,7 @@ use crate::patch::Patch;
 use crate::signals::{self, Watched};
 use crate::{stages, values};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyType};
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ const RECORDED_TOGETHER: usize = 4096;
 /// Which of the specification's cases were hit, and how often.
 ///
 /// A bin is a path such as ``middle/oddxeven``; its first part is its group. All bins are declared, so
-/// that what was missed has a name. Any number of threads may count.
+/// that each missed one has a name. Any number of threads may count. It can be pickled and copied.
 ///
 /// >>> from tess_model import Coverage, Patch
 /// >>> coverage = Coverage()
@@ -33,6 +33,9 @@ const RECORDED_TOGETHER: usize = 4096;
 #[derive(Default)]
 pub(crate) struct Coverage(Arc<Mutex<tess_verify::cover::Coverage>>, Arc<Mutex<Option<Case>>>);
 
+/// What is pickled: UCIS XML, and the line of the case that was recorded last.
+type CoverageState = (String, Option<String>);
+
 #[pymethods]
 impl Coverage {
     #[new]
@@ -40,8 +43,8 @@ impl Coverage {
         Self::default()
     }
 
-    /// Counts the bins that one patch or several patches hit; gives how many bins were hit for the first
-    /// time, so that a bench can choose the patches that are worth their clocks.
+    /// Counts the bins that one patch or several patches hit. Returns the number of bins that were hit for the
+    /// first time, so that a bench can choose the patches that are worth their clocks.
     fn record(&self, py: Python<'_>, patches: &Bound<'_, PyAny>) -> PyResult<usize> {
         if let Ok(patch) = patches.cast::<Patch>() {
             return Ok(self.record_cases(&[patch.get().case]));
@@ -61,8 +64,8 @@ impl Coverage {
         }
     }
 
-    /// Counts the bins of one factor's context, for the bench of a stage that sees no patch: those of
-    /// the groups ``context`` and ``exceptional``. The arguments are those of :func:`context`.
+    /// Counts the bins of one factor's context, those of the groups ``context`` and ``exceptional``, for the bench
+    /// of a stage that sees no patch. The arguments are those of :func:`context`.
     #[pyo3(signature = (factor, parity, split_order = "ruler"))]
     fn record_context(
         &self,
@@ -96,7 +99,7 @@ impl Coverage {
         Ok(bins)
     }
 
-    /// Every group with how many of its bins were hit, :class:`Group`.
+    /// Every group with the number of its bins that were hit, :class:`Group`.
     #[getter]
     fn groups<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let groups = PyDict::new(py);
@@ -115,8 +118,9 @@ impl Coverage {
     /// The bins that were never hit and are not excluded, in alphabetical order.
     ///
     /// Args:
-    ///     exclude: Patterns of bins that cannot be hit, such as :func:`exclusions` gives: a bin's path or its
-    ///         first parts, of which each may be ``*``. A file's lines will do: what follows a ``#`` is left out.
+    ///     exclude: Patterns of bins that cannot be hit, such as the result of :func:`exclusions`: a bin's path or
+    ///         its first parts, each of which may be ``*``. The lines of a file are accepted: the text after a ``#``
+    ///         is ignored.
     #[pyo3(signature = (exclude = None))]
     fn holes(&self, exclude: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         let exclusions = patterns(exclude)?;
@@ -143,7 +147,7 @@ impl Coverage {
         self.lock().to_ucis()
     }
 
-    /// Reads what :meth:`to_ucis` gave, or ``tess gen --coverage FILE`` wrote.
+    /// Reads the text of :meth:`to_ucis` or of a coverage file.
     #[staticmethod]
     fn from_ucis(text: &str) -> PyResult<Self> {
         let read = tess_verify::cover::Coverage::read_ucis(text.as_bytes());
@@ -181,6 +185,19 @@ impl Coverage {
         *self.lock() == other
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> (Bound<'py, PyType>, (), CoverageState) {
+        let last = *self.1.lock().unwrap_or_else(PoisonError::into_inner);
+        (py.get_type::<Self>(), (), (self.to_ucis(), last.map(|case| case.to_string())))
+    }
+
+    fn __setstate__(&self, (ucis, last): CoverageState) -> PyResult<()> {
+        let coverage = tess_verify::cover::Coverage::read_ucis(ucis.as_bytes());
+        let last = last.map(|line| line.parse().map_err(argument)).transpose()?;
+        *self.lock() = coverage.map_err(file_format)?;
+        *self.1.lock().unwrap_or_else(PoisonError::into_inner) = last;
+        Ok(())
+    }
+
     fn __repr__(&self) -> String {
         let groups = self.lock().groups();
         let (hit, bins) = groups.iter().fold((0, 0), |(h, b), g| (h + g.hit, b + g.bins));
@@ -191,7 +208,7 @@ impl Coverage {
 /// The bins that no patch of a device's configurations can hit, for ``exclude`` of :meth:`Coverage.report`.
 ///
 /// Args:
-///     domain, partitioning, output, split: What the device has, a name or several; ``None``: all.
+///     domain, partitioning, output, split: The device's configurations, a name or several; ``None``: all.
 ///
 /// >>> import tess_model
 /// >>> bins = tess_model.exclusions(domain=["tri", "quad"], partitioning="integer")

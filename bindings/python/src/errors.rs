@@ -39,6 +39,11 @@ pub(crate) fn check(error: CheckError) -> PyErr {
     }
 }
 
+/// Why threads cannot be started.
+pub(crate) fn threads(error: tess_simd::ThreadsError) -> PyErr {
+    TessError::new_err(error.to_string())
+}
+
 /// Why a batch was refused.
 pub(crate) fn batch(error: tess_simd::Error) -> PyErr {
     match error {

@@ -4,7 +4,7 @@
 //! `patch` is one patch, `batch` many; `stages` single numbers of one stage; `vectors`, `rules` and
 //! `coverage` the verification kit. `names` and `arrays` turn arguments into the libraries' types, `values`
 //! makes the named tuples of `python/tess_model/values.py`, `errors` the exceptions;
-//! `signals` lets Ctrl-C end what takes long; `threads` are those of batches, in a forked child too.
+//! `signals` lets Ctrl-C end what takes long.
 //!
 //! Nothing here holds the interpreter's lock while it tessellates or compares.
 
@@ -18,7 +18,6 @@ mod rules;
 mod signals;
 mod stages;
 mod strength;
-mod threads;
 mod values;
 mod vectors;
 

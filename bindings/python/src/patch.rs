@@ -15,13 +15,13 @@ use tess_verify::show::{
 use tess_verify::vectors::Listing;
 use tess_verify::{Case, Named};
 
-/// One patch: a configuration and raw factors, and what the model makes of them.
+/// One patch: a configuration and raw factors, and the model's results for them.
 ///
 /// Args:
 ///     domain: ``isoline``, ``tri`` or ``quad``.
 ///     outer: The outer factors, floats: density, detail (isoline); u0, v0, w0 (tri); u0, v0, u1, v1
-///         (quad). Each is rounded to the nearest binary32; any value is valid, NaN too.
-///     inner: The inside factors: none (isoline), one (tri; a number will do), along u and along v
+///         (quad). Each is rounded to the nearest binary32; any value is valid, including NaN.
+///     inner: The inside factors: none (isoline), one or a plain number (tri), along u and along v
 ///         (quad).
 ///     partitioning: ``integer``, ``pow2``, ``fractional_odd`` or ``fractional_even``.
 ///     output: ``point``, ``line``, ``triangle_cw`` or ``triangle_ccw``.
@@ -59,8 +59,8 @@ impl Patch {
         Self::of(domain, &floats(outer)?, &inner, config(partitioning, output, split)?)
     }
 
-    /// The patch whose factors have these binary32 bit patterns: as the constructor, with integers
-    /// below 2**32 for factors.
+    /// The patch whose factors have these binary32 bit patterns: like the constructor, with integers
+    /// below 2**32 as factors.
     ///
     /// >>> from tess_model import Patch
     /// >>> Patch.from_bits("isoline", [0x40000000, 0x7fc00000]).kind
@@ -80,14 +80,14 @@ impl Patch {
         Self::of(domain, &bits(outer)?, &inner, config(partitioning, output, split)?)
     }
 
-    /// The patch of a case line, as vector files and :attr:`case` have it:
+    /// The patch of a case line, the form of vector files and of :attr:`case`:
     /// ``case DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...``, each factor 8 hex digits of its bits.
     #[staticmethod]
     fn from_case(line: &str) -> PyResult<Self> {
         Ok(Self { case: case(line)? })
     }
 
-    /// The patch as a case line, which :meth:`from_case` takes.
+    /// The patch as a case line, for :meth:`from_case`.
     #[getter]
     fn case(&self) -> String {
         self.case.to_string()
@@ -145,7 +145,7 @@ impl Patch {
         }
     }
 
-    /// How many points, primitives and indices there are: :class:`Counts`.
+    /// The numbers of points, primitives and indices: :class:`Counts`.
     #[getter]
     fn counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let counts = self.case.patch().counts();
@@ -204,7 +204,7 @@ impl Patch {
         PyTuple::new(py, found.indices())
     }
 
-    /// Where point ``i`` comes from: :class:`PointOrigin`.
+    /// The origin of point ``i``: :class:`PointOrigin`.
     fn locate_point<'py>(
         &self,
         py: Python<'py>,
@@ -215,7 +215,7 @@ impl Patch {
         values::point_origin(py, origin)
     }
 
-    /// Where primitive ``t`` comes from: :class:`PrimitiveOrigin`.
+    /// The origin of primitive ``t``: :class:`PrimitiveOrigin`.
     fn locate_primitive<'py>(
         &self,
         py: Python<'py>,
@@ -226,7 +226,7 @@ impl Patch {
         values::primitive_origin(py, origin)
     }
 
-    /// Where point ``p`` of an edge with a factor of this patch lies, with every step:
+    /// The location of point ``p`` of an edge with a factor of this patch, with every step:
     /// :class:`Placement`. ``factor`` is a name as in :attr:`processed`; ``p`` is below the ``points``
     /// of its context.
     fn place<'py>(
@@ -246,8 +246,8 @@ impl Patch {
         values::placement(py, &stages::placed(&processed.context, p)?)
     }
 
-    /// Every stage of the patch as text, or where one point or one primitive comes from, or what becomes
-    /// of one factor: what ``tess explain`` prints.
+    /// The text of ``tess explain``: every stage of the patch, or the origin of one point or one primitive,
+    /// or the processing of one factor.
     #[pyo3(signature = (*, point = None, primitive = None, factor = None))]
     fn explain(
         &self,
@@ -258,9 +258,9 @@ impl Patch {
         Ok(self.report(part(point, primitive, factor)?)?.0)
     }
 
-    /// A circuit's value for a point, a primitive, a factor or (without either) the patch's counts, compared
-    /// with the model: a :class:`SignalDifference` for each signal that differs, in the order in which each
-    /// feeds the next. ``observed`` has the signals' names, which ``tess explain --help`` lists, and values.
+    /// Compares a circuit's signals for a point, a primitive, a factor or (without any of these) the patch's
+    /// counts with the model. Returns a :class:`SignalDifference` for each signal that differs, in the order of
+    /// the data flow. ``observed`` maps signal names, which ``tess explain --help`` lists, to values.
     ///
     /// >>> from tess_model import Patch
     /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)
@@ -288,7 +288,7 @@ impl Patch {
         PyTuple::new(py, values.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// The same as values: what ``tess explain --json`` prints, as dictionaries and lists.
+    /// The output of ``tess explain --json`` as dictionaries and lists.
     ///
     /// >>> from tess_model import Patch
     /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)
@@ -312,7 +312,7 @@ impl Patch {
     ///
     /// Args:
     ///     indices: Number the points.
-    ///     colours: ``plain``; ``order``, which numbers the primitives too; or ``rings``.
+    ///     colours: ``plain``; ``order``, which also numbers the primitives; or ``rings``.
     ///     size: Width and height in pixels, 64..8192.
     #[pyo3(signature = (*, indices = false, colours = "plain", size = 800))]
     fn to_svg(

@@ -13,7 +13,7 @@ use tess_verify::check::CheckError;
 use tess_verify::rules::{Checker, RuleRow, RulesReport, Specification};
 use tess_verify::vectors::{Kind, Record};
 
-/// Judges outputs by what a standard demands of them, without the model (docs/rules.md).
+/// Judges outputs by the rules of a standard, without the model (docs/rules.md).
 ///
 /// Args:
 ///     answers: As for :func:`check_device`; or the path of a file of listings.

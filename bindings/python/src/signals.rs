@@ -1,7 +1,6 @@
 //! Signals such as Ctrl-C: Python handles them between its own steps, so what takes long asks for them.
 
 use crate::errors::TessError;
-use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use std::fs::File;
 use std::io::{self, Read, Write};
@@ -110,7 +109,8 @@ pub(crate) fn interruptible<T: Send + 'static>(
     let own = Arc::clone(&stop);
     // Nobody takes the result of work that was interrupted.
     let run = move || _ = give.send(work(own));
-    std::thread::Builder::new().spawn(run).map_err(PyOSError::new_err)?;
+    let started = std::thread::Builder::new().spawn(run);
+    started.map_err(|error| TessError::new_err(format!("a thread cannot be started: {error}")))?;
     loop {
         let wait = || take.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(PATIENCE);
         match py.detach(wait) {

@@ -50,8 +50,8 @@ pub(crate) fn context<'py>(
     values::context(py, &factor_context(factor, parity, split_order)?.1)
 }
 
-/// One factor after factor processing (specification, section 3), a :class:`ProcessedFactor`; ``None`` if it culls
-/// the patch, as an outer factor that is NaN or not above 0 does.
+/// One factor after factor processing (specification, section 3), a :class:`ProcessedFactor`. ``None`` if it culls
+/// the patch: an outer factor that is NaN or not above 0.
 ///
 /// Args:
 ///     factor: The raw factor, rounded to the nearest binary32.
@@ -83,7 +83,7 @@ pub(crate) fn process_factor<'py>(
     processed.map(|factor| values::processed(py, name, raw, &factor)).transpose()
 }
 
-/// Where point ``p`` of an edge lies, with every step (specification, section 5), a
+/// The location of point ``p`` of an edge, with every step (specification, section 5): a
 /// :class:`Placement`.
 ///
 /// ``factor`` and ``parity`` are as for :func:`context`; ``p`` is below the context's ``points``.

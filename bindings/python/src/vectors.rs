@@ -24,7 +24,7 @@ use tess_verify::{Backend, Case, CoreBackend, Named};
 /// Cases; `None` for one of another shard.
 type CaseSource = Box<dyn Iterator<Item = Option<Case>> + Send>;
 
-/// An iterator over generated patches: what :func:`generate` gives.
+/// An iterator over generated patches, the result of :func:`generate`.
 #[pyclass(frozen, module = "tess_model")]
 pub(crate) struct Cases {
     source: Mutex<CaseSource>,
@@ -56,10 +56,10 @@ impl Cases {
 ///
 /// Args:
 ///     level: 1, every boundary once, hits every coverage bin; 2, every boundary in every position;
-///         3, random alone.
+///         3, only random patches.
 ///     seed: Seed of everything random.
 ///     count: Number of random patches at the end; ``None``: 500, 20000 and 1000000.
-///     domain, partitioning, output, split: One only; ``None``: all.
+///     domain, partitioning, output, split: One name; ``None``: all.
 ///     shard: ``(i, n)``, i in 1..n: one of n disjoint parts; ``None``: all.
 ///     rules: Instead of a level, families of patches that :func:`check_rules` compares.
 ///
@@ -163,10 +163,10 @@ pub(crate) struct VectorFile {
     /// Kind of the records: ``listings``, ``patches``, ``sweep``, ...
     #[pyo3(get)]
     kind: &'static str,
-    /// How many records there are; ``None`` if the file marks its end instead.
+    /// The number of records; ``None`` if the file marks its end instead.
     #[pyo3(get)]
     count: Option<u64>,
-    /// Where the results come from: a name for people.
+    /// The source of the results: a name for people.
     #[pyo3(get)]
     source: String,
     records: Mutex<Reader>,
@@ -226,13 +226,13 @@ impl Record {
         self.0.line()
     }
 
-    /// The row as it stands in the file; ``None`` for a listing.
+    /// The row of the file; ``None`` for a listing.
     #[getter]
     fn text(&self) -> Option<&str> {
         self.0.text()
     }
 
-    /// The patch that it tessellates; ``None`` for a row of digests over many.
+    /// Its patch; ``None`` for a row of digests over many patches.
     #[getter]
     fn patch(&self) -> Option<Patch> {
         self.0.case().map(|case| Patch { case })
@@ -266,22 +266,23 @@ impl Record {
     }
 }
 
-/// Checks a vector file, as ``tess check`` does: a file of listings is what a device gave, and the
-/// model is right; with a file of any other kind, and with ``tested="model"``, the file is right.
+/// Checks a vector file, as ``tess check`` does. A file of listings holds a device's answers, which are compared
+/// with the model. A file of any other kind, or any file with ``tested="model"``, is taken as right and the model
+/// is tested.
 ///
 /// Args:
 ///     path: The file.
 ///     tested: ``auto``, or ``model``.
-///     order: ``exact``; ``sequence``, the model's with points by their coordinates; or ``any``.
-///     elements: ``primitives``, or ``points`` alone.
+///     order: ``exact``; ``sequence``: the model's order, with points told apart by coordinates; or ``any``.
+///     elements: ``primitives``, or only ``points``.
 ///     conversion: ``exact``, or ``0.6ulp``.
 ///     denormals: ``keep``, or ``flush``.
-///     coverage: Counts the bins that the file's patches hit.
-///     cases: The patches that were asked: the file must answer them, one for one and in their order.
+///     coverage: A :class:`Coverage` that counts the bins that the file's patches hit.
+///     cases: The patches that the device was asked for: the file must answer each of them, in order.
 ///
 /// Returns:
-///     A :class:`Report`. ``order`` to ``denormals`` are the strengths of a comparison with a device
-///     (docs/verification.md); they are refused where the model is tested.
+///     A :class:`Report`. ``order`` to ``denormals`` set the strength of a comparison with a device
+///     (docs/verification.md); they are refused if the model is tested.
 #[pyfunction]
 #[pyo3(signature = (path, *, tested = "auto", order = "exact", elements = "primitives",
     conversion = "exact", denormals = "keep", coverage = None, cases = None))]
@@ -338,15 +339,15 @@ fn run_check(
     })
 }
 
-/// Compares what a device answered with the model.
+/// Compares a device's answers with the model.
 ///
 /// Args:
 ///     answers: Tuples (patch, points, indices): a :class:`Patch`, integers of shape (points, 2) in
 ///         16.16, and integers of any shape whose elements in order are the indices. Arrays of uint32 are the
-///         fastest; those of other integer types and lists are taken if every element is below 2**32.
+///         fastest; arrays of other integer types and lists are accepted if every element is below 2**32.
 ///     order, elements, conversion, denormals: As for :func:`check`.
-///     cases: The patches that were asked. Answers for others, too few or too many raise
-///         :class:`ArgumentError`. There must be an answer.
+///     cases: The patches that the device was asked for. Answers for other patches, too few or too many raise
+///         :class:`ArgumentError`. There must be at least one answer.
 ///
 /// >>> from tess_model import Patch, check_device
 /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)

@@ -1,5 +1,9 @@
 """Batches of factors in any strides, what they refuse, and threads meanwhile; test_sequences.py compares their output."""
 
+import copy
+import os
+import pickle
+import subprocess
 import sys
 import threading
 import time
@@ -179,3 +183,40 @@ def test_the_interpreter_goes_on_meanwhile() -> None:
     thread.join()
     longest, whole = max(longest, ended - last), ended - began
     assert longest < whole / 2, f"{seen} rounds; nothing ran for {longest:.3f} of {whole:.3f} s"
+
+
+def test_tessellators_are_pickled_and_copied() -> None:
+    tessellator = Tessellator("fractional_odd", "triangle_ccw", "center", threads=2)
+    expected = tessellator.tessellate("quad", quads())
+    copies = [copy.copy(tessellator), copy.deepcopy(tessellator)]
+    copies += [pickle.loads(pickle.dumps(tessellator, protocol)) for protocol in range(pickle.HIGHEST_PROTOCOL + 1)]
+    for same in copies:
+        assert repr(same) == repr(tessellator) and same is not tessellator
+        for one, other in zip(same.tessellate("quad", quads()), expected):
+            np.testing.assert_array_equal(one, other)
+
+
+NO_THREADS = """
+import sys, numpy, tess_model
+from tess_model import TessError, Tessellator
+def refused(call):
+    try:
+        call()
+    except TessError as error:
+        print(error, file=sys.stderr)
+        return type(error) is TessError and "cannot be started" in str(error)
+    return False
+patch = tess_model.Patch("tri", [3, 4, 5], 6)
+assert refused(lambda: Tessellator(threads=2))
+assert refused(lambda: tess_model.tessellate("tri", numpy.ones((2, 4), "f4"), threads=2))
+assert refused(lambda: tess_model.write_vectors("/dev/null", [patch]))
+assert Tessellator().tessellate("tri", numpy.full((2000, 4), 9, "f4")).points.shape[0] > 0
+assert tess_model.check_device([(patch, patch.points, patch.indices)]).equal
+"""
+
+
+def test_where_no_thread_can_be_started() -> None:
+    """No memory holds a stack of 64 TiB."""
+    environment = {**os.environ, "RUST_MIN_STACK": str(1 << 46)}
+    run = subprocess.run([sys.executable, "-c", NO_THREADS], env=environment, capture_output=True, text=True)
+    assert run.returncode == 0 and "panicked" not in run.stderr, run.stderr

@@ -1,5 +1,7 @@
 """Coverage: counting, merging, and the file that PyUCIS reads."""
 
+import copy
+import pickle
 import threading
 from pathlib import Path
 
@@ -107,3 +109,24 @@ def test_merging_with_itself_doubles() -> None:
     before = coverage.bins
     coverage.merge(coverage)
     assert coverage.bins == {bin: 2 * hits for bin, hits in before.items()} and coverage == coverage
+
+
+def test_a_copy_counts_on_as_the_original_does() -> None:
+    patches = list(tess_model.generate(3, count=40))
+    coverage = Coverage()
+    coverage.record(patches[:20])
+    copies = [copy.copy(coverage), copy.deepcopy(coverage)]
+    copies += [pickle.loads(pickle.dumps(coverage, protocol)) for protocol in range(pickle.HIGHEST_PROTOCOL + 1)]
+    assert all(same == coverage for same in copies)
+    coverage.record(patches[20:])
+    assert all(same != coverage for same in copies), "a copy has hits of its own"
+    for same in copies:
+        same.record(patches[20:])
+        assert same == coverage, "the patch before counts too: bins of sequences"
+    first = Coverage()
+    assert pickle.loads(pickle.dumps(first)) == first
+    with pytest.raises(FileFormatError):
+        first.__setstate__(("no coverage", None))
+    with pytest.raises(tess_model.ArgumentError):
+        first.__setstate__((first.to_ucis(), "no case"))
+    assert first == Coverage()

@@ -26,6 +26,8 @@ struct BatchMemory {
     points: Vec<TessPoint>,
     indices: Vec<u32>,
     ranges: Vec<TessRange>,
+    /// Whether the caller wants ranges.
+    has_ranges: bool,
 }
 
 pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
@@ -66,23 +68,30 @@ fn output(
 ) -> (TessBatchOutput, BatchMemory) {
     let mut sized = |needed: usize, size: usize| {
         let (capacity, room) = capacity(bytes, needed);
-        wrongs.add_if(capacity < needed, TESS_BUFFER_TOO_SMALL);
         let possible = is_possible(capacity, size);
         wrongs.add_if(!possible, TESS_TOO_LARGE);
         // A possible capacity must be there: the library may believe it.
         (capacity, if possible { capacity } else { room })
     };
-    let (point_capacity, points) = sized(model.iter().map(|patch| patch.points.len()).sum(), 8);
-    let (index_capacity, indices) = sized(model.iter().map(|patch| patch.indices.len()).sum(), 4);
+    let needed_points = model.iter().map(|patch| patch.points.len()).sum();
+    let needed_indices = model.iter().map(|patch| patch.indices.len()).sum();
+    let (point_capacity, points) = sized(needed_points, 8);
+    let (index_capacity, indices) = sized(needed_indices, 4);
     let (range_capacity, ranges) = sized(model.len(), 16);
     let mut memory = BatchMemory {
         points: vec![NO_POINT; points],
         indices: vec![CANARY; indices],
         ranges: vec![NO_RANGE; ranges],
+        has_ranges: true,
     };
     let points = wrongs.room(bytes, memory.points.as_mut_ptr(), point_capacity);
     let indices = wrongs.room(bytes, memory.indices.as_mut_ptr(), index_capacity);
     let ranges = wrongs.room(bytes, memory.ranges.as_mut_ptr(), range_capacity);
+    // Null asks for no ranges.
+    memory.has_ranges = !ranges.is_null();
+    let has_few_ranges = memory.has_ranges && range_capacity < model.len();
+    let is_small = point_capacity < needed_points || index_capacity < needed_indices;
+    wrongs.add_if(is_small || has_few_ranges, TESS_BUFFER_TOO_SMALL);
     let [point_format, index_type, numbering] =
         [TESS_POINT_FIXED, TESS_INDEX_U32, TESS_NUMBERING_PER_PATCH].map(|good| {
             let wrong = bytes.byte() == 255;
@@ -164,16 +173,20 @@ fn compare(
     model: &[Tessellation],
     memory: &BatchMemory,
 ) -> Result<(), String> {
-    for ((&factors, model), range) in patches.iter().zip(model).zip(&memory.ranges) {
+    let mut next = TessRange::default();
+    for (number, (&factors, model)) in patches.iter().zip(model).enumerate() {
         let case = Case { config, factors };
+        let count = |elements: usize| u32::try_from(elements).expect("a small patch");
+        next.first_point += next.points;
+        next.first_index += next.indices;
+        (next.points, next.indices) = (count(model.points.len()), count(model.indices.len()));
+        let range = memory.ranges.get(number).filter(|_| memory.has_ranges);
+        if let Some(range) = range.filter(|&&range| range != next) {
+            return Err(repeatable(&case, &format!("tess_batch_run: {range:?}, not {next:?}")));
+        }
         let part = |first: u32, count: u32| first as usize..(first as usize + count as usize);
-        let (points, indices) = (
-            memory.points.get(part(range.first_point, range.points)),
-            memory.indices.get(part(range.first_index, range.indices)),
-        );
-        let (Some(points), Some(indices)) = (points, indices) else {
-            return Err(repeatable(&case, &format!("tess_batch_run: no such range: {range:?}")));
-        };
+        let points = &memory.points[part(next.first_point, next.points)];
+        let indices = &memory.indices[part(next.first_index, next.indices)];
         let points = points.iter().map(|point| DomainPoint::from_bits(point.u, point.v)).collect();
         let observed = Tessellation { points, indices: indices.to_vec() };
         compare_with_model("tess_batch_run", &case, observed, model)?;

@@ -17,9 +17,17 @@ pub trait OutputPoint: sealed::Point + Copy + Default + Send + Sync + 'static {
 ///
 /// `tess-gpu` calls them `IndexType::U16` and `IndexType::U32`; C calls them `TESS_INDEX_U16` and
 /// `TESS_INDEX_U32`.
+///
+/// The largest index, 65535 or 2^32 - 1, restarts primitives in WebGL 2, and in other interfaces where
+/// primitive restart is on. Batches write it like any other index. To do without it, keep a batch that
+/// is numbered through ([`Numbering::PerBatch`](crate::Numbering::PerBatch)) to
+/// [`IndexFormat::POINTS_WITHOUT_RESTART`] points, its `base_vertex` included. No single patch has it.
 pub trait IndexFormat: sealed::Index + Copy + Default + Send + Sync + 'static {
     /// The largest index.
     const LARGEST: u64;
+
+    /// The points that can be numbered from 0 without the largest index: 65 535, or 2^32 - 1.
+    const POINTS_WITHOUT_RESTART: u64 = Self::LARGEST;
 
     /// The index, modulo 2^16 or 2^32.
     #[must_use]

@@ -12,7 +12,8 @@ use tess_core::DomainPoint;
 pub enum Numbering {
     /// Indices count from each patch's first point, as in the core. 16 bits are always enough.
     PerPatch,
-    /// Indices count from the batch's first point, so that all patches share one vertex buffer.
+    /// Indices count from the batch's first point, so that all patches share one vertex buffer. Where
+    /// primitive restart is on, see [`IndexFormat`] for the number of points.
     PerBatch {
         /// Number of the first point of the batch.
         base_vertex: u32,

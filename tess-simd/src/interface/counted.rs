@@ -79,7 +79,8 @@ impl<'a> Counted<'a> {
         BatchCounts { patches: self.patches(), points: self.points(), indices: self.indices() }
     }
 
-    /// The largest index under a numbering; `None` if the batch has no points.
+    /// The largest index under a numbering; `None` if the batch has no points. With `u16` the index 65535
+    /// restarts primitives in some interfaces: see [`IndexFormat`].
     #[must_use]
     pub fn largest_index(&self, numbering: Numbering) -> Option<u64> {
         let end = match numbering {

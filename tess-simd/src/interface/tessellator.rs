@@ -16,6 +16,8 @@ use crate::stages::settings::Settings;
 #[cfg(feature = "rayon")]
 use crate::threads::MAX_THREADS;
 use crate::threads::Workspaces;
+#[cfg(feature = "rayon")]
+use crate::threads::process::{self, ThreadsError};
 use crate::threads::sizes::Slicing;
 use crate::threads::slices::CountShare;
 use alloc::boxed::Box;
@@ -74,43 +76,69 @@ impl Tessellator {
         }
     }
 
-    /// Spreads batches over up to `threads` threads, at least 1 and at most
-    /// [`Tessellator::MAX_THREADS`]. The output stays the same.
-    ///
-    /// A batch uses one thread for each 256 KiB of its output, so a second thread joins from 512 KiB on. The
-    /// threads belong to the rayon pool that the caller runs in, otherwise to rayon's global pool. The global
-    /// pool is started with at most [`Tessellator::MAX_THREADS`] threads, even if `RAYON_NUM_THREADS` asks for
-    /// more. Each thread takes up to 1.1 MB.
+    /// Spreads batches over up to `threads` threads: [`Tessellator::set_threads`] while a tessellator is made.
     #[cfg(feature = "rayon")]
     #[must_use]
-    pub fn threads(mut self, threads: usize) -> Self {
-        self.workspaces = Workspaces::of_threads(threads);
-        self.reserved_as_before()
+    pub fn with_threads(mut self, threads: usize) -> Self {
+        self.set_threads(threads);
+        self
     }
 
-    /// The most threads that [`Tessellator::threads`] uses.
+    /// Spreads later batches over up to `threads` threads, at least 1 and at most
+    /// [`Tessellator::MAX_THREADS`]; a new tessellator has one. The output stays the same. What it
+    /// learned of patches is forgotten.
+    ///
+    /// A batch uses one thread for each 256 KiB of its output, so a second thread joins from 512 KiB
+    /// on. The threads belong to the rayon pool that the caller runs in. Outside of any pool they
+    /// belong to one that all tessellators of the process share: a thread for each processor, or as
+    /// many as `RAYON_NUM_THREADS` asks for. The first large batch starts it; where it cannot be
+    /// started, batches are written on the calling thread. A forked child starts its own. Each thread
+    /// takes up to 1.1 MB.
+    #[cfg(feature = "rayon")]
+    pub fn set_threads(&mut self, threads: usize) {
+        self.workspaces = Workspaces::of_threads(threads);
+        self.reserve_as_before();
+    }
+
+    /// Starts the threads that all tessellators of the process share, so that no batch has to, and to
+    /// learn whether that is possible. Does nothing where they run.
+    ///
+    /// # Errors
+    /// [`ThreadsError`] if the system refuses.
+    #[cfg(feature = "rayon")]
+    pub fn start_threads() -> Result<(), ThreadsError> {
+        process::start()
+    }
+
+    /// The most threads that [`Tessellator::set_threads`] uses.
     #[cfg(feature = "rayon")]
     pub const MAX_THREADS: usize = MAX_THREADS;
 
-    /// Writes triangles in this order; [`Order::Specification`] unless told otherwise.
-    ///
-    /// [`Order::VertexCache`] writes the same points and the same triangles in an order that suits vertex caches.
-    /// It is for renderers. Patches of more than about 300 points take two to four times as long with it, unless
-    /// they have the same point counts as the large patch before them.
+    /// Writes triangles in this order: [`Tessellator::set_order`] while a tessellator is made.
     #[must_use]
-    pub fn order(mut self, order: Order) -> Self {
+    pub fn with_order(mut self, order: Order) -> Self {
+        self.set_order(order);
+        self
+    }
+
+    /// Writes the triangles of later batches in this order; a new tessellator has
+    /// [`Order::Specification`]. What it learned of patches is forgotten.
+    ///
+    /// [`Order::VertexCache`] writes the same points and the same triangles in an order that suits
+    /// vertex caches. It is for renderers. Patches of more than about 300 points take two to four
+    /// times as long with it, unless they have the same point counts as the large patch before them.
+    pub fn set_order(&mut self, order: Order) {
         self.settings.order = order;
         // The templates have their triangles in the order before.
         self.workspaces.forget();
-        self.reserved_as_before()
+        self.reserve_as_before();
     }
 
     /// Reserves the memory of new workspaces, if that of the old ones was reserved.
-    fn reserved_as_before(mut self) -> Self {
+    fn reserve_as_before(&mut self) {
         if self.reserved {
             self.reserve();
         }
-        self
     }
 
     /// The configuration that it was made with.
@@ -126,7 +154,7 @@ impl Tessellator {
     }
 
     /// Takes all the memory that patches may ever need, 1.1 MB for each thread, and keeps it through
-    /// [`Tessellator::order`], `threads` and clones. No later call on one thread allocates, and
+    /// [`Tessellator::set_order`], `set_threads` and clones. No later call on one thread allocates, and
     /// [`Tessellator::memory`] stays as it is. For programs in which an allocation may not come late; others are
     /// faster without.
     pub fn reserve(&mut self) {

@@ -1,4 +1,4 @@
-//! The threads of the current rayon pool.
+//! The threads of the rayon pool that the caller runs in, otherwise those of this process.
 //!
 //! Each thread begins with the same slices every time, so that its part of a reused buffer stays in its core's
 //! caches. A thread that is done helps the others. When nothing is left it waits for them: threads that leave a
@@ -10,11 +10,13 @@ use crate::data::format::IndexFormat;
 use crate::data::point_writer::PointRoom;
 use crate::stages::counts::PartCounts;
 use crate::threads::part::{self, Job, Workspace};
+use crate::threads::process;
 use crate::threads::sizes::worth_waking;
 use crate::threads::slices::{CountShare, Share};
 use alloc::vec::Vec;
+use rayon::ThreadPool;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tess_core::Config;
 
@@ -38,11 +40,7 @@ impl Workspaces {
 
     /// Workspaces for this many threads, at least one and at most [`MAX_THREADS`].
     pub(crate) fn of_threads(threads: usize) -> Self {
-        let threads = threads.clamp(1, MAX_THREADS);
-        if threads > 1 {
-            limit_global_pool();
-        }
-        Self((0..threads).map(|_| Mutex::new(Workspace::new())).collect())
+        Self((0..threads.clamp(1, MAX_THREADS)).map(|_| Mutex::new(Workspace::new())).collect())
     }
 
     /// Forgets what was kept from batch to batch.
@@ -78,7 +76,12 @@ impl Workspaces {
 
     /// Counts a share on all threads.
     pub(crate) fn count(&self, level: Level, config: Config, share: CountShare<'_>) {
-        count_on(self.threads(), level, config, share);
+        let threads = self.threads();
+        let is_long = share.batch.len() > SOON_COUNTED && share.counts.len() > 1;
+        match Pool::of_caller(if is_long { threads } else { 1 }) {
+            Some(pool) => pool.install(|| count_on(threads, level, config, share)),
+            None => share.count(level, config),
+        }
     }
 
     /// Writes a share, slice by slice.
@@ -88,15 +91,15 @@ impl Workspaces {
         }
         let counts = share.counts;
         let threads = worth_waking(PartCounts::sum(counts).bytes(), self.threads());
-        if threads == 1 {
+        let Some(pool) = Pool::of_caller(threads) else {
             let write = |workspace: &mut Workspace| {
                 share.into_parts().for_each(|part| part::emit(job, part, workspace));
             };
             return self.lend(write);
-        }
+        };
         let slices: Vec<_> = share.into_parts().map(|part| Mutex::new(Some(part))).collect();
         let written = AtomicUsize::new(0);
-        on_threads(threads, &|| {
+        let write = || {
             self.lend(|workspace| {
                 for slice in self.own_first(counts, &slices) {
                     let part = slice.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -110,7 +113,8 @@ impl Workspaces {
             while written.load(Ordering::Relaxed) < slices.len() && start.elapsed() < TOGETHER {
                 std::thread::yield_now();
             }
-        });
+        };
+        pool.install(|| on_threads(threads, &write));
     }
 
     /// All slices, which have these counts, from the first one of this thread on. Threads' own slices
@@ -149,6 +153,33 @@ impl Workspaces {
     }
 }
 
+/// A pool that a batch is spread over.
+enum Pool {
+    /// The one that the caller runs in.
+    Current,
+    /// That of this process.
+    Process(Arc<ThreadPool>),
+}
+
+impl Pool {
+    /// The pool for a batch on so many threads; `None` if the caller does it alone.
+    fn of_caller(threads: usize) -> Option<Self> {
+        match threads {
+            0 | 1 => None,
+            _ if rayon::current_thread_index().is_some() => Some(Self::Current),
+            _ => process::pool().map(Self::Process),
+        }
+    }
+
+    /// Does work in which `rayon::join` uses this pool.
+    fn install(&self, work: impl FnOnce() + Send) {
+        match self {
+            Self::Current => work(),
+            Self::Process(pool) => pool.install(work),
+        }
+    }
+}
+
 /// Runs `work` on up to `threads` idle threads.
 fn on_threads(threads: usize, work: &(impl Fn() + Sync)) {
     if threads > 1 {
@@ -168,16 +199,6 @@ fn count_on(threads: usize, level: Level, config: Config, share: CountShare<'_>)
         );
     } else {
         share.count(level, config);
-    }
-}
-
-/// Starts rayon's global pool with [`MAX_THREADS`] if `RAYON_NUM_THREADS` asks for more. Starting a
-/// hundred thousand takes minutes.
-fn limit_global_pool() {
-    let wanted = std::env::var("RAYON_NUM_THREADS").ok().and_then(|value| value.parse().ok());
-    if wanted.is_some_and(|wanted: usize| wanted > MAX_THREADS) {
-        // Fails if the pool was started before; its size is the program's own choice then.
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(MAX_THREADS).build_global();
     }
 }
 

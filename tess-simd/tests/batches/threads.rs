@@ -29,7 +29,7 @@ fn counted_on_several_threads() {
     let patches = Patches::new(isolines.all.into_iter().filter(cheap).collect());
     assert!(patches.all.len() > 1100, "{} patches", patches.all.len());
     for (threads, config) in [2, 3, 4].into_iter().zip(configs().step_by(5)) {
-        let mut tessellator = Tessellator::new(config).threads(threads);
+        let mut tessellator = Tessellator::new(config).with_threads(threads);
         assert_same(&mut tessellator, Domain::Isoline, &patches);
     }
 }
@@ -41,7 +41,7 @@ fn within_a_larger_pool() {
     let patches = Patches::random(9, Domain::Triangle, 60);
     pool.broadcast(|_| {
         for threads in [1, 3] {
-            let mut tessellator = Tessellator::new(CONFIG).threads(threads);
+            let mut tessellator = Tessellator::new(CONFIG).with_threads(threads);
             assert_same(&mut tessellator, Domain::Triangle, &patches);
         }
     });
@@ -55,10 +55,11 @@ fn every_workspace_takes_the_new_order() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(THREADS).build().expect("a pool");
     let patches = Patches::new(vec![PatchFactors::uniform(Domain::Quad, 9.0)]);
-    let mut tessellator = Tessellator::new(config).threads(THREADS);
+    let mut tessellator = Tessellator::new(config).with_threads(THREADS);
     for order in [Order::Specification, Order::VertexCache] {
         let expected = patches.expected_in(order, config);
-        let shared = Mutex::new(tessellator.order(order));
+        tessellator.set_order(order);
+        let shared = Mutex::new(&mut tessellator);
         // One patch is one slice, which the calling thread writes with the workspace of its number.
         pool.broadcast(|_| {
             let mut tessellator = shared.lock().expect("no test has failed");
@@ -66,7 +67,6 @@ fn every_workspace_takes_the_new_order() {
             let (numbering, same) = (Numbering::PerPatch, |point| point);
             compare::<DomainPoint, u32>(&mut tessellator, batch, &expected, numbering, same);
         });
-        tessellator = shared.into_inner().expect("no test has failed");
     }
 }
 
@@ -81,7 +81,7 @@ fn each_thread_alone_writes_every_slice() {
         pool.broadcast(|context| {
             if context.index() == alone {
                 let _end = SetAtEnd(&done);
-                let mut tessellator = Tessellator::new(CONFIG).threads(THREADS);
+                let mut tessellator = Tessellator::new(CONFIG).with_threads(THREADS);
                 assert_same(&mut tessellator, Domain::Quad, &patches);
             } else {
                 // Busy, so that it takes no work from the one that is alone.
@@ -105,7 +105,7 @@ impl Drop for SetAtEnd<'_> {
 /// However many threads are asked for, there are at most 256.
 #[test]
 fn too_many_threads() {
-    let of = |threads| Tessellator::new(CONFIG).threads(threads);
+    let of = |threads| Tessellator::new(CONFIG).with_threads(threads);
     assert_eq!(Tessellator::MAX_THREADS, 256, "as documented");
     let most = of(256).memory();
     assert_eq!(of(257).memory(), most, "one too many");
@@ -115,37 +115,64 @@ fn too_many_threads() {
     assert_same(&mut of(100_000), Domain::Quad, &patches);
 }
 
-/// A size of rayon's global pool that cannot be started: the tests start themselves with it.
-#[test]
-fn too_large_a_pool() {
+/// Runs one test in a process of its own, with an environment variable.
+fn alone(test: &str, variable: &str, value: &str) {
     let program = std::env::current_exe().expect("the path of this test");
     let output = std::process::Command::new(program)
-        .args(["--exact", "threads::in_a_pool_of_any_size", "--nocapture"])
-        .env("RAYON_NUM_THREADS", "100000")
+        .args(["--exact", &format!("threads::{test}"), "--nocapture", "--ignored"])
+        .env(variable, value)
         .output()
         .expect("this test runs again");
     let text = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{text}");
-    assert!(text.contains("global pool: 256 threads"), "{text}");
+    let stdout = String::from_utf8_lossy(&output.stdout);
+    assert!(stdout.contains("1 passed"), "{stdout}");
+}
+
+/// rayon would start all threads that are asked for.
+#[test]
+fn too_large_a_pool() {
+    alone("in_a_pool_of_256", "RAYON_NUM_THREADS", "100000");
 }
 
 #[test]
-fn in_a_pool_of_any_size() {
-    use std::io::Write as _;
+#[ignore = "too_large_a_pool runs it"]
+fn in_a_pool_of_256() {
+    assert_eq!(Tessellator::start_threads(), Ok(()), "256 threads can be started");
+    if let Ok(threads) = std::fs::read_dir("/proc/self/task") {
+        // The test itself has one or two.
+        let threads = threads.count();
+        assert!((257..260).contains(&threads), "{threads} threads");
+    }
     let patches = Patches::random(3, Domain::Quad, 40);
-    assert_same(&mut Tessellator::new(CONFIG).threads(2), Domain::Quad, &patches);
-    let threads = rayon::current_num_threads();
-    let _ = writeln!(std::io::stderr(), "global pool: {threads} threads");
+    assert_same(&mut Tessellator::new(CONFIG).with_threads(2), Domain::Quad, &patches);
+}
+
+/// No thread has such a stack.
+#[test]
+fn no_threads() {
+    alone("where_no_thread_can_be_started", "RUST_MIN_STACK", &(1_u64 << 46).to_string());
+}
+
+#[test]
+#[ignore = "no_threads runs it"]
+fn where_no_thread_can_be_started() {
+    let error = Tessellator::start_threads().expect_err("no thread can be started").to_string();
+    assert!(error.contains(" threads cannot be started: "), "{error}");
+    let patches = Patches::random(11, Domain::Quad, 200);
+    assert_same(&mut Tessellator::new(CONFIG).with_threads(3), Domain::Quad, &patches);
+    let patches = Patches::random(5, Domain::Isoline, 1500);
+    assert_same(&mut Tessellator::new(CONFIG).with_threads(3), Domain::Isoline, &patches);
 }
 
 /// Each thread has one workspace, in a copy too.
 #[test]
 fn workspaces_are_counted() {
-    let of = |threads| Tessellator::new(CONFIG).threads(threads).memory();
+    let of = |threads| Tessellator::new(CONFIG).with_threads(threads).memory();
     let workspace = of(2) - of(1);
     assert!(workspace < 1024, "{workspace} bytes before it is used");
     assert_eq!(of(4), of(1) + 3 * workspace, "four threads");
     assert_eq!(of(0), of(1), "at least one");
-    let copy = |threads| Tessellator::new(CONFIG).threads(threads).clone().memory();
+    let copy = |threads| Tessellator::new(CONFIG).with_threads(threads).clone().memory();
     assert_eq!(copy(3), copy(1) + 2 * workspace, "a copy");
 }

@@ -49,7 +49,7 @@ impl Subject {
     fn new(start: &Start) -> Self {
         let tessellator = Tessellator::with_level(start.config, start.level);
         let tessellator = tessellator.expect("a level that is there");
-        let tessellator = tessellator.order(start.order).threads(start.threads);
+        let tessellator = tessellator.with_order(start.order).with_threads(start.threads);
         Self { tessellator, order: start.order, outputs: Outputs::default(), reserved: None }
     }
 
@@ -88,9 +88,9 @@ impl Subject {
         match *call {
             Call::SetOrder(order) => {
                 self.order = order;
-                tessellator = tessellator.order(order);
+                tessellator.set_order(order);
             }
-            Call::SetThreads(threads) => tessellator = tessellator.threads(threads),
+            Call::SetThreads(threads) => tessellator.set_threads(threads),
             Call::Reserve => {
                 tessellator.reserve();
                 self.reserved = Some(0);

@@ -12,24 +12,29 @@ pub const TESS_POINT_FIXED: u32 = 0;
 /// Point format: two floats, which have the values of the 16.16 numbers exactly.
 pub const TESS_POINT_F32: u32 = 1;
 
-/// Point format: as `TESS_POINT_F32`, but u and v apart. `points` is `2 * point_capacity` floats: u of each point
-/// from the first float on, v of each from number `point_capacity` on.
+/// Point format: as `TESS_POINT_F32`, but u and v in two arrays. `points` has `2 * point_capacity` floats: first u of
+/// each point, then, from float number `point_capacity`, v of each point.
 pub const TESS_POINT_F32_APART: u32 = 2;
 
 /// Index type: `uint32_t`.
 pub const TESS_INDEX_U32: u32 = 0;
-/// Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`.
+/// Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`. With
+/// `TESS_NUMBERING_PER_BATCH` it numbers 65536 points. The last of these indices, 65535, restarts
+/// primitives in WebGL 2 and wherever primitive restart is on: keep `base_vertex` and the points of the
+/// batch together to `TESS_POINTS_WITHOUT_RESTART_U16` there.
 pub const TESS_INDEX_U16: u32 = 1;
+/// The points that `uint16_t` numbers from 0 without the index 65535.
+pub const TESS_POINTS_WITHOUT_RESTART_U16: u32 = 65535;
 
 /// Numbering: indices count from the first point of their patch.
 pub const TESS_NUMBERING_PER_PATCH: u32 = 0;
 /// Numbering: indices count from the first point of the batch, whose number is `base_vertex`.
 pub const TESS_NUMBERING_PER_BATCH: u32 = 1;
 
-/// Memory: the buffers may hold anything, also nothing yet.
+/// Memory: the buffers may be uninitialised.
 pub const TESS_MEMORY_ANY: u32 = 0;
-/// Memory: every byte of the buffers was written once, by `calloc`, `memset`, an earlier call or the caller. This is
-/// faster, as nothing is cleared before it is written.
+/// Memory: every byte of the buffers was written before, by `calloc`, `memset`, an earlier call or the caller. This is
+/// faster, because nothing is cleared before it is written.
 pub const TESS_MEMORY_INITIALISED: u32 = 1;
 
 /// Sizes of a batch's output.
@@ -59,8 +64,10 @@ pub struct TessRange {
     pub indices: u32,
 }
 
-/// The buffers and formats that a batch is written in. Capacities count elements. A buffer of
+/// The buffers and formats of a batch's output. Capacities count elements. A buffer of
 /// capacity 0 may be null.
+///
+/// `ranges` is optional: null with capacity 0 asks for no ranges.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct TessBatchOutput {
@@ -72,7 +79,7 @@ pub struct TessBatchOutput {
     pub indices: *mut c_void,
     /// The elements that `indices` has room for.
     pub index_capacity: usize,
-    /// Receives one range for each patch.
+    /// Receives one range for each patch. Null, with a `range_capacity` of 0, if they are not wanted.
     pub ranges: *mut TessRange,
     /// The elements that `ranges` has room for.
     pub range_capacity: usize,

@@ -37,7 +37,7 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
         memory: MemoryState,
         counted: &mut Counted<'_>,
         numbering: Numbering,
-        rest: (&mut [I], &mut [PatchRange]),
+        rest: (&mut [I], Option<&mut [PatchRange]>),
     ) -> Result<BatchCounts, Error>;
 
     /// Has a patch written.
@@ -78,10 +78,12 @@ impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
         memory: MemoryState,
         counted: &mut Counted<'_>,
         numbering: Numbering,
-        (indices, ranges): (&mut [I], &mut [PatchRange]),
+        (indices, ranges): (&mut [I], Option<&mut [PatchRange]>),
     ) -> Result<BatchCounts, Error> {
         let points = boundary::initialised(self.0, memory, P::default());
-        counted.write(numbering, Buffers::new(points, indices).with_ranges(ranges))
+        let mut buffers = Buffers::new(points, indices);
+        buffers.ranges = ranges;
+        counted.write(numbering, buffers)
     }
 
     #[inline(always)]
@@ -135,10 +137,12 @@ impl<'a> PointRoom<'a> for Apart<'a> {
         memory: MemoryState,
         counted: &mut Counted<'_>,
         numbering: Numbering,
-        (indices, ranges): (&mut [I], &mut [PatchRange]),
+        (indices, ranges): (&mut [I], Option<&mut [PatchRange]>),
     ) -> Result<BatchCounts, Error> {
         let [u, v] = self.initialised(memory);
-        counted.write_apart(numbering, ApartBuffers::new(u, v, indices).with_ranges(ranges))
+        let mut buffers = ApartBuffers::new(u, v, indices);
+        buffers.ranges = ranges;
+        counted.write_apart(numbering, buffers)
     }
 
     #[inline(always)]

@@ -7,7 +7,8 @@ use super::{
     TessBatchOutput, status_of,
 };
 use crate::boundary::{self, MemoryState};
-use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus};
+use crate::shortage::{self, TESS_BUFFER_INDICES, TESS_BUFFER_POINTS, TESS_BUFFER_RANGES};
+use crate::status::{TESS_INDEX_TOO_LARGE, TESS_INTERNAL, TESS_UNKNOWN_VALUE, TessStatus};
 use std::mem::{MaybeUninit, size_of};
 use tess_simd::{BatchCounts, Counted, IndexFormat, Numbering, PatchRange, Tessellator};
 
@@ -16,7 +17,8 @@ use tess_simd::{BatchCounts, Counted, IndexFormat, Numbering, PatchRange, Tessel
 struct BatchRoom<'a, P, I> {
     points: P,
     indices: &'a mut [MaybeUninit<I>],
-    ranges: &'a mut [MaybeUninit<PatchRange>],
+    /// `None` if the caller wants none.
+    ranges: Option<&'a mut [MaybeUninit<PatchRange>]>,
     memory: MemoryState,
 }
 
@@ -54,8 +56,12 @@ pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
         points: unsafe { P::new(output.points, points.1) }?,
         // SAFETY: as above.
         indices: unsafe { boundary::room(indices.0, indices.1) }?,
-        // SAFETY: as above; the two structures of ranges have the same layout.
-        ranges: unsafe { boundary::room(ranges.0, ranges.1) }?,
+        ranges: if ranges.0.is_null() {
+            None
+        } else {
+            // SAFETY: as above; the two structures of ranges have the same layout.
+            Some(unsafe { boundary::room(ranges.0, ranges.1) }?)
+        },
         memory,
     };
     let tessellator = &mut batch.tessellator;
@@ -64,16 +70,15 @@ pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     if counted.largest_index(numbering).is_some_and(|largest| largest > I::LARGEST) {
         return Err(TESS_INDEX_TOO_LARGE);
     }
-    let written = match room.of_sizes(needed) {
-        Some(room) if memory.is_initialised() => room.receive(&mut counted, numbering).map(drop),
-        Some(room) => write(tessellator, patches, numbering, room, needed),
-        None => Err(TESS_BUFFER_TOO_SMALL),
-    };
-    if matches!(written, Ok(()) | Err(TESS_BUFFER_TOO_SMALL)) {
-        // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
-        unsafe { boundary::write(counts, needed.into()) }?;
+    // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
+    unsafe { boundary::write(counts, needed.into()) }?;
+    room.check(needed)?;
+    let room = room.split_at(needed).ok_or(TESS_INTERNAL)?.0;
+    if memory.is_initialised() {
+        room.receive(&mut counted, numbering).map(drop)
+    } else {
+        write(tessellator, patches, numbering, room, needed)
     }
-    written
 }
 
 /// The size of a part's output, in bytes, that stays in a core's nearest caches.
@@ -99,42 +104,47 @@ fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
     for part in patches.parts((PART_BYTES / per_patch).clamp(1, PART_PATCHES)) {
         let mut counted = tessellator.count(part.batch()).map_err(|error| status_of(&error))?;
         let counts = counted.counts();
-        let (now, later) = room.split_at(counts).ok_or(crate::status::TESS_INTERNAL)?;
+        let (now, later) = room.split_at(counts).ok_or(TESS_INTERNAL)?;
         let ranges = now.receive(&mut counted, numbering.behind(first.first_point))?;
-        first = shift(ranges, first);
+        for range in ranges.into_iter().flatten() {
+            range.first_point += first.first_point;
+            range.first_index += first.first_index;
+        }
+        first.first_point += narrow(counts.points);
+        first.first_index += narrow(counts.indices);
         room = later;
     }
     Ok(())
 }
 
-/// Moves a part's ranges to where it begins in the batch; gives where the next part begins.
-fn shift(ranges: &mut [PatchRange], first: PatchRange) -> PatchRange {
-    let mut end = first;
-    for range in ranges {
-        range.first_point += first.first_point;
-        range.first_index += first.first_index;
-        end.first_point = range.first_point + range.points;
-        end.first_index = range.first_index + range.indices;
-    }
-    end
+#[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
+const fn narrow(count: usize) -> u32 {
+    count as u32
 }
 
 impl<'a, P: PointRoom<'a>, I: IndexFormat> BatchRoom<'a, P, I> {
-    /// Has a counted batch written into room of exactly its sizes. Gives the ranges.
+    /// Has a counted batch written into room of exactly its sizes. Gives the ranges, if any are wanted.
     fn receive(
         self,
         counted: &mut Counted<'_>,
         numbering: Numbering,
-    ) -> Result<&'a mut [PatchRange], TessStatus> {
-        let ranges = boundary::initialised(self.ranges, self.memory, PatchRange::default());
+    ) -> Result<Option<&'a mut [PatchRange]>, TessStatus> {
+        let initialised =
+            |ranges| boundary::initialised(ranges, self.memory, PatchRange::default());
+        let mut ranges = self.ranges.map(initialised);
         let indices = boundary::initialised(self.indices, self.memory, I::default());
-        let written = self.points.batch(self.memory, counted, numbering, (indices, &mut *ranges));
+        let written =
+            self.points.batch(self.memory, counted, numbering, (indices, ranges.as_deref_mut()));
         written.map(|_| ranges).map_err(|error| status_of(&error))
     }
 
-    /// Its beginning; `None` if it is smaller.
-    fn of_sizes(self, counts: BatchCounts) -> Option<Self> {
-        self.split_at(counts).map(|(first, _)| first)
+    /// Refuses a batch that it has no room for, by the buffer that [`Counted::write`] would name.
+    fn check(&self, needed: BatchCounts) -> Result<(), TessStatus> {
+        if let Some(ranges) = &self.ranges {
+            shortage::check(TESS_BUFFER_RANGES, needed.patches, ranges.len())?;
+        }
+        shortage::check(TESS_BUFFER_POINTS, needed.points, self.points.len())?;
+        shortage::check(TESS_BUFFER_INDICES, needed.indices, self.indices.len())
     }
 
     /// Its beginning and the rest; `None` if it is smaller.
@@ -142,7 +152,13 @@ impl<'a, P: PointRoom<'a>, I: IndexFormat> BatchRoom<'a, P, I> {
         let memory = self.memory;
         let (points, more_points) = self.points.split_at(counts.points)?;
         let (indices, more_indices) = self.indices.split_at_mut_checked(counts.indices)?;
-        let (ranges, more_ranges) = self.ranges.split_at_mut_checked(counts.patches)?;
+        let (ranges, more_ranges) = match self.ranges {
+            Some(ranges) => {
+                let (first, rest) = ranges.split_at_mut_checked(counts.patches)?;
+                (Some(first), Some(rest))
+            }
+            None => (None, None),
+        };
         Some((
             Self { points, indices, ranges, memory },
             Self { points: more_points, indices: more_indices, ranges: more_ranges, memory },

@@ -5,26 +5,27 @@ use super::output::in_formats;
 use super::points::PointRoom;
 use super::{TessBatch, TessBatchOutput, status_of};
 use crate::boundary::{self, MemoryState};
-use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INTERNAL, TessStatus, answer};
+use crate::shortage::{self, TESS_BUFFER_INDICES, TESS_BUFFER_POINTS};
+use crate::status::{TESS_INTERNAL, TessStatus, answer};
 use crate::types::TessCounts;
 use std::mem::MaybeUninit;
 use tess_core::{Counts, DomainPoint, PatchFactors};
 use tess_simd::{Batch, CountedPatch, IndexFormat, Tessellator};
 
-/// Tessellates one patch into the caller's buffers: `tess_batch_run` for those who have one patch at a time,
-/// as drivers, emulators and test benches do.
+/// Tessellates one patch into the caller's buffers: `tess_batch_run` for callers that have one patch at a
+/// time, such as drivers, emulators and test benches.
 ///
-/// `factors` holds the factors of one patch: 2, 4 or 6 floats. Of `output` the ranges, the numbering and
-/// `base_vertex` are ignored; indices count from the patch's first point. With `TESS_OK` the output is
-/// written and `counts` has its sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is
-/// needed; with any other status nothing is. Up to 64 elements behind the output are overwritten in either
-/// buffer, as far as it has room for them; a call is fastest where it has. Buffers, factors and `counts`
-/// must not overlap (`TESS_OVERLAP`).
+/// `factors` holds the factors of one patch: 2, 4 or 6 floats. The ranges, numbering and `base_vertex` of
+/// `output` are ignored; indices count from the patch's first point. With `TESS_OK` the output is
+/// written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the
+/// sizes that are needed; `tess_shortage` names the buffer. With any other status nothing is written. Up to 64 elements past the output may be overwritten in either
+/// buffer, as far as it has room for them; a call with that much room is the fastest. Buffers, factors and
+/// `counts` must not overlap (`TESS_OVERLAP`).
 ///
 /// A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of 2022 with
-/// AVX-512). With `TESS_MEMORY_INITIALISED` and the factors of the patch before, it takes 19 ns and 28 ns on one of
-/// 2024. It takes less than `tess_batch_run` with one patch, which counts twice. Large patches cost what they
-/// cost there. A call allocates where a patch has point counts that this batch has not met before; after
+/// AVX-512). With `TESS_MEMORY_INITIALISED` and the same factors as the previous patch, it takes 19 ns and
+/// 28 ns on a server of 2024. It is faster than `tess_batch_run` with one patch, which counts twice; for large
+/// patches the two take equally long. A call allocates where a patch has point counts that this batch has not met before; after
 /// `tess_batch_reserve` none does.
 ///
 /// # Safety
@@ -105,26 +106,35 @@ unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
 fn write<'a, F: Copy + Into<PatchFactors>, P: PointRoom<'a>, I: IndexFormat>(
     tessellator: &mut Tessellator,
     factors: F,
-    (mut points, mut indices): (P, &mut [MaybeUninit<I>]),
+    (mut points, mut indices): (P, &'a mut [MaybeUninit<I>]),
     memory: MemoryState,
 ) -> (Result<(), TessStatus>, Counts) {
     if !memory.is_initialised() {
         let needed = tessellator.count_patch(factors).counts();
-        let part = |needed: u32, room: usize| {
-            let most = room.min(needed as usize + CountedPatch::OVERRUN);
-            (needed as usize <= room).then_some(most)
-        };
-        let parts = part(needed.points, points.len()).zip(part(needed.indices, indices.len()));
-        let first =
-            parts.and_then(|(end, more)| Some((points.split_at(end)?.0, &mut indices[..more])));
-        let Some(first) = first else {
-            return (Err(TESS_BUFFER_TOO_SMALL), needed);
-        };
-        (points, indices) = first;
+        match room_of(needed, points, indices) {
+            Ok(room) => (points, indices) = room,
+            Err(status) => return (Err(status), needed),
+        }
     }
     let indices = boundary::initialised(indices, memory, I::default());
     match points.patch(memory, tessellator, factors, indices) {
         Ok(written) => (Ok(()), written),
         Err(error) => (Err(status_of(&error)), tessellator.count_patch(factors).counts()),
     }
+}
+
+/// The room that a patch of these sizes may write.
+fn room_of<'a, P: PointRoom<'a>, I>(
+    needed: Counts,
+    points: P,
+    indices: &'a mut [MaybeUninit<I>],
+) -> Result<(P, &'a mut [MaybeUninit<I>]), TessStatus> {
+    let (point_count, index_count) = (needed.points as usize, needed.indices as usize);
+    shortage::check(TESS_BUFFER_POINTS, point_count, points.len())?;
+    shortage::check(TESS_BUFFER_INDICES, index_count, indices.len())?;
+    let most = |needed: usize, room: usize| room.min(needed + CountedPatch::OVERRUN);
+    let (point_end, index_end) =
+        (most(point_count, points.len()), most(index_count, indices.len()));
+    let (points, _) = points.split_at(point_end).ok_or(TESS_INTERNAL)?;
+    Ok((points, &mut indices[..index_end]))
 }

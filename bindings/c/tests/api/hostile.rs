@@ -8,15 +8,29 @@ use tess_capi::probe::{
     tess_locate_primitive, tess_place, tess_point, tess_primitive,
 };
 use tess_capi::process::{TessProcessedPatch, tess_process};
+use tess_capi::shortage::{TESS_BUFFER_INDICES, TESS_BUFFER_POINTS, TessShortage, tess_shortage};
 use tess_capi::status::{
     TESS_BUFFER_TOO_SMALL, TESS_MISALIGNED, TESS_NOT_A_CONTEXT, TESS_NULL_POINTER, TESS_OK,
-    TESS_OVERLAP, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus,
+    TESS_OUT_OF_RANGE, TESS_OVERLAP, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT,
+    TessStatus,
 };
 use tess_capi::types::{TessConfig, TessContext, TessCounts, TessPoint};
 
 /// A quad that is fine; integer, triangles, ruler.
 static CONFIG: TessConfig = TessConfig { domain: 2, partitioning: 0, output: 2, split: 0 };
 static FACTORS: [f32; 6] = [3.0, 4.0, 5.0, 6.0, 4.0, 7.0];
+
+/// What was too small in this thread's last call that said so: the buffer, needed and got.
+fn shortage() -> Option<(u32, usize, usize)> {
+    let mut told = TessShortage { buffer: 9, needed: 9, got: 9 };
+    match unsafe { tess_shortage(&mut told) } {
+        TESS_OK => Some((told.buffer, told.needed, told.got)),
+        status => {
+            assert_eq!((status, told.buffer), (TESS_OUT_OF_RANGE, 9), "nothing is written");
+            None
+        }
+    }
+}
 
 /// The same pointer, one byte on.
 fn askew<T>(pointer: *mut T) -> *mut T {
@@ -125,8 +139,12 @@ fn buffers_of_patches() {
         status
     };
     assert_eq!(call(p, n - 1, i, m), TESS_BUFFER_TOO_SMALL, "one point too few");
+    assert_eq!(shortage(), Some((TESS_BUFFER_POINTS, n, n - 1)), "one point too few");
     assert_eq!(call(p, n, i, m - 1), TESS_BUFFER_TOO_SMALL, "one index too few");
+    assert_eq!(shortage(), Some((TESS_BUFFER_INDICES, m, m - 1)), "one index too few");
     assert_eq!(call(null_mut(), 0, null_mut(), 0), TESS_BUFFER_TOO_SMALL, "no buffers");
+    assert_eq!(shortage(), Some((TESS_BUFFER_POINTS, n, 0)), "no buffers");
+    assert_eq!(std::thread::spawn(shortage).join().ok(), Some(None), "another thread's call");
     assert_eq!(call(null_mut(), n, i, m), TESS_NULL_POINTER, "null points");
     assert_eq!(call(p, n, null_mut(), m), TESS_NULL_POINTER, "null indices");
     assert_eq!(call(askew(p), n, i, m), TESS_MISALIGNED, "points askew");

@@ -124,6 +124,38 @@ fn first_difference(observed: &str, expected: &str) -> Option<String> {
     (observed != expected).then(|| format!("{observed} lines, expected {expected}"))
 }
 
+pub(crate) fn cpp_names_small_buffers() -> Result<(), Failed> {
+    let program = build_folder().join("refusals");
+    let mut command = Command::new("c++");
+    command.arg("-std=c++17").args(STRICT).arg("-I").arg(crate_folder().join("include"));
+    command.arg(crate_folder().join("tests/foreign/refusals.cpp")).arg(libraries()?.archive);
+    run(command.args(SYSTEM_LIBRARIES).arg("-o").arg(&program))?;
+    run(&mut Command::new(program))?;
+    Ok(())
+}
+
+/// `tests/foreign/threads.c`.
+fn threads_program(name: &str) -> Result<Command, String> {
+    let program = build_folder().join(name);
+    let mut command = Command::new("cc");
+    command.arg("-std=c99").args(STRICT).arg("-I").arg(crate_folder().join("include"));
+    command.arg(crate_folder().join("tests/foreign/threads.c")).arg(libraries()?.archive);
+    run(command.args(SYSTEM_LIBRARIES).arg("-o").arg(&program))?;
+    Ok(Command::new(program))
+}
+
+pub(crate) fn forked_children_have_threads() -> Result<(), Failed> {
+    run(threads_program("threads-fork")?.arg("fork").env("RAYON_NUM_THREADS", "3"))?;
+    Ok(())
+}
+
+/// No thread has a stack of 64 TiB.
+pub(crate) fn no_threads_is_a_status() -> Result<(), Failed> {
+    let stack = (1_u64 << 46).to_string();
+    run(threads_program("threads-none")?.arg("none").env("RUST_MIN_STACK", stack))?;
+    Ok(())
+}
+
 /// The fuzz example, with the `main` that runs it without a fuzzer.
 fn compile_fuzz(compiler: &str, flags: &[&str], name: &str) -> Result<PathBuf, String> {
     let program = build_folder().join(name);

@@ -9,6 +9,9 @@ use tess_capi::batch::{
     TESS_INDEX_U16, TESS_NUMBERING_PER_BATCH, TESS_POINT_F32_APART, TessBatchCounts,
     TessBatchOutput,
 };
+use tess_capi::shortage::{
+    TESS_BUFFER_INDICES, TESS_BUFFER_POINTS, TESS_BUFFER_RANGES, TessShortage, tess_shortage,
+};
 use tess_capi::status::{
     TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_MISALIGNED, TESS_NULL_POINTER, TESS_OK,
     TESS_OVERLAP, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus,
@@ -42,6 +45,8 @@ pub(crate) struct Arguments {
     refused: Vec<TessStatus>,
     /// Statuses that refuse it then.
     unfit: Vec<TessStatus>,
+    /// The first buffer that is too small.
+    shortage: Option<TessShortage>,
 }
 
 impl Arguments {
@@ -87,6 +92,7 @@ impl Arguments {
             base_vertex: model.base(to.base, largest_index(to)),
             refused: Vec::new(),
             unfit: Vec::new(),
+            shortage: None,
         };
         arguments.spoil(wrong);
         arguments.judge_pointers();
@@ -176,20 +182,29 @@ impl Arguments {
 
     fn judge_sizes(&mut self, model: &Model, to: &To) {
         let needed = model.sizes();
+        let (points, indices) = ((TESS_BUFFER_POINTS, 0), (TESS_BUFFER_INDICES, 1));
         let asked = match self.way {
-            BatchCall::Count => 0,
-            BatchCall::Batch => 3,
-            BatchCall::Single => 2,
+            BatchCall::Count => vec![],
+            BatchCall::Batch if self.has_ranges() => {
+                vec![(TESS_BUFFER_RANGES, 2), points, indices]
+            }
+            BatchCall::Batch | BatchCall::Single => vec![points, indices],
         };
-        if self.capacities[..asked].iter().zip(needed).any(|(&capacity, needed)| capacity < needed)
-        {
-            self.unfit.push(TESS_BUFFER_TOO_SMALL);
-        }
+        self.shortage = asked.into_iter().find_map(|(buffer, i)| {
+            let (needed, got) = (needed[i], self.capacities[i]);
+            (got < needed).then_some(TessShortage { buffer, needed, got })
+        });
+        self.unfit.extend(self.shortage.map(|_| TESS_BUFFER_TOO_SMALL));
         let end = u64::from(self.base_vertex) + needed[0] as u64;
         let is_numbered = self.way == BatchCall::Batch && to.numbering == TESS_NUMBERING_PER_BATCH;
         if is_numbered && needed[0] > 0 && end - 1 > u64::from(largest_index(to)) {
             self.unfit.push(TESS_INDEX_TOO_LARGE);
         }
+    }
+
+    /// Whether the caller wants ranges.
+    pub(crate) fn has_ranges(&self) -> bool {
+        !self.at[BufferName::Ranges as usize].is_null()
     }
 
     fn output(&self, to: &To) -> TessBatchOutput {
@@ -219,7 +234,19 @@ impl Arguments {
         let right = if refused.is_empty() { &self.unfit } else { &refused };
         let is_right = if right.is_empty() { status == TESS_OK } else { right.contains(&status) };
         let right = if right.is_empty() { &vec![TESS_OK] } else { right };
-        if is_right { Ok(()) } else { Err(format!("status {status}, not one of {right:?}")) }
+        if !is_right {
+            return Err(format!("status {status}, not one of {right:?}"));
+        }
+        if status == TESS_BUFFER_TOO_SMALL { self.check_shortage() } else { Ok(()) }
+    }
+
+    fn check_shortage(&self) -> Result<(), String> {
+        let mut told = TessShortage { buffer: 9, needed: 0, got: 0 };
+        let status = unsafe { tess_shortage(&mut told) };
+        match (status, self.shortage) {
+            (TESS_OK, Some(expected)) if told == expected => Ok(()),
+            (_, expected) => Err(format!("tess_shortage: {status}, {told:?}, not {expected:?}")),
+        }
     }
 
     /// Where coordinate 0 or 1 of a point lies, in words.

@@ -49,7 +49,7 @@ pub(crate) fn put_output(images: &mut [Image], given: &Arguments, model: &Model,
                 _ => *image.element(at) = index.to_ne_bytes(),
             }
         }
-        if given.way == BatchCall::Batch {
+        if given.way == BatchCall::Batch && given.has_ranges() {
             let TessRange { first_point, points, first_index, indices } = range;
             let image = &mut images[BufferName::Ranges as usize];
             put_words(image, 4 * number, [first_point, points, first_index, indices]);

@@ -2,12 +2,13 @@
 
 
 class TessError(ValueError):
-    """The base of this package's errors."""
+    """The base of this package's errors. Itself, it means that the system refused something, such as more
+    threads."""
 
 
 class ArgumentError(TessError):
-    """An argument that stands for nothing: an unknown name, a wrong number of factors, an array of
-    another type or shape, a batch that 32 bits cannot count."""
+    """An argument with no meaning: an unknown name, a wrong number of factors, an array of another type
+    or shape, a batch that 32 bits cannot count."""
 
 
 class NoSuchElementError(TessError, IndexError):

@@ -1,4 +1,4 @@
-"""The values that the model gives: named tuples.
+"""The model's results: named tuples.
 
 Numbers are exact. ``16.16`` is an integer whose unit is 1/65536; ``15.16`` likewise, for factors;
 ``bits`` are those of a binary32 number.
@@ -22,7 +22,7 @@ class Counts(NamedTuple):
 
 
 class FactorContext(NamedTuple):
-    """The numbers that a factor's points are placed with (specification, section 4)."""
+    """The numbers that place a factor's points (specification, section 4)."""
 
     parity: str
     """``even`` or ``odd``: the number of segments."""
@@ -64,7 +64,7 @@ class ProcessedFactor(NamedTuple):
 
 
 class Blend(NamedTuple):
-    """The two places that a location lies between, 16 fraction bits each."""
+    """The two places on either side of a location, 16 fraction bits each."""
 
     coarse: int
     fine: int
@@ -76,7 +76,7 @@ class Placement(NamedTuple):
     """A location in one dimension with every step (specification, section 5)."""
 
     flip: bool
-    """Whether the point lies on the second half of the edge, or in its middle."""
+    """Whether the point is on the second half of the edge, or in its middle."""
     position: int
     """On the half edge: 0..half_points."""
     blend: Optional[Blend]

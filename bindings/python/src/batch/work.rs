@@ -1,7 +1,6 @@
 //! How a batch is written: at once, or in parts if that takes long enough to press Ctrl-C.
 
 use crate::errors;
-use crate::threads::Threads;
 use pyo3::prelude::*;
 use tess_simd::{
     Batch, BatchBuffer, BatchCounts, Buffers, Counted, Error, IndexFormat, Numbering, OutputPoint,
@@ -13,7 +12,6 @@ const MOST_BYTES: usize = 64 << 20;
 
 /// A counted batch, to be written.
 pub(super) struct BatchWork<'a> {
-    pub(super) threads: &'a Threads,
     pub(super) numbering: Numbering,
     pub(super) how: How<'a>,
 }
@@ -62,11 +60,11 @@ impl BatchWork<'_> {
         py: Python<'_>,
         mut room: ArrayRoom<'_, P, I>,
     ) -> PyResult<()> {
-        let Self { threads, numbering, how } = self;
+        let Self { numbering, how } = self;
         let (tessellator, batch, sizes) = match how {
             How::AtOnce(mut counted) => {
                 let write = || counted.write(numbering, room.buffers());
-                py.detach(|| threads.run(write)).map_err(errors::batch)?;
+                py.detach(write).map_err(errors::batch)?;
                 return Ok(());
             }
             How::Parts { tessellator, batch, sizes } => (tessellator, batch, sizes),
@@ -81,7 +79,7 @@ impl BatchWork<'_> {
             let part = batch.get(done..done + patches.min(left.patches));
             let part = part.ok_or_else(|| errors::argument("a part past the end of the batch"))?;
             let write = || write_part(tessellator, part, numbering, first, room.rest(sizes, left));
-            let written = py.detach(|| threads.run(write)).map_err(errors::batch)?;
+            let written = py.detach(write).map_err(errors::batch)?;
             let Some(counts) = written else {
                 patches /= 2;
                 continue;

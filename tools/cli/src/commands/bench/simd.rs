@@ -78,8 +78,8 @@ impl<I: IndexFormat + Into<u32>> Kernel for SimdKernel<I> {
     fn take(&mut self, workload: &Workload) -> Result<(), BackendError> {
         let tessellator = Tessellator::with_level(workload.config, self.level)
             .map_err(BackendError::new)?
-            .threads(self.pool.current_num_threads())
-            .order(self.order);
+            .with_threads(self.pool.current_num_threads())
+            .with_order(self.order);
         let patches = OwnedBatch::try_from(&workload.patches[..]).map_err(BackendError::new)?;
         self.taken = Some((tessellator, patches));
         self.single = match workload.calls {
