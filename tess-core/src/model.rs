@@ -1,7 +1,7 @@
 //! The specification's stages, one after another, and nothing else: start here.
 //!
 //! Floats end in `factors`. Counts and random access are in `closed_form`, another order of triangles in `cache_order`,
-//! and what HLSL does in front in `prepare`. Read in this order; each line has its sections of the specification.
+//! and HLSL's factor preparation in `prepare`. Read in this order; each line has its sections of the specification.
 //!
 //! ```text
 //! raw factors -> factors -> factor_context -> place -> points   -> sink

@@ -1,4 +1,8 @@
-//! Factor preparation: what HLSL generates in front of the tessellator (spec section 9).
+//! Factor preparation: HLSL's `Process...TessFactors` functions (spec section 9).
+//!
+//! The form is that of Direct3D 11 (Shader Model 5, compiler FXC). DXC (Shader Model 6) generates
+//! another one, which no public document defines and this crate does not have; section 9 lists the
+//! differences.
 //!
 //! Optional. It turns the outer factors and inside scales that a hull shader asks for into
 //! *unrounded* factors, which are reported back to the shader, and *rounded* ones, which are
