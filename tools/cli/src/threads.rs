@@ -7,21 +7,19 @@ use std::thread::{Builder, available_parallelism, scope};
 /// The most threads that are tried.
 const MOST: usize = 1024;
 
-/// Starts rayon's pool with the threads that can be started, if these are fewer than it would start by
-/// itself, which would panic. Without any, the pool is this thread.
+/// Starts rayon's pool with the threads that can be started, at most [`MOST`]. By itself it panics where
+/// there are fewer than it wants, and starts tens of thousands if `RAYON_NUM_THREADS` asks for them.
+/// Without any, the pool is this thread.
 pub(crate) fn start_pool() {
     let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
     let asked = asked.filter(|&number: &usize| number > 0);
     let wanted = asked.unwrap_or_else(|| available_parallelism().map_or(1, usize::from)).min(MOST);
-    let there = startable(wanted);
-    if there < wanted {
-        let pool = match there {
-            0 => ThreadPoolBuilder::new().num_threads(1).use_current_thread(),
-            _ => ThreadPoolBuilder::new().num_threads(there),
-        };
-        // It fails if there is a pool already, which is as good.
-        _ = pool.build_global();
-    }
+    let pool = match startable(wanted) {
+        0 => ThreadPoolBuilder::new().num_threads(1).use_current_thread(),
+        there => ThreadPoolBuilder::new().num_threads(there),
+    };
+    // It fails if there is a pool already, which is as good.
+    _ = pool.build_global();
 }
 
 /// How many threads, up to the number that is wanted, can run beside this one now.

@@ -16,6 +16,22 @@ pub(crate) fn refused(input: &Path, options: &str, message: &str) {
     assert!(!out.exists(), "{name}: no output");
 }
 
+/// A device may have no end, and a link leads to it.
+#[cfg(unix)]
+#[test]
+fn devices_are_not_models() {
+    let folder = directory("mesh_devices");
+    for name in ["model.obj", "model.gltf", "model.glb", "model.bpt"] {
+        let model = folder.join(name);
+        std::os::unix::fs::symlink("/dev/zero", &model).expect("a link");
+        refused(&model, "--factor 1", "it is not an ordinary file");
+    }
+    let large = folder.join("large.obj");
+    let file = fs::File::create(&large).expect("a file");
+    file.set_len((1 << 32) + 1).expect("a sparse file");
+    refused(&large, "--factor 1", "it is larger than 4 GiB");
+}
+
 #[test]
 fn obj_lines_that_are_no_obj_are_named() {
     let folder = directory("mesh_obj_lines");

@@ -39,3 +39,11 @@ fn commands_run_without_threads() {
         }
     }
 }
+
+/// rayon would start all of them, which takes minutes.
+#[test]
+fn tens_of_thousands_of_threads_are_not_started() {
+    let folder = directory("tens_of_thousands_of_threads");
+    let mesh = "timeout 60 env RAYON_NUM_THREADS=20000 $TESS mesh --factor 1 -o teapot.obj";
+    shell(mesh, &folder).exits(0);
+}

@@ -13,7 +13,8 @@ mod obj;
 mod text;
 
 use crate::failure::Failure;
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use tess_surface::{MeshError, MeshFault, Model, PolygonMesh, Style, teapot};
 
@@ -119,8 +120,25 @@ fn style_of_patches(what: &str) -> Failure {
     ))
 }
 
+/// The most bytes of a model file: a GLB has no more.
+const MOST_BYTES: u64 = 1 << 32;
+
+/// Reads a model file. Refuses devices and pipes, which may have no end.
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    fs::read(path).map_err(|error| Failure::file("read", path, &error))
+    let cannot = |error: std::io::Error| Failure::file("read", path, &error);
+    let found = fs::metadata(path).map_err(cannot)?;
+    let refused = |why: &str| Failure::bad_input(format!("cannot read {}: {why}", path.display()));
+    if !found.is_file() {
+        return Err(refused("it is not an ordinary file"));
+    }
+    if found.len() > MOST_BYTES {
+        return Err(refused("it is larger than 4 GiB"));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(MOST_BYTES).read_to_end(&mut bytes))
+        .map_err(cannot)?;
+    Ok(bytes)
 }
 
 /// The model of a polygon mesh, without what has collapsed.
