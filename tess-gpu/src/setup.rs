@@ -30,6 +30,10 @@ pub enum Numbering {
 pub enum IndexType {
     /// 16 bits: enough for any one patch ([`Numbering::PerPatch`]), and for a batch of up to 65536
     /// points. A larger batch with [`Numbering::PerBatch`] does not fit, whatever room a [`crate::Plan`] is given.
+    ///
+    /// The index 65535 restarts primitives in WebGL 2, in WebGPU with strips, and in other interfaces
+    /// where primitive restart is on. Give the plan room for at most
+    /// [`IndexType::points_without_restart`] points there.
     U16,
     /// 32 bits.
     #[default]
@@ -43,6 +47,16 @@ impl IndexType {
         match self {
             Self::U16 => 2,
             Self::U32 => 4,
+        }
+    }
+
+    /// The points that [`Numbering::PerBatch`] numbers without the largest index, which restarts
+    /// primitives: 65 535, or 2^32 - 1.
+    #[must_use]
+    pub const fn points_without_restart(self) -> u32 {
+        match self {
+            Self::U16 => u16::MAX as u32,
+            Self::U32 => u32::MAX,
         }
     }
 }

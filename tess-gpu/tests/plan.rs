@@ -167,6 +167,31 @@ fn rows_keep_to_the_limit() {
     }
 }
 
+/// Each group has a thread: the last workgroup may have fewer of them.
+#[test]
+fn every_group_has_a_thread() {
+    for (groups, expected) in [(1, 1), (63, 1), (64, 1), (65, 2), (128, 2), (129, 3)] {
+        let plan = Plan::new(quads(), 5000, ALL, Limits::WEBGPU).with_groups(groups);
+        let dispatch = plan.dispatches().find(|it| it.stage() == Stage::Groups);
+        let workgroups = dispatch.map(|dispatch| dispatch.workgroups());
+        assert_eq!(workgroups, Some(Workgroups::Direct([expected, 1, 1])), "{groups} groups");
+    }
+}
+
+/// Room for one point fewer than 16 bits number leaves out the index that restarts primitives.
+#[test]
+fn sixteen_bits_without_the_restart_index() {
+    let setup = Setup { index_type: IndexType::U16, ..quads() };
+    let points = IndexType::U16.points_without_restart();
+    assert_eq!((points, IndexType::U32.points_without_restart()), (65_535, u32::MAX));
+    let room = |points| {
+        let plan = Plan::new(setup, 5000, Capacity { points, ..ALL }, Limits::WEBGPU);
+        plan.buffer_size(Resource::Points)
+    };
+    assert_eq!(room(points), 8 * 65_535, "no point of number 65535");
+    assert_eq!(room(u32::MAX), 8 * 65_536, "as many as 16 bits number");
+}
+
 /// A tile holds points or primitives, so each output has its own last tile.
 #[test]
 fn a_short_batch_has_tiles_for_each_output() {
