@@ -144,6 +144,18 @@ fn catalogue() {
     }
 }
 
+/// As many blocks, and as many patches in the last block, as the steps of the search in the table of tiles add up to,
+/// and one more. Each patch has several tiles, so that every patch is looked for.
+#[test]
+fn searches_end_at_every_step() {
+    let mut machine = Machine::open();
+    let setup = Setup { copies: Copies::Never, ..setup(Domain::Quad, Partitioning::Integer) };
+    for patches in [15, 16, 17, 31, 32, 33, 63, 64, 65, 1025, 1040, 1041, 1056, 1057] {
+        let batch = Batch::new(setup, of(Domain::Quad, patches, &[15.0, 16.0, 17.0])).long();
+        assert_equal(&mut machine, &batch);
+    }
+}
+
 /// More topologies than the catalogue has slots and room for.
 pub(crate) fn too_many() -> Batch {
     let patches = of(Domain::Quad, CATALOGUE_PATCHES, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);

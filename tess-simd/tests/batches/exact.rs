@@ -5,7 +5,7 @@ use tess_core::{
     Config, Domain, DomainPoint, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
     SplitOrder, Tessellation, TriangleFactors,
 };
-use tess_simd::{Level, Numbering, Output, Tessellator};
+use tess_simd::{IndexFormat, Level, Numbering, Output, PatchRange, Tessellator};
 use tess_testkit::levels::levels;
 use tess_verify::generate::SplitMix64;
 
@@ -128,6 +128,45 @@ fn every_pair_of_counts() {
             }
         }
     }
+}
+
+/// A run of more equal patches than 16 bits count, numbered through the batch: minimum triangles, of which
+/// patch k has the points 3k to 3k + 2.
+#[test]
+fn long_runs() {
+    const PATCHES: u32 = 70_000;
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let patches = vec![TriangleFactors { u0: 1.0, v0: 1.0, w0: 1.0, inside: 1.0 }; 70_000];
+    let one = PatchFactors::from(patches[0]);
+    let Tessellation { points, indices } = tess_core::Patch::new(config, one).tessellate();
+    for level in levels() {
+        let mut output = Output::<DomainPoint, u32>::new();
+        let numbering = Numbering::PerBatch { base_vertex: 5 };
+        let counts = tessellator(config, level).tessellate(&patches, numbering, &mut output);
+        assert!(counts.is_ok_and(|counts| counts.patches == 70_000), "{level}");
+        let all = (0..PATCHES).zip(output.ranges());
+        for (k, &range) in all {
+            let expected =
+                PatchRange { first_point: 3 * k, points: 3, first_index: 3 * k, indices: 3 };
+            assert_eq!(range, expected, "{level}, patch {k}");
+            let (of_patch, numbers) = output.patch(k as usize).expect("a patch of the batch");
+            assert_eq!(of_patch, points, "{level}, points of patch {k}");
+            let expected = indices.iter().map(|index| 5 + 3 * k + index);
+            assert!(numbers.iter().copied().eq(expected), "{level}, patch {k}: {numbers:?}");
+        }
+    }
+}
+
+/// The points that 16 bits number without the index that restarts primitives: 21 845 triangles.
+#[test]
+fn sixteen_bits_without_the_restart_index() {
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let patches = vec![TriangleFactors { u0: 1.0, v0: 1.0, w0: 1.0, inside: 1.0 }; 21_845];
+    let mut tessellator = Tessellator::new(config);
+    let counted = tessellator.count(&patches).expect("few patches");
+    let (points, numbering) = (counted.points() as u64, Numbering::PerBatch { base_vertex: 0 });
+    assert_eq!(points, <u16 as IndexFormat>::POINTS_WITHOUT_RESTART);
+    assert_eq!(counted.largest_index(numbering), Some(<u16 as IndexFormat>::LARGEST - 1));
 }
 
 /// The comparison above sees a fault in any element.

@@ -1,6 +1,7 @@
-//! Ranges of groups.
+//! Ranges of groups, and batches in parts.
 
-use tess_simd::{BadGroup, PatchRange, group_ranges};
+use tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
+use tess_simd::{BadGroup, Numbering, Output, PatchRange, Tessellator, group_ranges};
 
 /// Three patches of 4, 0 and 9 points, and of 6, 0 and 24 indices.
 const RANGES: [PatchRange; 3] = [
@@ -30,4 +31,26 @@ fn groups_that_cannot_be() {
     assert_eq!(bad(&[0, 4]), Some(past), "past the end");
     let back = BadGroup { group: 2, start: 1, lowest: 2, patches: 3 };
     assert_eq!(bad(&[0, 2, 1]), Some(back), "back");
+}
+
+/// A batch in two parts has the indices of the whole batch, if the second part is numbered behind the first.
+#[test]
+fn a_part_is_numbered_behind_the_parts_before_it() {
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let patches = [2.0, 3.0, 5.0, 1.0].map(QuadFactors::uniform);
+    let mut tessellator = Tessellator::new(config);
+    let mut indices = |patches: &[QuadFactors], numbering| {
+        let mut output = Output::<[f32; 2], u32>::new();
+        let counts = tessellator.tessellate(patches, numbering, &mut output).expect("it fits");
+        let points = u32::try_from(counts.points).expect("a few");
+        (points, output.indices().to_vec())
+    };
+    for numbering in [Numbering::PerPatch, Numbering::PerBatch { base_vertex: 1000 }] {
+        let (_, whole) = indices(&patches, numbering);
+        let (first_point, mut parts) = indices(&patches[..2], numbering);
+        parts.extend(indices(&patches[2..], numbering.behind(first_point)).1);
+        assert_eq!(parts, whole, "{numbering:?}");
+    }
+    let end = Numbering::PerBatch { base_vertex: u32::MAX };
+    assert_eq!(end.behind(2), Numbering::PerBatch { base_vertex: 1 }, "modulo 2^32");
 }

@@ -1,7 +1,7 @@
 //! The tests that cull, at their bounds; `tess-wgpu` compares the same functions in WGSL with these.
 
-use glam::{Vec3, Vec4};
-use tess_surface::culling::{faces_away, is_behind};
+use glam::{Mat4, Vec3, Vec4};
+use tess_surface::culling::{faces_away, is_behind, is_outside};
 
 /// Balls of radius 2 below the plane z = 0, whose normal has the length 2.
 #[test]
@@ -11,6 +11,24 @@ fn a_ball_that_touches_a_plane_is_not_behind_it() {
     {
         let center = Vec3::new(7.0, -3.0, z);
         assert_eq!(is_behind(plane, center, 2.0), expected, "centre at {z}");
+    }
+}
+
+/// The view of this projection is x in -2..=2, y in -3..=3, z in 0..=4. A ball of radius 0.5 that touches a plane
+/// from outside is not outside, one a step farther away is.
+#[test]
+fn a_ball_is_outside_behind_any_of_six_planes() {
+    let view = Mat4::from_scale(Vec3::new(0.5, 1.0 / 3.0, 0.25));
+    let inside = Vec3::new(0.25, -0.5, 2.0);
+    assert!(!is_outside(&view, inside, 0.5), "a ball within the view");
+    for (axis, touching) in [(0, -2.5), (0, 2.5), (1, -3.5), (1, 3.5), (2, -0.5), (2, 4.5_f32)] {
+        let ball = |coordinate: f32| {
+            let mut center = inside;
+            center[axis] = coordinate;
+            is_outside(&view, center, 0.5)
+        };
+        assert!(!ball(touching * 0.999), "axis {axis}: it touches the plane at {touching}");
+        assert!(ball(touching * 1.001), "axis {axis}: behind the plane at {touching}");
     }
 }
 

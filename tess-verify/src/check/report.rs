@@ -208,3 +208,36 @@ pub enum CheckError {
     #[error("{0}")]
     Backend(#[from] BackendError),
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::SpecStage;
+
+    /// Workers finish in any order.
+    #[test]
+    fn differences_of_workers_are_in_the_order_of_the_file() {
+        let found = |numbers: &[u64]| {
+            let mut report = Report::default();
+            for &number in numbers {
+                let (element, stage) = (Element::Record, SpecStage::Answer);
+                let (observed, expected) = ("none".to_owned(), "an answer".to_owned());
+                let mismatch = Mismatch { element, observed, expected, stage };
+                report.differ(Difference::new(number, None, mismatch, None));
+            }
+            report
+        };
+        let mut report = found(&[7, 12]);
+        report.add(found(&[3, 30]));
+        report.add(found(&(8..11).collect::<Vec<_>>()));
+        let numbers = |report: &Report| -> Vec<u64> {
+            report.differences.iter().map(|difference| difference.number).collect()
+        };
+        assert_eq!(numbers(&report), [3, 7, 8, 9, 10, 12, 30]);
+        report.add(found(&(100..130).collect::<Vec<_>>()));
+        report.add(found(&[1]));
+        assert_eq!(report.mismatches, 38);
+        let first = [1, 3, 7, 8, 9, 10, 12, 30].into_iter().chain(100..112);
+        assert!(numbers(&report).into_iter().eq(first), "the first {MAX_DIFFERENCES}");
+    }
+}

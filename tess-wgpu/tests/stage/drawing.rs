@@ -186,6 +186,24 @@ fn an_engine_draws_groups_with_its_own_pipeline() {
     assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "the pass's pipeline");
 }
 
+/// As many groups as before are copied in the next frame. If others follow before it, only these count.
+#[test]
+fn the_last_groups_before_a_frame_count() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let mut stage = scene.build(scene.builder().groups(&[0, 3]));
+    stage.set_groups(&[0, 5]).expect("as many as before");
+    stage.set_groups(&[0, 1, 7]).expect("more than before");
+    for (group, range) in [(0, 0..1), (1, 1..7), (2, 7..8)] {
+        let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
+            stage.draw_group(pass, group).expect("it is there");
+        });
+        let mut patches = vec![PatchFactors::uniform(Domain::Quad, 0.0); 8];
+        patches[range.clone()].clone_from_slice(&scene.patches[range]);
+        let expected = scene.pixels(&patches);
+        assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "group {group}");
+    }
+}
+
 #[test]
 fn misplaced_groups_leave_the_stage_as_it_was() {
     let scene = scene(Domain::Quad, Partitioning::Integer);

@@ -187,6 +187,31 @@ fn dynamic_offsets_choose_factors() {
     assert_eq!(stage.set_dynamic_offsets(1, &[0]).err(), Some(none.into()));
 }
 
+/// A second bind group, whose offset chooses the number that the domain function adds to the patch's.
+#[test]
+fn dynamic_offsets_of_later_groups_reach_the_draw() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let mut words = [0_u32; 65];
+    (words[0], words[64]) = (10, 20);
+    let added =
+        scene.gpu.upload("added", bytemuck::cast_slice(&words), Usage::STORAGE).expect("room");
+    let ty = wgpu::BufferBindingType::Storage { read_only: true };
+    let (layout, _) = bound(&scene, (true, ty), &added);
+    let group = group(&scene.gpu.device, &layout, [(0, part(&added, 0, 4))]);
+    let source = crate::scene::source(Domain::Quad).replace("uv, number);", "uv, number + added);");
+    let source = format!("@group(1) @binding(0) var<storage, read> added: u32;\n{source}");
+    let builder = scene.builder_of(&source).bind_group(&layout, &group).room(Room::WorstCase);
+    let mut stage = scene.build(builder);
+    for (offset, sum) in [(0, 10), (256, 20), (0, 10)] {
+        stage.set_dynamic_offsets(1, &[offset]).expect("there is one of this number");
+        let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+        let mut expected = scene.pixels(&scene.patches);
+        let drawn = expected.iter_mut().flatten().filter(|pixel| pixel[3] == 1);
+        drawn.for_each(|pixel| pixel[2] += sum);
+        assert_eq!(compare(&observed, &expected), Ok(()), "from byte {offset}");
+    }
+}
+
 #[test]
 fn factors_of_the_hull_can_be_read() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
