@@ -190,7 +190,8 @@ impl Coverage {
         (py.get_type::<Self>(), (), (self.to_ucis(), last.map(|case| case.to_string())))
     }
 
-    fn __setstate__(&self, (ucis, last): CoverageState) -> PyResult<()> {
+    fn __setstate__(&self, state: CoverageState) -> PyResult<()> {
+        let (ucis, last) = state;
         let coverage = tess_verify::cover::Coverage::read_ucis(ucis.as_bytes());
         let last = last.map(|line| line.parse().map_err(argument)).transpose()?;
         *self.lock() = coverage.map_err(file_format)?;
