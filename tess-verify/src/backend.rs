@@ -1,8 +1,9 @@
 //! The interface between a comparison and an implementation, stage by stage.
 
+use crate::case::Case;
 use std::error::Error;
 use tess_core::{
-    Config, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors, SplitOrder,
+    Config, Domain, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors, SplitOrder,
     Tessellation,
 };
 
@@ -126,6 +127,42 @@ pub(crate) fn all_answered<T>(
     }
     let (name, got) = (backend.name(), answers.len());
     Err(BackendError::new(format!("{name} answered with {got} {what}, {asked} were asked for")))
+}
+
+/// Tessellates cases of any configurations, those of equal configuration in one batch.
+///
+/// # Errors
+/// As for [`Backend::tessellate`]; a number of answers that is not the number of patches.
+pub(crate) fn tessellate(backend: &mut dyn Backend, cases: &[Case]) -> Answers<Tessellation> {
+    let mut groups: Vec<((Config, Domain), Vec<usize>)> = Vec::new();
+    for (i, case) in cases.iter().enumerate() {
+        let key = (case.config, case.domain());
+        match groups.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, members)) => members.push(i),
+            None => groups.push((key, vec![i])),
+        }
+    }
+    let mut outputs = vec![Tessellation::default(); cases.len()];
+    for ((config, _), members) in groups {
+        let factors: Vec<_> = members.iter().map(|&i| cases[i].factors).collect();
+        for (i, output) in members.into_iter().zip(batch(backend, config, &factors)?) {
+            outputs[i] = output;
+        }
+    }
+    Ok(outputs)
+}
+
+/// Tessellates patches of one configuration.
+///
+/// # Errors
+/// As for [`tessellate`].
+pub(crate) fn batch(
+    backend: &mut dyn Backend,
+    config: Config,
+    factors: &[PatchFactors],
+) -> Answers<Tessellation> {
+    let answers = backend.tessellate(config, factors)?;
+    all_answered(backend, "patches", answers, factors.len())
 }
 
 #[cfg(test)]

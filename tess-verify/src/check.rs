@@ -21,14 +21,13 @@ mod workers;
 pub use asked::Asked;
 pub use compare::{Element, Mismatch, SpecStage};
 pub use known::Known;
-pub(crate) use patches::tessellate;
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, MismatchGroup, Report};
 pub use second::SecondFormulation;
 pub use strength::{Conversion, Denormals, Elements, ListOrder, Strength, flushed, vertices};
 pub use verify::{Subject, SubjectRow, verify};
 pub use ways::Way;
 
-use crate::backend::{Answers, Backend, BackendError};
+use crate::backend::{Answers, Backend, BackendError, tessellate};
 use crate::case::Case;
 use crate::vectors::{CsvRow, Header, Kind, Record, Values, VectorError, VectorFile};
 use asked::Expected;

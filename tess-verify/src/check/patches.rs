@@ -2,7 +2,7 @@
 
 use super::sequences;
 use super::{Found, How, Tested, device, stages};
-use crate::backend::{Answers, Backend, BackendError, all_answered};
+use crate::backend::{Answers, Backend, BackendError, batch, tessellate};
 use crate::case::Case;
 use crate::check::compare::{self, Element, Mismatch, SpecStage};
 use crate::check::strength::Strength;
@@ -10,7 +10,7 @@ use crate::core_backend::CoreBackend;
 use crate::vectors::Fnv1a;
 use crate::vectors::{ChainRow, PreparationRow, Record, Sizes, Values};
 use tess_core::prepare::prepare;
-use tess_core::{Config, Domain, PatchFactors, Tessellation};
+use tess_core::{PatchFactors, Tessellation};
 
 /// Checks listings, patches and preparations.
 pub(super) fn single(how: &How, backend: &mut dyn Backend, records: &[Record]) -> Answers<Found> {
@@ -61,35 +61,6 @@ fn compare_one(
             _ => Ok(None),
         },
     }
-}
-
-/// Tessellates cases of any configurations, those that have one in common in one batch.
-pub(crate) fn tessellate(backend: &mut dyn Backend, cases: &[Case]) -> Answers<Tessellation> {
-    let mut groups: Vec<((Config, Domain), Vec<usize>)> = Vec::new();
-    for (i, case) in cases.iter().enumerate() {
-        let key = (case.config, case.domain());
-        match groups.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, members)) => members.push(i),
-            None => groups.push((key, vec![i])),
-        }
-    }
-    let mut outputs = vec![Tessellation::default(); cases.len()];
-    for ((config, _), members) in groups {
-        let factors: Vec<_> = members.iter().map(|&i| cases[i].factors).collect();
-        for (i, output) in members.into_iter().zip(batch(backend, config, &factors)?) {
-            outputs[i] = output;
-        }
-    }
-    Ok(outputs)
-}
-
-fn batch(
-    backend: &mut dyn Backend,
-    config: Config,
-    factors: &[PatchFactors],
-) -> Answers<Tessellation> {
-    let answers = backend.tessellate(config, factors)?;
-    all_answered(backend, "patches", answers, factors.len())
 }
 
 /// Compares an output with recorded counts and digests; a difference is narrowed down to the

@@ -2,12 +2,12 @@
 
 use super::units::VALUES;
 use super::{Subject, Unit, Units};
-use crate::backend::{Answers, Backend, BackendError, all_answered};
+use crate::backend::{Answers, Backend, BackendError, all_answered, tessellate};
 use crate::case::Case;
 use crate::check::Known;
 use crate::check::compare::{self, Mismatch, SpecStage};
 use crate::check::sequences::bucket;
-use crate::check::{Strength, check_case, tessellate};
+use crate::check::{Strength, check_case};
 use crate::core_backend::CoreBackend;
 use crate::generate::Shard;
 use crate::names::Named;
