@@ -46,8 +46,9 @@ pub enum GenLevel {
     Rules,
 }
 
-/// The newest version of the levels: 2 added [`thresholds`] to levels 1 and 2 and to `Rules`. Level 3 never changed.
-pub const LEVEL_VERSION: u8 = 2;
+/// The newest version of the levels. 2 added [`thresholds`] to levels 1 and 2 and to `Rules`; 3 added pow2, unusual levels
+/// and changes of state to `Rules`. Level 3 never changed.
+pub const LEVEL_VERSION: u8 = 3;
 
 /// One of `of` disjoint parts that together are everything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,7 +15,6 @@
 //!
 //! ```
 //! use tess_verify::Case;
-//! use tess_verify::check::ListOrder;
 //! use tess_verify::rules::{Checker, Rule, Specification, Verdict};
 //!
 //! let mut checker = Checker::new(Specification::Vulkan);
@@ -32,25 +31,29 @@
 //! # Ok::<(), tess_verify::CaseError>(())
 //! ```
 //!
-//! - A patch whose indices name no points is judged by [`Rule::Range`] alone.
+//! - A patch whose indices name no points, or whose points are outside the domain, is judged only by [`Rule::Range`].
 //! - Lengths that a standard calls equal may differ by 16/65536, as coordinates are rounded; everything
 //!   else is compared bit for bit.
 //! - Where a standard allows two results, a patch that shows either does not count as judged.
 
 mod answer;
 mod edge;
+mod inside;
 mod levels;
+mod lines;
 mod memory;
 mod mesh;
+mod neighbours;
 mod report;
+mod rings;
+mod specified;
 mod standard;
 
 pub use report::{Example, RuleRow, RulesReport, Verdict};
 pub use standard::{Rule, Specification};
 
-use crate::backend::{Backend, BackendError};
+use crate::backend::{Backend, BackendError, tessellate};
 use crate::case::Case;
-use crate::check::tessellate;
 use answer::Answer;
 use memory::Memory;
 use report::Tally;
@@ -101,7 +104,8 @@ impl Checker {
     /// Rules that have judged nothing yet.
     #[must_use]
     pub fn new(specification: Specification) -> Self {
-        let tallies = specification.rules().map(Tally::new).collect();
+        let tally = |rule| Some(Tally::new(rule, specification.source(rule)?));
+        let tallies = specification.rules().filter_map(tally).collect();
         Self { specification, patches: 0, tallies, memory: Memory::default() }
     }
 
@@ -117,8 +121,13 @@ impl Checker {
             }
         };
         let size = answer.size();
+        if let Some(Err(what)) = answer.range() {
+            return self.note(Rule::Range, case, size, (None, Err(what)));
+        }
+        let is_exact = self.specification == Specification::D3d11;
+        let specified = is_exact.then(|| specified::specified(case)).flatten();
         for rule in self.specification.rules() {
-            for judgement in self.judge(rule, &answer) {
+            for judgement in self.judge(rule, &answer, specified.as_ref()) {
                 self.note(rule, case, size, judgement);
             }
         }
@@ -134,19 +143,24 @@ impl Checker {
         }
     }
 
-    fn judge(&mut self, rule: Rule, answer: &Answer<'_>) -> Vec<Judgement> {
+    fn judge(&mut self, rule: Rule, answer: &Answer, specified: Option<&Answer>) -> Vec<Judgement> {
         let alone = |result: Judged| result.into_iter().map(|result| (None, result)).collect();
         let specification = self.specification;
         match rule {
             Rule::Range => alone(answer.range()),
             Rule::Discard => alone(answer.discard()),
-            Rule::Segments => alone(edge::segments(answer, specification)),
+            Rule::Segments => alone(edge::segments(answer, specified, specification)),
+            Rule::InnerLevels => alone(inside::inner_levels(answer, specified, specification)),
+            Rule::InnerSpacing => alone(inside::inner_spacing(answer, specification)),
+            Rule::Neighbours => alone(neighbours::neighbours(answer, specification)),
             Rule::Spacing => alone(edge::spacing(answer, specification)),
             Rule::Symmetric => alone(edge::symmetric(answer, specification)),
             Rule::Cover => alone(mesh::cover(answer)),
             Rule::Orientation => alone(mesh::orientation(answer)),
             Rule::Isolines => alone(mesh::isolines(answer, specification)),
-            Rule::Counts => alone(mesh::counts(answer)),
+            Rule::Counts => alone(specified::counts(answer, specified)),
+            Rule::Places => alone(specified::places(answer, specified)),
+            Rule::Primitives => alone(specified::primitives(answer, specified)),
             Rule::PointsOnce => alone(mesh::points_once(answer, specification)),
             _ => self.memory.judge(rule, answer, specification),
         }

@@ -45,7 +45,8 @@ fn cases_are_the_recorded_ones() {
         ("level 2, version 1", version(1, two), "3a851bff278dae84"),
         ("level 3", some(GenLevel::Three, 7), "32301befa6bbcd9e"),
         ("level 3, version 1", version(1, some(GenLevel::Three, 7)), "32301befa6bbcd9e"),
-        ("rules", some(GenLevel::Rules, 7), "017bf910b266f888"),
+        ("rules", some(GenLevel::Rules, 7), "6750be964bba1536"),
+        ("rules, version 2", version(2, some(GenLevel::Rules, 7)), "017bf910b266f888"),
         ("rules, version 1", version(1, some(GenLevel::Rules, 7)), "b6d012fdfc716b58"),
         (
             "triangles of level 3",

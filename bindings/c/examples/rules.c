@@ -24,7 +24,7 @@ static int32_t device(void *user, const TessConfig *config, const float *factors
 
 int main(void)
 {
-    static char report[8192];
+    static char report[16384];
     TessStatus status = tess_check_rules(TESS_SPECIFICATION_VULKAN, 0, 1, device, NULL, report,
                                          sizeof report);
     printf("%s", report);

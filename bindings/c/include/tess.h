@@ -1355,9 +1355,9 @@ TessStatus tess_fuzz(const uint8_t *data,
 /**
  * Asks a tessellator for the patches of `tess gen --rules`, and judges its outputs by the rules of a standard.
  *
- * `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come after the 12 170
- * systematic ones of the standard split order. The model is used only for the number of primitives in
- * Direct3D 11. Patches of configurations that the tessellator does not have are left out.
+ * `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come after the 12 671
+ * systematic ones of the standard split order. For Direct3D 11 the model says where vertices are; for the other
+ * standards it is not asked. Patches of configurations that the tessellator does not have are left out.
  *
  * - `TESS_OK`: no rule is broken.
  * - `TESS_DIFFERENT`: a rule is broken, or the tessellator failed.
@@ -1365,7 +1365,7 @@ TessStatus tess_fuzz(const uint8_t *data,
  *
  * `report` receives the text that `tess check --rules` prints: each rule as held, broken or not exercised, with the
  * smallest patches that break it; or the patch at which the tessellator failed. It ends with a zero byte and is cut
- * off at `report_capacity` bytes; 8192 are enough. This function allocates.
+ * off at `report_capacity` bytes; 16384 are enough. This function allocates.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:

@@ -66,25 +66,18 @@ fn of_file(file: crate::vectors::Reader, specification: Specification) -> PyResu
 }
 
 fn report<'py>(py: Python<'py>, found: &RulesReport) -> PyResult<Bound<'py, PyAny>> {
-    let specification = found.specification;
-    let rows: Vec<_> =
-        found.rows.iter().map(|one| row(py, specification, one)).collect::<PyResult<_>>()?;
+    let rows: Vec<_> = found.rows.iter().map(|one| row(py, one)).collect::<PyResult<_>>()?;
     let rows = PyTuple::new(py, rows)?;
-    let elements = (specification.name(), found.patches, rows, found.to_string());
+    let elements = (found.specification.name(), found.patches, rows, found.to_string());
     values::value(py, "RulesReport", elements)
 }
 
-fn row<'py>(
-    py: Python<'py>,
-    specification: Specification,
-    row: &RuleRow,
-) -> PyResult<Bound<'py, PyAny>> {
+fn row<'py>(py: Python<'py>, row: &RuleRow) -> PyResult<Bound<'py, PyAny>> {
     let example = row.smallest.as_ref().map(|example| {
         let cases = PyTuple::new(py, example.cases.iter().map(ToString::to_string))?;
         values::value(py, "RuleExample", (cases, &example.what))
     });
     let (rule, verdict) = (row.rule.name(), row.verdict().name());
-    let source = specification.source(row.rule);
-    let elements = (rule, source, verdict, row.judged, row.broken, example.transpose()?);
+    let elements = (rule, row.source, verdict, row.judged, row.broken, example.transpose()?);
     values::value(py, "RuleRow", elements)
 }

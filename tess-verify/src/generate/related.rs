@@ -62,7 +62,73 @@ pub(super) fn systematic(version: u8) -> Vec<Case> {
     let list = if version > 1 { super::thresholds() } else { Vec::new() };
     let frames = list.into_iter().filter(|(side, _)| side.starts_with("frame/"));
     cases.extend(frames.map(|(_, case)| case));
+    if version > 2 {
+        powers_of_two(&mut cases);
+        unusual_levels(&mut cases);
+        changing_state(&mut cases);
+    }
     cases
+}
+
+/// Families under pow2, which a device may take for more than integer spacing.
+fn powers_of_two(cases: &mut Vec<Case>) {
+    let (output, split) = (OutputPrimitive::TriangleCw, SplitOrder::Ruler);
+    let config = Config { partitioning: Partitioning::Pow2, output, split };
+    for domain in Domain::ALL {
+        for (turn, level) in [3.0, 5.0, 6.5, 13.0, 64.0].into_iter().enumerate() {
+            let plain = [3.0, 2.5, 4.0, 1.0, 3.5, 5.0];
+            let at = |position: usize| {
+                if position == turn % domain.factors() { level } else { plain[position] }
+            };
+            family(Case { config, factors: PatchFactors::from_fn(domain, at) }, turn, cases);
+        }
+    }
+}
+
+/// Each level alone among others, at the ends of what is a positive number, and beyond the spacing's range.
+fn unusual_levels(cases: &mut Vec<Case>) {
+    let (output, split) = (OutputPrimitive::TriangleCw, SplitOrder::Ruler);
+    let smallest = f32::from_bits(1);
+    let outer = [0.0, -0.0, smallest, f32::MIN_POSITIVE, 1e-6, f32::INFINITY];
+    let inner = [-0.0, smallest, 0.75, 100.0, f32::INFINITY, f32::NEG_INFINITY];
+    for domain in Domain::ALL {
+        for partitioning in
+            [Partitioning::Integer, Partitioning::FractionalOdd, Partitioning::FractionalEven]
+        {
+            let config = Config { partitioning, output, split };
+            for position in 0..domain.factors() {
+                let levels = if position < domain.outer_factors() { outer } else { inner };
+                let others = Case { config, factors: PatchFactors::uniform(domain, 3.5) };
+                cases.extend(levels.map(|level| others.with_factor(position, level)));
+            }
+            // Only the inside tells this patch from one whose levels are all 1.
+            let inner = [2.5, 4.5];
+            let level = |p: usize| p.checked_sub(domain.outer_factors()).map_or(1.0, |k| inner[k]);
+            let factors = PatchFactors::from_fn(domain, level);
+            cases.extend((domain != Domain::Isoline).then_some(Case { config, factors }));
+        }
+    }
+}
+
+/// Patches of which each has another domain than the one before it, and every third and ninth another output and
+/// spacing.
+fn changing_state(cases: &mut Vec<Case>) {
+    let outputs =
+        [OutputPrimitive::TriangleCcw, OutputPrimitive::TriangleCw, OutputPrimitive::Point];
+    let spacings =
+        [Partitioning::FractionalEven, Partitioning::Integer, Partitioning::FractionalOdd];
+    for levels in [[2.5, 3.5, 4.25, 5.5, 6.5, 3.25], [4.5, 2.25, 3.0, 6.25, 2.75, 5.0]] {
+        for partitioning in spacings {
+            for output in outputs {
+                let config = Config { partitioning, output, split: SplitOrder::Ruler };
+                let patch = |domain| Case {
+                    config,
+                    factors: PatchFactors::from_fn(domain, |position| levels[position]),
+                };
+                cases.extend([Domain::Quad, Domain::Isoline, Domain::Triangle].map(patch));
+            }
+        }
+    }
 }
 
 /// Random families without end, of these domains, partitionings and split orders.

@@ -10,39 +10,45 @@ pub(super) type Place = [u32; 2];
 
 /// A patch's primitives by the places of their vertices.
 #[derive(Debug)]
-pub(super) struct Answer<'a> {
-    pub(super) case: &'a Case,
-    pub(super) output: &'a Tessellation,
+pub(super) struct Answer {
+    pub(super) case: Case,
     /// The vertices of the primitives, in order.
     pub(super) vertices: Vec<Place>,
     /// The distinct places of vertices, ascending.
     pub(super) places: Vec<Place>,
 }
 
-impl<'a> Answer<'a> {
+impl Answer {
     /// Looks up the vertices of the primitives.
     ///
     /// # Errors
     /// An index without a point, or a primitive that is not whole, in words.
-    pub(super) fn new(case: &'a Case, output: &'a Tessellation) -> Result<Self, String> {
+    pub(super) fn new(case: &Case, output: &Tessellation) -> Result<Self, String> {
         let vertex = |&index: &u32| {
             let point = output.points.get(index as usize);
             let place = point.map(|point| [point.u.to_bits(), point.v.to_bits()]);
             place.ok_or_else(|| format!("index {index} of {} points", output.points.len()))
         };
         let vertices: Vec<Place> = output.indices.iter().map(vertex).collect::<Result<_, _>>()?;
-        if !vertices.len().is_multiple_of(case.primitive_size()) {
-            return Err(format!("{} vertices are no whole primitives", vertices.len()));
+        let size = case.primitive_size();
+        if !vertices.len().is_multiple_of(size) {
+            let number = vertices.len();
+            return Err(format!("{number} indices do not make whole primitives of {size}"));
         }
         let mut places = vertices.clone();
         places.sort_unstable();
         places.dedup();
-        Ok(Self { case, output, vertices, places })
+        Ok(Self { case: *case, vertices, places })
     }
 
-    /// How large an example this is.
+    /// The size of this answer as an example: its number of vertices.
     pub(super) const fn size(&self) -> usize {
         self.vertices.len()
+    }
+
+    /// Whether there is no primitive.
+    pub(super) const fn is_empty(&self) -> bool {
+        self.vertices.is_empty()
     }
 
     /// Whether the primitives are triangles.
@@ -61,16 +67,16 @@ impl<'a> Answer<'a> {
         triangles.iter().copied().filter(|_| self.has_triangles())
     }
 
-    /// Every vertex lies in the domain.
+    /// Every vertex is in the domain.
     pub(super) fn range(&self) -> Judged {
         let is_triangle = self.case.domain() == Domain::Triangle;
-        let lies_outside = |&&[u, v]: &&Place| {
+        let is_outside = |&&[u, v]: &&Place| {
             let sum = u64::from(u) + u64::from(v);
             u > ONE || v > ONE || (is_triangle && sum > u64::from(ONE))
         };
-        let stray = self.places.iter().find(lies_outside);
+        let stray = self.places.iter().find(is_outside);
         (!self.places.is_empty()).then(|| match stray {
-            Some(place) => Err(format!("vertex {} lies outside the domain", show(*place))),
+            Some(place) => Err(format!("vertex {} is outside the domain", show(*place))),
             None => Ok(()),
         })
     }
@@ -82,15 +88,14 @@ impl<'a> Answer<'a> {
         if !discards && outer.any(f32::is_subnormal) {
             return None;
         }
-        Some(match (discards, self.vertices.is_empty()) {
+        Some(match (discards, self.is_empty()) {
             (true, false) => Err("primitives of a patch that is to be discarded".to_owned()),
             (false, true) => Err("no primitive, though all outer levels are above 0".to_owned()),
             _ => Ok(()),
         })
     }
 
-    /// How far along outer edge `edge` each vertex on it lies, ascending, in the direction in which a
-    /// clockwise walk goes round; for isolines, edge 0 is u = 0.
+    /// Positions of the vertices on outer edge `edge`, ascending: see [`position`].
     pub(super) fn along(&self, edge: usize) -> Vec<u32> {
         let domain = self.case.domain();
         let mut along: Vec<u32> =
@@ -99,14 +104,20 @@ impl<'a> Answer<'a> {
         along
     }
 
-    /// Whether a place lies on some outer edge.
+    /// The distinct places of vertices inside the outline, ascending.
+    pub(super) fn inside(&self) -> Vec<Place> {
+        self.places.iter().copied().filter(|place| !self.is_on_outline(*place)).collect()
+    }
+
+    /// Whether a place is on some outer edge.
     pub(super) fn is_on_outline(&self, place: Place) -> bool {
         let domain = self.case.domain();
         (0..domain.outer_factors()).any(|edge| position(domain, edge, place).is_some())
     }
 }
 
-/// How far along an outer edge a place lies, if it does.
+/// The distance of a place along an outer edge from the edge's start in a clockwise walk; `None` if it is not on the
+/// edge. The only outer edge of isolines is u = 0.
 pub(super) fn position(domain: Domain, edge: usize, [u, v]: Place) -> Option<u32> {
     match (domain, edge) {
         (_, 0) => (u == 0).then(|| ONE.checked_sub(v)).flatten(),

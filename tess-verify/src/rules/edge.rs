@@ -1,112 +1,98 @@
-//! Rules about the vertices of one edge.
+//! Rules about the vertices of one line.
 
 use super::Judged;
 use super::answer::Answer;
-use super::levels::{may_touch_outline, segments as asked};
+use super::levels::{Level, may_touch_outline};
+use super::lines::{Line, outer_lines};
 use super::standard::Specification;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use tess_core::Domain;
 use tess_core::fixed_point::ONE;
-use tess_core::{Domain, Partitioning};
 
-/// How far a vertex may lie from where equal lengths put it, in units of 2^-16. No standard gives a number: the
+/// How far a vertex may be from where equal lengths put it, in units of 2^-16. No standard gives a number: the
 /// model's largest deviation from k/n is 12.26 units, at n = 53. A length has two ends, so it may be off by twice
 /// as much.
 pub(super) const TOLERANCE: u32 = 16;
 
-/// A subdivided line of a patch.
-pub(super) struct Line {
-    /// Which: `edge 2`, `line 0`, `the lines`.
-    name: String,
-    /// The outer level that divides it.
-    pub(super) position: usize,
-    /// Where its vertices lie, ascending; the end of the density's line, v = 1, has none.
-    pub(super) along: Vec<u32>,
-}
+/// A level is just above a number of segments up to this many units of 2^-16 above it: the shorter segments are then at
+/// most [`VANISHING`] of a longer one.
+const JUST_ABOVE: u32 = 256;
+/// One part of this many. A length that is proportional to the level's excess has one in 512.
+const VANISHING: u32 = 16;
 
-/// The lines of a patch that a level divides: outer edges, or for isolines the density's and each line.
-pub(super) fn lines(answer: &Answer<'_>) -> Vec<Line> {
-    let domain = answer.case.domain();
-    if answer.vertices.is_empty() {
-        return Vec::new();
-    }
-    if domain != Domain::Isoline {
-        let edge = |edge| Line {
-            name: format!("edge {}", domain.factor_names()[edge]),
-            position: edge,
-            along: answer.along(edge),
-        };
-        return (0..domain.outer_factors()).map(edge).collect();
-    }
-    let mut by_v: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-    for &[u, v] in &answer.places {
-        by_v.entry(v).or_default().push(u);
-    }
-    let mut along: Vec<u32> = by_v.keys().copied().collect();
-    along.push(ONE);
-    along.dedup();
-    let density = Line { name: "the patch".to_owned(), position: 0, along };
-    let line = |(number, along)| Line { name: format!("line {number}"), position: 1, along };
-    [density].into_iter().chain(by_v.into_values().enumerate().map(line)).collect()
-}
-
-/// Each line has as many segments as its level asks for.
-pub(super) fn segments(answer: &Answer<'_>, specification: Specification) -> Judged {
-    if may_touch_outline(answer.case, specification) {
+/// Each line has as many segments as its level asks for, or as the specified answer has, if there is one.
+pub(super) fn segments(
+    answer: &Answer,
+    specified: Option<&Answer>,
+    specification: Specification,
+) -> Judged {
+    let is_exact = specification == Specification::D3d11;
+    if is_exact && specified.is_none()
+        || !is_exact && may_touch_outline(&answer.case, specification)
+    {
         return None;
     }
-    let lines = lines(answer);
-    let wrong = lines.iter().find_map(|line| {
-        let asked = asked(answer.case, line.position)? as usize;
-        let found = line.along.len().saturating_sub(1);
-        let level = answer.case.factors.outer().nth(line.position)?;
-        let what = if line.position == 0 && answer.case.domain() == Domain::Isoline {
-            "isolines"
-        } else {
-            "segments"
-        };
-        let name = &line.name;
+    let lines = outer_lines(answer);
+    let specified = specified.map(outer_lines);
+    let asked = |number: usize, line: &Line| match &specified {
+        Some(lines) => lines.get(number).map(Line::segments),
+        None => line.level.map(|level| level.segments() as usize),
+    };
+    let wrong = lines.iter().enumerate().find_map(|(number, line)| {
+        let (asked, found) = (asked(number, line)?, line.segments());
+        let is_density = answer.case.domain() == Domain::Isoline && number == 0;
+        let what = if is_density { "isolines" } else { "segments" };
+        let (name, level) = (&line.name, line.level?.raw);
         (asked != found)
             .then(|| format!("{name} has {found} {what}, its level {level} asks for {asked}"))
     });
     (!lines.is_empty()).then(|| wrong.map_or(Ok(()), Err))
 }
 
-/// On each line with the segments that it should have, they are equally long, but for two that lie
-/// symmetrically under fractional spacing.
-pub(super) fn spacing(answer: &Answer<'_>, specification: Specification) -> Judged {
-    if may_touch_outline(answer.case, specification) {
+/// On each line with the segments that it should have, they are spaced as its level asks.
+pub(super) fn spacing(answer: &Answer, specification: Specification) -> Judged {
+    if may_touch_outline(&answer.case, specification) {
         return None;
     }
-    let lines: Vec<Line> = lines(answer)
-        .into_iter()
-        .filter(|line| {
-            let asked = asked(answer.case, line.position);
-            asked.is_some_and(|asked| line.along.len() == asked as usize + 1)
-        })
-        .collect();
-    let is_density = |line: &Line| answer.case.domain() == Domain::Isoline && line.position == 0;
-    let wrong = lines.iter().find_map(|line| {
-        let equal = answer.case.config.partitioning.has_integer_factors() || is_density(line);
-        let what = if equal { equally_spaced(&line.along) } else { two_lengths(&line.along) };
-        what.map(|what| format!("{}: {what}", line.name))
-    });
-    (!lines.is_empty()).then(|| wrong.map_or(Ok(()), Err))
+    spaced(&outer_lines(answer))
 }
 
-/// How far a point is from k/n, if it is too far.
+/// The first fault of the lengths of lines that have the right number of segments.
+pub(super) fn spaced(lines: &[Line]) -> Judged {
+    let mut right = lines.iter().filter_map(|line| Some((line, line.level_if_right()?))).peekable();
+    right.peek()?;
+    let wrong = right.find_map(|(line, level)| {
+        let what = unequal(line, level);
+        what.map(|what| format!("{}: {what}", line.name))
+    });
+    Some(wrong.map_or(Ok(()), Err))
+}
+
+/// The fault of a line's lengths.
+#[expect(clippy::float_cmp, reason = "a level is the integer itself, or is not")]
+#[expect(clippy::cast_precision_loss, reason = "at most 64")]
+fn unequal(line: &Line, level: Level) -> Option<String> {
+    let is_integer = level.clamped() == level.segments() as f32;
+    if !level.is_fractional() || is_integer {
+        return equally_spaced(&line.along);
+    }
+    let lengths = line.lengths();
+    two_lengths(&lengths).or_else(|| not_vanishing(&lengths, level))
+}
+
+/// The first vertex that is too far from k/n.
 fn equally_spaced(along: &[u32]) -> Option<String> {
     let n = u64::try_from(along.len().checked_sub(1)?).ok()?;
     (0..).zip(along).find_map(|(k, &x)| {
         // Times n, so that nothing is rounded.
         let off = (u64::from(x) * n).abs_diff(k * u64::from(ONE));
         (off > u64::from(TOLERANCE) * n)
-            .then(|| format!("vertex {k} of {n} lies at {x:05x}, more than 16 units from {k}/{n}"))
+            .then(|| format!("vertex {k} of {n} is at {x:05x}, more than 16 units from {k}/{n}"))
     })
 }
 
-/// The fault of the lengths of a fractional division.
-fn two_lengths(along: &[u32]) -> Option<String> {
-    let lengths = lengths(along);
+/// The fault of a fractional division: it has lengths other than a long one, and a shorter one for a mirrored pair.
+fn two_lengths(lengths: &[u32]) -> Option<String> {
     let longest = *lengths.iter().max()?;
     let short: Vec<usize> =
         (0..lengths.len()).filter(|&k| lengths[k] + 2 * TOLERANCE < longest).collect();
@@ -117,49 +103,50 @@ fn two_lengths(along: &[u32]) -> Option<String> {
         {
             None
         }
-        [a, b] => Some(format!("segments {a} and {b} are shorter, and are no mirrored pair")),
+        [a, b] => Some(format!("segments {a} and {b} are shorter, and are not a mirrored pair")),
         _ => Some(format!("{} of {} segments are shorter, not two", short.len(), lengths.len())),
     }
 }
 
-fn lengths(along: &[u32]) -> Vec<u32> {
-    along.windows(2).map(|pair| pair[1] - pair[0]).collect()
+/// Shorter segments that are too long for a level just above the next lower number of segments.
+fn not_vanishing(lengths: &[u32], level: Level) -> Option<String> {
+    let excess = level.fixed().checked_sub((level.segments().checked_sub(2)?) << 16)?;
+    let (short, long) = (*lengths.iter().min()?, *lengths.iter().max()?);
+    (lengths.len() > 2 && excess <= JUST_ABOVE && short > long / VANISHING + TOLERANCE).then(|| {
+        let fewer = level.segments() - 2;
+        let level = level.raw;
+        format!(
+            "its level {level} is just above {fewer}, and its shorter segments are {short:05x} of {long:05x}"
+        )
+    })
 }
 
 /// The length of the shorter pair of a fractional line, which has at least three segments.
-pub(super) fn shorter(along: &[u32]) -> Option<u32> {
-    let lengths = lengths(along);
+pub(super) fn shorter(line: &Line) -> Option<u32> {
+    let lengths = line.lengths();
     (lengths.len() >= 3).then(|| lengths.into_iter().min()).flatten()
 }
 
 /// Each outer edge has both ends, and with each vertex its mirror image; isolines have the mirror images of
-/// those at u = 0 but for v = 0.
-pub(super) fn symmetric(answer: &Answer<'_>, specification: Specification) -> Judged {
+/// those at u = 0 except v = 0.
+pub(super) fn symmetric(answer: &Answer, specification: Specification) -> Judged {
     let domain = answer.case.domain();
-    if answer.vertices.is_empty() || may_touch_outline(answer.case, specification) {
+    if answer.is_empty() || may_touch_outline(&answer.case, specification) {
         return None;
     }
     let edges = if domain == Domain::Isoline { 1 } else { domain.outer_factors() };
     let wrong = (0..edges).find_map(|edge| {
         let mut along: BTreeSet<u32> = answer.along(edge).into_iter().collect();
+        let name = domain.factor_names()[edge];
         if domain == Domain::Isoline {
             along.remove(&ONE); // v = 0
         } else if !(along.contains(&0) && along.contains(&ONE)) {
-            return Some(format!("edge {} lacks an end", domain.factor_names()[edge]));
+            return Some(format!("edge {name} lacks an end"));
         }
         let lonely = along.iter().find(|x| !along.contains(&(ONE - **x)))?;
-        let name = domain.factor_names()[edge];
         Some(format!("edge {name} has a vertex at {lonely:05x} and none at {:05x}", ONE - lonely))
     });
     Some(wrong.map_or(Ok(()), Err))
-}
-
-/// Whether a line's spacing is fractional, so that its level moves its vertices.
-pub(super) fn is_fractional(answer: &Answer<'_>, line: &Line) -> bool {
-    let partitioning = answer.case.config.partitioning;
-    let is_density = answer.case.domain() == Domain::Isoline && line.position == 0;
-    matches!(partitioning, Partitioning::FractionalOdd | Partitioning::FractionalEven)
-        && !is_density
 }
 
 #[cfg(test)]
@@ -170,7 +157,9 @@ mod tests {
     #[test]
     fn the_tolerance_is_the_documented_one() {
         let page = include_str!("../../../docs/rules.md");
-        assert!(page.contains(&format!("A vertex may lie {TOLERANCE}/65536")));
-        assert!(page.contains(&format!("may be off by {}/65536", 2 * TOLERANCE)));
+        assert!(page.contains(&format!("{TOLERANCE}/65536 from its place")));
+        assert!(page.contains(&format!("off by {}/65536", 2 * TOLERANCE)));
+        assert!(page.contains(&format!("up to {JUST_ABOVE}/65536 above")));
+        assert!(page.contains(&format!("1/{VANISHING} of")));
     }
 }

@@ -2,8 +2,9 @@
 
 use super::Judgement;
 use super::answer::{Answer, Place, position};
-use super::edge::{is_fractional, lines, shorter};
-use super::levels::{clamped, is_minimum, may_touch_outline, segments};
+use super::edge::{TOLERANCE, shorter};
+use super::levels::{Level, is_minimum, may_touch_outline};
+use super::lines::{Line, inner_lines, outer_lines};
 use super::standard::{Rule, Specification};
 use crate::case::Case;
 use crate::vectors::words_digest;
@@ -11,9 +12,11 @@ use std::collections::{BTreeMap, HashMap};
 use tess_core::fixed_point::ONE;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 
-/// How much shorter the short segments may become as the level grows, in units of 2^-16: each of their two
+/// How much shorter the shorter segments may become as the level grows, in units of 2^-16: each of their two
 /// ends is rounded.
 const ROUNDING: u32 = 2;
+/// Levels this far apart, in units of 2^-16, have shorter segments of different lengths.
+const APART: u32 = 1 << 13;
 
 /// The state that every rule keeps equal: domain, spacing and split order.
 type State = (Domain, Partitioning, SplitOrder);
@@ -38,8 +41,16 @@ enum Key {
 /// The edges of earlier patches that have one level, with the first patch of each.
 type Edges = BTreeMap<(Domain, usize), (Vec<u32>, Case)>;
 
-/// The short segments by level, with the first patch of each; all levels round up to one number.
+/// The shorter segments by level, in units of 2^-16, with the first patch of each; all levels round up to one number.
 type Shorter = BTreeMap<u32, (u32, Case)>;
+
+/// The places of vertices on the first line of a level, with its name and its patch.
+#[derive(Debug)]
+struct Divided {
+    along: Vec<u32>,
+    name: String,
+    case: Case,
+}
 
 /// Properties of earlier patches.
 #[derive(Debug, Default)]
@@ -47,10 +58,13 @@ pub(super) struct Memory {
     /// A digest of what is shared, and the first patch that has it.
     known: HashMap<Key, (u64, Case)>,
     edges: HashMap<(Option<Domain>, Partitioning, SplitOrder, u32), Edges>,
-    shorter: HashMap<(State, u32), Shorter>,
+    /// By spacing, split order and number of segments; of outer levels and of inner levels apart.
+    shorter: HashMap<(State, bool, u32), Shorter>,
+    /// By spacing, split order and bits of the clamped level.
+    divided: HashMap<(Partitioning, SplitOrder, u32), Divided>,
 }
 
-fn state(answer: &Answer<'_>) -> State {
+fn state(answer: &Answer) -> State {
     let Config { partitioning, split, .. } = answer.case.config;
     (answer.case.domain(), partitioning, split)
 }
@@ -74,24 +88,24 @@ impl Memory {
     pub(super) fn judge(
         &mut self,
         rule: Rule,
-        answer: &Answer<'_>,
+        answer: &Answer,
         specification: Specification,
     ) -> Vec<Judgement> {
         if rule == Rule::Same {
             let digest = words_digest(answer.vertices.as_flattened());
-            return self.compare(Key::Case(*answer.case), digest, answer, "another sequence");
+            return self.compare(Key::Case(answer.case), digest, answer, "another sequence");
         }
-        let touches = may_touch_outline(answer.case, specification);
-        let has_inside = answer.has_triangles() && !is_minimum(answer.case);
+        let touches = may_touch_outline(&answer.case, specification);
+        let has_inside = answer.has_triangles() && !is_minimum(&answer.case);
         match rule {
-            _ if answer.vertices.is_empty() => Vec::new(),
+            _ if answer.is_empty() => Vec::new(),
             Rule::Winding if answer.has_triangles() => {
-                let key = Key::Triangles(with_output(answer.case, OutputPrimitive::TriangleCw));
+                let key = Key::Triangles(with_output(&answer.case, OutputPrimitive::TriangleCw));
                 let digest = triangles(answer.triangles());
                 self.compare(key, digest, answer, "another set of triangles")
             }
             Rule::PointsSame => {
-                let key = Key::Places(with_output(answer.case, OutputPrimitive::Point));
+                let key = Key::Places(with_output(&answer.case, OutputPrimitive::Point));
                 let digest = words_digest(answer.places.as_flattened());
                 self.compare(key, digest, answer, "vertices at other places")
             }
@@ -101,22 +115,17 @@ impl Memory {
             Rule::Interior if has_inside => self.interior(answer),
             Rule::Transition if has_inside => self.transition(answer),
             Rule::Monotone => self.monotone(answer),
+            Rule::EqualLevels => self.equal_levels(answer),
             _ => Vec::new(),
         }
     }
 
     /// Compares a digest with the first patch that has the same key; where outputs are free, with one of another
     /// output.
-    fn compare(
-        &mut self,
-        key: Key,
-        digest: u64,
-        answer: &Answer<'_>,
-        what: &str,
-    ) -> Vec<Judgement> {
+    fn compare(&mut self, key: Key, digest: u64, answer: &Answer, what: &str) -> Vec<Judgement> {
         match self.known.get(&key) {
             None => {
-                self.known.insert(key, (digest, *answer.case));
+                self.known.insert(key, (digest, answer.case));
                 Vec::new()
             }
             Some((_, case))
@@ -132,9 +141,9 @@ impl Memory {
         }
     }
 
-    fn edge_level(&mut self, answer: &Answer<'_>) -> Vec<Judgement> {
+    fn edge_level(&mut self, answer: &Answer) -> Vec<Judgement> {
         let each = |edge| {
-            let key = Key::Edge(state(answer), edge, level(answer.case, edge));
+            let key = Key::Edge(state(answer), edge, level(&answer.case, edge));
             let name = answer.case.domain().factor_names()[edge];
             let digest = words_digest(&answer.along(edge));
             self.compare(key, digest, answer, &format!("edge {name} has other vertices"))
@@ -144,14 +153,14 @@ impl Memory {
 
     /// Each edge beside the other edges of the same level, in either direction. Direct3D's depend on no
     /// domain either.
-    fn every_edge(&mut self, answer: &Answer<'_>, specification: Specification) -> Vec<Judgement> {
+    fn every_edge(&mut self, answer: &Answer, specification: Specification) -> Vec<Judgement> {
         let (domain, partitioning, split) = state(answer);
         let own = (specification != Specification::D3d11).then_some(domain);
         let mut judgements = Vec::new();
         for edge in outer_edges(answer) {
             let along = answer.along(edge);
             let mirrored: Vec<u32> = along.iter().rev().map(|x| ONE - x).collect();
-            let key = (own, partitioning, split, level(answer.case, edge));
+            let key = (own, partitioning, split, level(&answer.case, edge));
             let known = self.edges.entry(key).or_default();
             let others = known.iter().filter(|(other, _)| **other != (domain, edge));
             judgements.extend(others.map(|((other, number), (there, case))| {
@@ -161,59 +170,106 @@ impl Memory {
                     || format!("edge {} has other vertices than edge {}", names[0], names[1]);
                 (Some(*case), if is_same { Ok(()) } else { Err(what()) })
             }));
-            known.entry((domain, edge)).or_insert((along, *answer.case));
+            known.entry((domain, edge)).or_insert((along, answer.case));
         }
         judgements
     }
 
-    fn interior(&mut self, answer: &Answer<'_>) -> Vec<Judgement> {
+    fn interior(&mut self, answer: &Answer) -> Vec<Judgement> {
         let is_inside = |triangle: &[Place; 3]| triangle.iter().all(|p| !answer.is_on_outline(*p));
         let digest = triangles(answer.triangles().filter(is_inside));
-        let key = Key::Interior(state(answer), inner(answer.case));
+        let key = Key::Interior(state(answer), inner(&answer.case));
         self.compare(key, digest, answer, "other triangles inside")
     }
 
     /// Triangles with two vertices on an edge. Those with one are at a corner of two edges, or beside one
     /// that has two.
-    fn transition(&mut self, answer: &Answer<'_>) -> Vec<Judgement> {
+    fn transition(&mut self, answer: &Answer) -> Vec<Judgement> {
         let domain = answer.case.domain();
         let each = |edge| {
             let is_on = |place: &&Place| position(domain, edge, **place).is_some();
             let is_at = |triangle: &[Place; 3]| triangle.iter().filter(is_on).count() >= 2;
             let digest = triangles(answer.triangles().filter(is_at));
-            let (name, level) = (domain.factor_names()[edge], level(answer.case, edge));
-            let key = Key::Transition(state(answer), edge, level, inner(answer.case));
+            let (name, level) = (domain.factor_names()[edge], level(&answer.case, edge));
+            let key = Key::Transition(state(answer), edge, level, inner(&answer.case));
             self.compare(key, digest, answer, &format!("other triangles at edge {name}"))
         };
         outer_edges(answer).flat_map(each).collect()
     }
 
-    /// Lines whose levels round up to the same number, beside the next lower and the next higher level.
-    fn monotone(&mut self, answer: &Answer<'_>) -> Vec<Judgement> {
+    /// Lines of one level beside the first line of that level, of whatever patch: an edge, an isoline, or the columns,
+    /// rows or rings inside.
+    fn equal_levels(&mut self, answer: &Answer) -> Vec<Judgement> {
+        let (_, partitioning, split) = state(answer);
         let mut judgements = Vec::new();
-        for line in lines(answer).into_iter().filter(|line| is_fractional(answer, line)) {
-            let asked = segments(answer.case, line.position);
-            let Some(n) = asked.filter(|n| line.along.len() == *n as usize + 1) else { continue };
-            let Some(length) = shorter(&line.along) else { continue };
-            let level = answer.case.factors.outer().nth(line.position).unwrap_or_default();
-            let level = clamped(answer.case.config.partitioning, level).to_bits();
-            let known = self.shorter.entry((state(answer), n)).or_default();
+        for line in fractional_lines(answer) {
+            let Some(level) = line.level_if_right() else { continue };
+            let key = (partitioning, split, level.clamped().to_bits());
+            let Line { name, along, .. } = line;
+            let Some(first) = self.divided.get(&key) else {
+                self.divided.insert(key, Divided { along, name, case: answer.case });
+                continue;
+            };
+            let mut pairs = first.along.iter().zip(&along);
+            let differs = pairs.find(|(there, here)| there.abs_diff(**here) > TOLERANCE);
+            let what = differs.map(|(there, here)| {
+                let [there, here] = [there, here].map(|x| format!("{x:05x}"));
+                let level = level.raw;
+                format!(
+                    "level {level} puts a vertex at {here} of {name} and at {there} of {}",
+                    first.name
+                )
+            });
+            judgements.push((Some(first.case), what.map_or(Ok(()), Err)));
+        }
+        judgements
+    }
+
+    /// Lines whose levels round up to the same number, beside the next lower and the next higher level.
+    fn monotone(&mut self, answer: &Answer) -> Vec<Judgement> {
+        let mut judgements = Vec::new();
+        for line in fractional_lines(answer) {
+            let (Some(level), Some(length)) = (line.level_if_right(), shorter(&line)) else {
+                continue;
+            };
+            let (n, level, is_inner) = (level.segments(), level.fixed(), level.is_inner);
+            let known = self.shorter.entry((state(answer), is_inner, n)).or_default();
             let below = known.range(..level).next_back();
             let above = known.range(level + 1..).next();
-            let low = below.map(|(_, (there, case))| (*case, *there, length));
-            let high = above.map(|(_, (there, case))| (*case, length, *there));
-            judgements.extend(low.into_iter().chain(high).map(|(case, low, high)| {
-                let what = || format!("the shorter segments shrink from {low:05x} to {high:05x}");
-                (Some(case), if low <= high + ROUNDING { Ok(()) } else { Err(what()) })
-            }));
-            known.entry(level).or_insert((length, *answer.case));
+            let low = below.map(|(from, (there, case))| (*case, level - from, *there, length));
+            let high = above.map(|(to, (there, case))| (*case, to - level, length, *there));
+            judgements.extend(
+                low.into_iter()
+                    .chain(high)
+                    .map(|(case, apart, low, high)| (Some(case), growing(apart, low, high))),
+            );
+            known.entry(level).or_insert((length, answer.case));
         }
         judgements
     }
 }
 
+/// Whether the shorter segments grow from a level to one that is `apart` units of 2^-16 above it.
+fn growing(apart: u32, low: u32, high: u32) -> Result<(), String> {
+    match () {
+        () if low > high + ROUNDING => {
+            Err(format!("the shorter segments shrink from {low:05x} to {high:05x}"))
+        }
+        () if apart >= APART && low >= high => {
+            Err(format!("the shorter segments stay {low:05x} from a level to a higher one"))
+        }
+        () => Ok(()),
+    }
+}
+
+/// The lines whose levels move their vertices.
+fn fractional_lines(answer: &Answer) -> impl Iterator<Item = Line> {
+    let lines = outer_lines(answer).into_iter().chain(inner_lines(answer));
+    lines.filter(|line| line.level.is_some_and(Level::is_fractional))
+}
+
 /// The outer edges; isolines have none.
-fn outer_edges(answer: &Answer<'_>) -> std::ops::Range<usize> {
+fn outer_edges(answer: &Answer) -> std::ops::Range<usize> {
     match answer.case.domain() {
         Domain::Isoline => 0..0,
         domain => 0..domain.outer_factors(),

@@ -16,12 +16,12 @@ fn doubled_area([a, b, c]: [Place; 3]) -> i128 {
 }
 
 /// 1 if the patch's triangles are clockwise, else -1.
-const fn turn(answer: &Answer<'_>) -> i32 {
+const fn turn(answer: &Answer) -> i32 {
     if matches!(answer.case.config.output, OutputPrimitive::TriangleCw) { 1 } else { -1 }
 }
 
 /// No triangle turns the other way. One without area turns neither way.
-pub(super) fn orientation(answer: &Answer<'_>) -> Judged {
+pub(super) fn orientation(answer: &Answer) -> Judged {
     let clockwise = i128::from(turn(answer));
     let mut triangles = answer.triangles().peekable();
     triangles.peek()?;
@@ -34,7 +34,7 @@ pub(super) fn orientation(answer: &Answer<'_>) -> Judged {
 
 /// The triangles cover the domain once, as far as their edges tell: what is left of their directed edges,
 /// after those that go both ways are taken out, is one walk round the outline.
-pub(super) fn cover(answer: &Answer<'_>) -> Judged {
+pub(super) fn cover(answer: &Answer) -> Judged {
     let mut net: BTreeMap<[Place; 2], i32> = BTreeMap::new();
     for [a, b, c] in answer.triangles() {
         for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -72,7 +72,7 @@ pub(super) fn cover(answer: &Answer<'_>) -> Judged {
 
 /// Segments of isolines keep their v and lead from u = 0 to u = 1, none is at v = 1, and the lines are equally
 /// spaced. Each line is walked once; in Direct3D a rounded location may go backwards on the way.
-pub(super) fn isolines(answer: &Answer<'_>, specification: Specification) -> Judged {
+pub(super) fn isolines(answer: &Answer, specification: Specification) -> Judged {
     if answer.case.domain() != Domain::Isoline || answer.has_points() {
         return None;
     }
@@ -94,7 +94,7 @@ pub(super) fn isolines(answer: &Answer<'_>, specification: Specification) -> Jud
         }
         let off = (u64::from(v) * n).abs_diff(k * u64::from(ONE));
         if v == ONE || off > u64::from(TOLERANCE) * n {
-            return Some(Err(format!("line {k} of {n} lies at v = {v:05x}")));
+            return Some(Err(format!("line {k} of {n} is at v = {v:05x}")));
         }
     }
     (n > 0).then_some(Ok(()))
@@ -112,24 +112,13 @@ fn odd_ends(segments: &[[u32; 2]]) -> Vec<u32> {
 }
 
 /// Each place is a point once.
-pub(super) fn points_once(answer: &Answer<'_>, specification: Specification) -> Judged {
-    let may_touch = may_touch_outline(answer.case, specification);
-    if !answer.has_points() || answer.vertices.is_empty() || may_touch {
+pub(super) fn points_once(answer: &Answer, specification: Specification) -> Judged {
+    let may_touch = may_touch_outline(&answer.case, specification);
+    if !answer.has_points() || answer.is_empty() || may_touch {
         return None;
     }
     let mut vertices = answer.vertices.clone();
     vertices.sort_unstable();
     let twice = vertices.windows(2).find(|pair| pair[0] == pair[1]);
     Some(twice.map_or(Ok(()), |pair| Err(format!("{} is a point twice", show(pair[0])))))
-}
-
-/// As many primitives as the levels ask for.
-pub(super) fn counts(answer: &Answer<'_>) -> Judged {
-    let size = answer.case.primitive_size();
-    let asked = answer.case.patch().counts().indices as usize / size;
-    let found = answer.output.indices.len() / size;
-    (asked > 0).then(|| match found {
-        _ if found == asked => Ok(()),
-        _ => Err(format!("{found} primitives, its levels ask for {asked}")),
-    })
 }

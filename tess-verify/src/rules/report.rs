@@ -35,6 +35,8 @@ pub struct Example {
 pub struct RuleRow {
     /// The rule.
     pub rule: Rule,
+    /// The section of the standard that states it, by number and title.
+    pub source: &'static str,
     /// How many patches, or patches beside an earlier one, it judged.
     pub judged: u64,
     /// How many of them break it.
@@ -79,9 +81,8 @@ impl fmt::Display for RulesReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for row in &self.rows {
             let (rule, verdict) = (row.rule.name(), row.verdict().name());
-            let source = self.specification.source(row.rule);
-            let RuleRow { judged, broken, .. } = row;
-            writeln!(f, "{rule:<12} {verdict:<13} {broken:>7} of {judged:>8}  {source}")?;
+            let RuleRow { source, judged, broken, .. } = row;
+            writeln!(f, "{rule:<13} {verdict:<13} {broken:>7} of {judged:>8}  {source}")?;
             if let Some(example) = &row.smallest {
                 writeln!(f, "  {}", example.what)?;
                 example.cases.iter().try_for_each(|case| writeln!(f, "  {case}"))?;
@@ -106,8 +107,8 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    pub(super) const fn new(rule: Rule) -> Self {
-        let row = RuleRow { rule, judged: 0, broken: 0, smallest: None };
+    pub(super) const fn new(rule: Rule, source: &'static str) -> Self {
+        let row = RuleRow { rule, source, judged: 0, broken: 0, smallest: None };
         Self { row, size: usize::MAX }
     }
 

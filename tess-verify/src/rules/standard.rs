@@ -41,12 +41,20 @@ named! {
         Discard = "discard",
         /// An edge has as many segments as its level asks for.
         Segments = "segments",
-        /// Segments are equally long but for two, which lie symmetrically.
+        /// Segments are equally long except two, which are symmetric and vanish just above the integer below.
         Spacing = "spacing",
-        /// The two shorter segments do not shrink as the level grows.
+        /// The inner levels give the numbers of columns and rows of a quad, and of rings of a triangle.
+        InnerLevels = "inner-levels",
+        /// The columns, rows and rings of the inside are spaced as edges of their levels are.
+        InnerSpacing = "inner-spacing",
+        /// Lines of equal levels are divided alike: outer edges, isolines, columns, rows and rings.
+        EqualLevels = "equal-levels",
+        /// The two shorter segments grow with the level.
         Monotone = "monotone",
         /// Triangles cover the domain once: every edge within is shared, and the outline is walked once.
         Cover = "cover",
+        /// Each triangle joins two neighbouring vertices of one line with one of the next line.
+        Neighbours = "neighbours",
         /// No triangle turns the other way.
         Orientation = "orientation",
         /// Isolines are equally spaced, none lies at v = 1, and each covers its line once.
@@ -57,55 +65,120 @@ named! {
         PointsSame = "points-same",
         /// There are as many primitives as the levels ask for, degenerate ones included.
         Counts = "counts",
+        /// Vertices are where the specification places them.
+        Places = "places",
+        /// Primitives are those of the specification, in any order.
+        Primitives = "primitives",
     }
 }
 
-/// Where Vulkan, OpenGL and Direct3D 11 state each rule, in the order of [`Rule`]; empty where a standard has no such
-/// rule. OpenGL's list of invariance has the title and the numbers of Vulkan's. In Direct3D rounded locations may go
-/// backwards, so a triangle may turn the other way, and may coincide, so an edge may show fewer segments than it has;
-/// `Counts` stands for these.
-const SOURCES: [[&str; 3]; Rule::NAMES.len()] = {
-    const GL: &str = "11.2.2 Tessellation Primitive Generation";
-    const SPACING: &str = "22.3 Tessellator Spacing";
-    const POINTS: &str = "22.9 Tessellation Point Mode";
-    macro_rules! rule {
-        ($number:literal) => {
-            concat!("Tessellation Invariance, rule ", $number)
-        };
-    }
-    [
-        [rule!(1), rule!(1), "13 What the public specification leaves open: order"],
-        [rule!(2), rule!(2), "12.5 Crack-free"],
-        [rule!(3), rule!(3), "12.2 Symmetry"],
-        [rule!(4), rule!(4), "12.5 Crack-free"],
-        [rule!(5), rule!(5), "12.7 Winding"],
-        [rule!(6), rule!(6), ""],
-        [rule!(7), rule!(7), ""],
-        [rule!(8), rule!(8), "12.1 Range"],
-        ["22.2 Tessellator Patch Discard", GL, "3 Factor processing: cull"],
-        [SPACING, GL, ""],
-        [SPACING, GL, ""],
-        [SPACING, GL, ""],
-        ["22.6 Triangle Tessellation, 22.7 Quad Tessellation", GL, "12.3 Area, 12.4 Manifold"],
-        ["22.5 Tessellator Vertex Winding Order", GL, ""],
-        ["22.8 Isoline Tessellation", GL, "6 Points, in order: isoline"],
-        [POINTS, GL, ""],
-        [POINTS, GL, "8 Output primitives"],
-        ["", "", "12.6 Counts"],
-    ]
-};
+/// A section of Vulkan 1.3's chapter about tessellation.
+mod vulkan {
+    pub(super) const DISCARD: &str = "22.2 Tessellator Patch Discard";
+    pub(super) const SPACING: &str = "22.3 Tessellator Spacing";
+    pub(super) const WINDING: &str = "22.5 Tessellator Vertex Winding Order";
+    pub(super) const MESH: &str = "22.6 Triangle Tessellation, 22.7 Quad Tessellation";
+    pub(super) const ISOLINES: &str = "22.8 Isoline Tessellation";
+    pub(super) const POINTS: &str = "22.9 Tessellation Point Mode";
+}
+
+/// The section of OpenGL 4.6 about tessellation without its list of invariance rules.
+const OPENGL: &str = "11.2.2 Tessellation Primitive Generation";
+
+/// The list of invariance rules, which Vulkan and OpenGL share with title and numbers.
+macro_rules! invariance {
+    ($number:literal) => {
+        Some(concat!("Tessellation Invariance, rule ", $number))
+    };
+}
 
 impl Specification {
     /// Its rules, in the order of [`Rule`].
     pub(super) fn rules(self) -> impl Iterator<Item = Rule> {
         let all = Rule::NAMES.iter().map(|(_, rule)| *rule);
-        all.filter(move |rule| !self.source(*rule).is_empty())
+        all.filter(move |rule| self.source(*rule).is_some())
     }
 
-    /// Where it states a rule: section and title; empty if it has no such rule. Direct3D's rules are sections of
-    /// `docs/specification.md`, which refines chapter 11 of the D3D11.3 functional specification.
+    /// The section of the standard that states a rule, by number and title; `None` if the standard has no such rule.
+    ///
+    /// Direct3D's rules are sections of `docs/specification.md`, which refines chapter 11 of the D3D11.3 functional
+    /// specification.
     #[must_use]
-    pub const fn source(self, rule: Rule) -> &'static str {
-        SOURCES[rule as usize][self as usize]
+    pub const fn source(self, rule: Rule) -> Option<&'static str> {
+        match self {
+            Self::Vulkan => vulkan_source(rule),
+            Self::OpenGl => opengl_source(rule),
+            Self::D3d11 => d3d11_source(rule),
+        }
+    }
+}
+
+const fn vulkan_source(rule: Rule) -> Option<&'static str> {
+    match rule {
+        Rule::Same => invariance!(1),
+        Rule::EdgeLevel => invariance!(2),
+        Rule::Symmetric => invariance!(3),
+        Rule::EveryEdge => invariance!(4),
+        Rule::Winding => invariance!(5),
+        Rule::Interior => invariance!(6),
+        Rule::Transition => invariance!(7),
+        Rule::Range => invariance!(8),
+        Rule::Discard => Some(vulkan::DISCARD),
+        Rule::Segments | Rule::Spacing | Rule::EqualLevels | Rule::Monotone => {
+            Some(vulkan::SPACING)
+        }
+        Rule::InnerLevels | Rule::InnerSpacing | Rule::Cover | Rule::Neighbours => {
+            Some(vulkan::MESH)
+        }
+        Rule::Orientation => Some(vulkan::WINDING),
+        Rule::Isolines => Some(vulkan::ISOLINES),
+        Rule::PointsOnce | Rule::PointsSame => Some(vulkan::POINTS),
+        Rule::Counts | Rule::Places | Rule::Primitives => None,
+    }
+}
+
+/// OpenGL's text is the one that Vulkan's was made from: it states the same rules.
+const fn opengl_source(rule: Rule) -> Option<&'static str> {
+    match rule {
+        Rule::Same
+        | Rule::EdgeLevel
+        | Rule::Symmetric
+        | Rule::EveryEdge
+        | Rule::Winding
+        | Rule::Interior
+        | Rule::Transition
+        | Rule::Range => vulkan_source(rule),
+        _ if vulkan_source(rule).is_some() => Some(OPENGL),
+        _ => None,
+    }
+}
+
+/// Direct3D's locations are exact, so `Places` and `Primitives` include what other standards say of spacing, winding and
+/// the inside.
+const fn d3d11_source(rule: Rule) -> Option<&'static str> {
+    match rule {
+        Rule::Same => Some("13 What the public specification leaves open: order"),
+        Rule::EdgeLevel | Rule::EveryEdge => Some("12.5 Crack-free"),
+        Rule::Symmetric => Some("12.2 Symmetry"),
+        Rule::Winding => Some("12.7 Winding"),
+        Rule::Range => Some("12.1 Range"),
+        Rule::Discard => Some("3 Factor processing: cull"),
+        Rule::Segments => Some("4 The factor context: points"),
+        Rule::InnerLevels => Some("6 Points, in order: interior"),
+        Rule::Cover => Some("12.3 Area, 12.4 Manifold"),
+        Rule::Isolines => Some("6 Points, in order: isoline"),
+        Rule::PointsSame => Some("8 Output primitives"),
+        Rule::Counts => Some("12.6 Counts"),
+        Rule::Places => Some("6 Points, in order"),
+        Rule::Primitives => Some("7 Connectivity"),
+        Rule::Spacing
+        | Rule::InnerSpacing
+        | Rule::EqualLevels
+        | Rule::Monotone
+        | Rule::Interior
+        | Rule::Transition
+        | Rule::Neighbours
+        | Rule::Orientation
+        | Rule::PointsOnce => None,
     }
 }

@@ -44,7 +44,8 @@ fn flip(output: &mut Tessellation, wanted: [usize; 2]) {
                 let quad = [a, b, d, c].map(|k| output.points[k as usize]);
                 let left = quad.iter().filter(|point| point.u.to_bits() == 0).count();
                 let outline = quad.iter().filter(|point| is_on_outline(**point)).count();
-                if is_convex(quad) && [left, outline] == wanted {
+                let is_cell = outline > 0 || is_rectangle(quad);
+                if is_convex(quad) && is_cell && [left, outline] == wanted {
                     output.indices[3 * i..3 * i + 3].copy_from_slice(&[a, b, d]);
                     output.indices[3 * j..3 * j + 3].copy_from_slice(&[a, d, c]);
                     return;
@@ -52,6 +53,14 @@ fn flip(output: &mut Tessellation, wanted: [usize; 2]) {
             }
         }
     }
+}
+
+/// Whether four points are the corners of a cell of columns and rows.
+fn is_rectangle(quad: [DomainPoint; 4]) -> bool {
+    let distinct = |of: fn(DomainPoint) -> u32| {
+        quad.into_iter().map(of).collect::<std::collections::BTreeSet<_>>().len()
+    };
+    distinct(|point| point.u.to_bits()) == 2 && distinct(|point| point.v.to_bits()) == 2
 }
 
 fn is_convex(quad: [DomainPoint; 4]) -> bool {
@@ -115,19 +124,81 @@ fn faults_of_vertices() {
     });
 }
 
+/// Rules about the inside: columns and rows, rings, and what joins them.
+#[test]
+fn faults_of_the_inside() {
+    let exchanged = QUAD.replace("40a00000 40c00000", "40c00000 40a00000");
+    let answer: &dyn Fn(&str) -> Tessellation = &|line| case(line).patch().tessellate();
+    for (line, other) in [
+        (QUAD, exchanged.as_str()),
+        (TRI, &TRI.replace("40400000 40a00000", "40400000 40800000")),
+        (QUAD, &QUAD.replace("40a00000 40c00000", "3f800000 3f800000")),
+    ] {
+        let report = judge(VULKAN, [(case(line), answer(other))]);
+        assert_eq!(rules(&report, Verdict::Broken), ["inner-levels"], "{report}");
+    }
+    // A row of vertices, and a vertex of a ring, at another place.
+    found_by_alone(VULKAN, Rule::InnerSpacing, &[QUAD], |output| move_row(output, 40));
+    found_by_alone(VULKAN, Rule::InnerSpacing, &[TRI], |output| {
+        // After 12 vertices of the outline and 4 of the ring: the first one beside v = 0 that is not a corner.
+        let vertex = &mut output.points[16];
+        *vertex = DomainPoint::from_bits(vertex.u.to_bits() + 40, vertex.v.to_bits());
+    });
+    // The shorter segments of one level at two places: split off beside the ends, or beside the middle.
+    let line = "case isoline fractional_even line ruler 3f800000 40a80000";
+    found_by_alone(VULKAN, Rule::EqualLevels, &[line, &line.replace(" 3f8", " 400")], |output| {
+        let center = "case isoline fractional_even line center 40000000 40a80000";
+        *output = case(center).patch().tessellate();
+    });
+    // A triangle that cuts off a corner of the outline.
+    found_by_alone(VULKAN, Rule::Neighbours, &[QUAD], |output| flip(output, [2, 3]));
+}
+
+/// Moves the vertices inside that have the smallest v.
+fn move_row(output: &mut Tessellation, by: u32) {
+    let inside = output.points.iter().filter(|point| !is_on_outline(**point));
+    let least = inside.map(|point| point.v).min();
+    for point in output.points.iter_mut() {
+        if !is_on_outline(*point) && Some(point.v) == least {
+            *point = DomainPoint::from_bits(point.u.to_bits(), point.v.to_bits() + by);
+        }
+    }
+}
+
 /// Rules about one patch's primitives.
 #[test]
 fn faults_of_primitives() {
     let last = |output: &mut Tessellation| output.indices.truncate(output.indices.len() - 3);
     found_by_alone(VULKAN, Rule::Cover, &[QUAD], last);
     found_by_alone(VULKAN, Rule::Cover, &[QUAD], |output| output.indices.extend([20, 21, 22]));
-    found_by_alone(VULKAN, Rule::Orientation, &[QUAD], |output| {
-        let inside = output.points.iter().position(|point| !is_on_outline(*point));
-        output.points[inside.expect("a point inside")] = DomainPoint::from_bits(0x8000, 0xF000);
+    // Vertices of the inside may be on the outline, so other rules do not ask where they are.
+    let touching = "case quad fractional_odd triangle_cw ruler 40a00000 40a00000 40a00000 40a00000 \
+                    3f800000 3f800000";
+    found_by_alone(VULKAN, Rule::Orientation, &[touching], |output| {
+        // The corner of the rectangle inside that is near (0, 0), beyond the diagonal of its two triangles.
+        let corner = output.points.len() - 3;
+        output.points[corner] = DomainPoint::from_bits(0xF000, 0xF000);
     });
     found_by_alone(VULKAN, Rule::Isolines, &[LINES], |output| output.indices.extend([0, 1]));
     found_by_alone(VULKAN, Rule::Isolines, &[LINES], |output| output.indices[1] = 2);
-    found_by_alone(Specification::D3d11, Rule::Counts, &[POINTS], |output| {
-        _ = output.indices.pop()
-    });
+}
+
+/// Rules of Direct3D, which says where every vertex is.
+#[test]
+fn faults_of_exact_places() {
+    const D3D11: Specification = Specification::D3d11;
+    let report = judge(
+        D3D11,
+        [(case(QUAD), {
+            let exchanged = QUAD.replace("40a00000 40c00000", "40c00000 40a00000");
+            case(&exchanged).patch().tessellate()
+        })],
+    );
+    let example = row(&report, Rule::InnerLevels).smallest.as_ref().map(|row| row.what.as_str());
+    assert_eq!(example, Some("inner level 1 is 5 and asks for 5 columns; there are 6"), "{report}");
+    // The view of all points as a line has no primitives that are compared.
+    let view = QUAD.replace("triangle_cw", "line");
+    found_by_alone(D3D11, Rule::Counts, &[&view], |output| output.indices.extend([0, 1]));
+    found_by_alone(D3D11, Rule::Places, &[&view], |output| squeeze(output, 1, 4));
+    found_by_alone(D3D11, Rule::Primitives, &[QUAD], |output| flip(output, [0, 0]));
 }

@@ -1,4 +1,4 @@
-//! Where each rule's limits lie, and what is said beyond them.
+//! The limits of each rule, and the words for what is beyond them.
 
 use super::*;
 
@@ -24,7 +24,7 @@ fn move_line(output: &mut Tessellation, first: usize, v: u32) {
 /// Each coordinate alone, and the sum on triangles; the domain's corners belong to it.
 #[test]
 fn where_the_domain_ends() {
-    let outside = |place: &str| Some(format!("vertex ({place}) lies outside the domain"));
+    let outside = |place: &str| Some(format!("vertex ({place}) is outside the domain"));
     let moved: [(&str, Fault, Option<String>); 5] = [
         (
             QUAD,
@@ -104,7 +104,7 @@ fn faults_of_primitives_in_words() {
     let gap = said(line, Rule::Isolines, |output| output.indices.truncate(6));
     assert_eq!(gap, "the line at v = 08000 is not walked once from 0 to 1");
     let moved = said(line, Rule::Isolines, |output| move_line(output, 3, 0x8011));
-    assert_eq!(moved, "line 1 of 2 lies at v = 08011");
+    assert_eq!(moved, "line 1 of 2 is at v = 08011");
     let near = said(line, Rule::Isolines, |output| move_line(output, 3, 0x8010));
     assert_eq!(near, "", "16 units are rounding");
     let point = ones.replace("triangle_cw", "point");
@@ -115,7 +115,7 @@ fn faults_of_primitives_in_words() {
 /// The words on an edge whose vertices are not where its level puts them: equal lengths, and two shorter ones.
 #[test]
 fn faults_of_edges_in_words() {
-    // The points from the second on lie at these places.
+    // The points from the second on are at these places.
     let said_of = |line: &str, places: &[u32]| {
         let moved = said(line, Rule::Spacing, |output| {
             for (point, &u) in output.points[1..].iter_mut().zip(places) {
@@ -126,12 +126,12 @@ fn faults_of_edges_in_words() {
     };
     let equal = "case isoline integer line ruler 3f800000 40800000";
     let moved = said_of(equal, &[0x4011]);
-    assert_eq!(moved, "line 0: vertex 1 of 4 lies at 04011, more than 16 units from 1/4");
+    assert_eq!(moved, "line 0: vertex 1 of 4 is at 04011, more than 16 units from 1/4");
     assert_eq!(said_of(equal, &[0x3FF0]), "", "16 units are rounding");
     // Five segments; two shorter ones must lie symmetrically. 32 units are rounding.
     let fractional = "case isoline fractional_odd line ruler 3f800000 40800000";
     let unpaired =
-        |a, b| format!("line 0: segments {a} and {b} are shorter, and are no mirrored pair");
+        |a, b| format!("line 0: segments {a} and {b} are shorter, and are not a mirrored pair");
     let number = |n| format!("line 0: {n} of 5 segments are shorter, not two");
     for (moved, expected) in [
         ([0x2000, 0x6000, 0xA000, 0xE000], String::new()),
@@ -194,8 +194,9 @@ fn edges_may_be_mirrored() {
 fn shorter_segments_may_shrink_by_rounding() {
     let line =
         |level: &str| case(&format!("case isoline fractional_odd line ruler 3f800000 {level}"));
-    let (low, high) = (line("40800000"), line("40900000"));
-    let judged = |shorter: u32| {
+    let low = line("40800000");
+    let judged_at = |high: &str, shorter: u32| {
+        let high = line(high);
         let mut output = high.patch().tessellate();
         let long = (ONE - 2 * shorter) / 3;
         for (k, u) in
@@ -209,9 +210,15 @@ fn shorter_segments_may_shrink_by_rounding() {
     };
     let places = low.patch().tessellate().points;
     let length = places[2].u.to_bits() - places[1].u.to_bits();
+    let judged = |shorter| judged_at("40820000", shorter);
     assert_eq!(judged(length - 2), (1, None), "rounding");
     let what = format!("the shorter segments shrink from {length:05x} to {:05x}", length - 3);
     assert_eq!(judged(length - 3), (1, Some(what)));
+    // From a level to one that is 1/8 above it they grow.
+    let stays = format!("the shorter segments stay {length:05x} from a level to a higher one");
+    assert_eq!(judged_at("40840000", length), (1, Some(stays)));
+    assert_eq!(judged_at("40840000", length + 1), (1, None), "longer");
+    assert_eq!(judged_at("40838000", length), (1, None), "nearer levels");
 }
 
 /// Of examples of one size the first is kept; a smaller one takes its place.

@@ -12,7 +12,7 @@ use tess_capi::types::{TESS_DOMAIN_ISOLINE, TESS_OUTPUT_LINE, TessConfig};
 
 /// Judges lines of isolines alone, which are quick.
 fn judge(specification: u32, mut fault: DeviceFault) -> (u32, String) {
-    let mut report: Vec<c_char> = vec![1; 8192];
+    let mut report: Vec<c_char> = vec![1; 16384];
     let user = (&raw mut fault).cast();
     let (room, size) = (report.as_mut_ptr(), report.len());
     // SAFETY: an array of this function, and a device that keeps to its type.
@@ -30,10 +30,10 @@ fn the_model_holds_direct3d_and_breaks_vulkan() {
         |config, _, _| if is_lines(config) { 0 } else { TESS_DEVICE_UNSUPPORTED };
     let (status, report) = judge(TESS_SPECIFICATION_D3D11, lines);
     assert_eq!(status, TESS_OK, "{report}");
-    assert!(report.contains("\nisolines     held ") && report.contains(" 0 broken"), "{report}");
+    assert!(report.contains("\nisolines      held ") && report.contains(" 0 broken"), "{report}");
     let (status, report) = judge(TESS_SPECIFICATION_VULKAN, lines);
     assert_eq!(status, TESS_DIFFERENT, "{report}");
-    let is_shown = report.contains("segments     broken") && report.contains("\n  case isoline ");
+    let is_shown = report.contains("segments      broken") && report.contains("\n  case isoline ");
     assert!(is_shown, "{report}");
 }
 
@@ -44,7 +44,7 @@ fn a_broken_rule_is_found() {
         if is_lines(config) { 0 } else { TESS_DEVICE_UNSUPPORTED }
     });
     assert_eq!(status, TESS_DIFFERENT, "{report}");
-    assert!(report.contains("counts       broken"), "{report}");
+    assert!(report.contains("counts        broken"), "{report}");
 }
 
 #[test]

@@ -20,7 +20,7 @@ fn a_capture_is_judged() {
     let faulty = listings.replacen("\n00000 04000\n", "\n00000 04001\n", 1);
     assert_ne!(faulty, listings, "a fault is planted");
     let run = tess_with_input("check - --rules d3d11", &faulty);
-    run.exits(1).prints("symmetric    broken");
+    run.exits(1).prints("symmetric     broken");
     let different = "patches beside the model: 1 equal, 0 in another order, 1 different\n";
     assert!(run.stdout.ends_with(different), "{}", run.stdout);
 }
@@ -29,6 +29,31 @@ const LINES: [&str; 2] = [
     "case tri integer triangle_cw ruler 40800000 40a00000 40400000 40a00000\n",
     "case isoline fractional_odd line ruler 3f800000 40400001\n",
 ];
+
+/// Answers to other levels than were asked for: the rule names the level.
+#[test]
+fn levels_that_are_ignored_or_exchanged_are_named() {
+    let quad = |inner: &str| {
+        format!("case quad integer triangle_cw ruler{} {inner}\n", " 40800000".repeat(4))
+    };
+    let lines = |levels: &str| format!("case isoline integer line ruler {levels}\n");
+    let rows = "inner level 2 is 7 and asks for 7 rows; there are 2";
+    let columns = "inner level 1 is 2 and asks for 2 columns; there are 7";
+    let isolines = "the patch has 8 isolines, its level 3 asks for 3";
+    for (asked, answered, says) in [
+        (quad("40000000 40e00000"), quad("3f800000 3f800000"), rows),
+        (quad("40000000 40e00000"), quad("40e00000 40000000"), columns),
+        (lines("40400000 41000000"), lines("41000000 40400000"), isolines),
+    ] {
+        let listing = tess_with_input("patch --cases -", &answered).stdout;
+        let device = listing.replacen(&answered, &asked, 1);
+        assert_ne!(device, listing, "another case is answered");
+        for standard in ["vulkan", "opengl", "d3d11"] {
+            let run = tess_with_input(&format!("check - --rules {standard}"), &device);
+            run.exits(1).prints(&format!("\n  {says}\n  {asked}"));
+        }
+    }
+}
 
 /// A baseline says how often a rule is broken and which answers are missing; nothing else passes.
 #[test]
@@ -109,7 +134,7 @@ fn rules_are_for_listings() {
     let rows = tess("gen --rules --domain isoline --count 3 --split ruler");
     rows.exits(0);
     let header = rows.stdout.lines().next().unwrap_or_default();
-    assert!(header.contains(" level=rules level-version=2 seed=1 random=3 "), "{header}");
+    assert!(header.contains(" level=rules level-version=3 seed=1 random=3 "), "{header}");
     let run = tess_with_input("check - --rules opengl", &rows.stdout);
     run.exits(2).prints_nothing().says("--rules judges listings");
     for words in
@@ -137,7 +162,7 @@ fn backends_are_judged() {
     let run = tess("verify --backend simd --rules d3d11");
     run.exits(0);
     assert!(
-        run.stdout.ends_with("d3d11: 11 rules held, 0 broken, 0 not exercised\n"),
+        run.stdout.ends_with("d3d11: 15 rules held, 0 broken, 0 not exercised\n"),
         "{}",
         run.stdout
     );

@@ -1,0 +1,144 @@
+//! The rule about the triangles between two lines.
+//!
+//! Vulkan (22.6, 22.7) and OpenGL leave the triangles to the device, but two vertices of each are neighbours on one
+//! line, and the third is on the line beside it: on the same edge of the outline and of the rectangle or ring inside,
+//! or of two rings. A cell of a quad's columns and rows has two triangles. A triangle's innermost ring is a triangle.
+
+use super::Judged;
+use super::answer::{Answer, Place, position, show};
+use super::edge::segments;
+use super::inside::inner_levels;
+use super::levels::{Level, is_minimum, may_touch_outline};
+use super::lines::Grid;
+use super::rings::Rings;
+use super::standard::Specification;
+use std::collections::HashMap;
+use tess_core::Domain;
+
+/// A position of a place on a line: the outline's edge has ring 0, the first line inside it ring 1.
+#[derive(Clone, Copy, Debug)]
+struct Spot {
+    edge: usize,
+    ring: u32,
+    index: usize,
+}
+
+/// The spots of each place. A corner has two, a centre one for each edge.
+type Spots = HashMap<Place, Vec<Spot>>;
+
+/// Each triangle joins two neighbours of one line with a vertex of the next one. Patches whose lines have other numbers
+/// of segments than their levels ask for are not judged.
+pub(super) fn neighbours(answer: &Answer, specification: Specification) -> Judged {
+    let case = &answer.case;
+    let is_right = |judged: Judged| judged.is_some_and(|result| result.is_ok());
+    if !answer.has_triangles()
+        || is_minimum(case)
+        || may_touch_outline(case, specification)
+        || !is_right(segments(answer, None, specification))
+        || !is_right(inner_levels(answer, None, specification))
+    {
+        return None;
+    }
+    let mut spots = outline(answer);
+    let grid = Grid::new(answer);
+    let innermost = match case.domain() {
+        Domain::Isoline => return None,
+        Domain::Quad => {
+            rectangle(answer, &grid, &mut spots);
+            0
+        }
+        Domain::Triangle => {
+            let n = Level::inner(case, 0)?.segments();
+            add_rings(&Rings::new(answer.inside(), n)?, &mut spots);
+            if n % 2 == 1 { n / 2 } else { 0 }
+        }
+    };
+    let is_right = |triangle: &[Place; 3]| {
+        let inside = triangle.map(|place| !answer.is_on_outline(place));
+        let is_cell =
+            case.domain() == Domain::Quad && inside == [true; 3] && in_cell(&grid, triangle);
+        is_cell || between(&spots, triangle) || is_innermost(&spots, triangle, innermost)
+    };
+    let wrong = answer.triangles().enumerate().find(|(_, triangle)| !is_right(triangle));
+    Some(wrong.map_or(Ok(()), |(number, [a, b, c])| {
+        let places = format!("{} {} {}", show(a), show(b), show(c));
+        let rule = "two neighbours of one line with a vertex of the next line";
+        Err(format!("triangle {number} does not join {rule}: {places}"))
+    }))
+}
+
+fn outline(answer: &Answer) -> Spots {
+    let domain = answer.case.domain();
+    let mut spots = Spots::new();
+    for edge in 0..domain.outer_factors() {
+        let along = answer.along(edge);
+        for &place in &answer.places {
+            let found = position(domain, edge, place).and_then(|x| along.binary_search(&x).ok());
+            let spot = found.map(|index| Spot { edge, ring: 0, index });
+            spots.entry(place).or_default().extend(spot);
+        }
+    }
+    spots
+}
+
+/// The four edges of the rectangle of a quad's vertices inside, in the order of outer edges.
+fn rectangle(answer: &Answer, grid: &Grid, spots: &mut Spots) {
+    let ends = |along: &[u32]| [along.first().copied(), along.last().copied()];
+    let ([first_u, last_u], [first_v, last_v]) = (ends(&grid.columns), ends(&grid.rows));
+    for place in answer.inside() {
+        let [u, v] = place.map(Some);
+        let at = |edge: usize| if edge % 2 == 0 { place[1] } else { place[0] };
+        let along = |edge: usize| if edge % 2 == 0 { &grid.rows } else { &grid.columns };
+        for (edge, is_on) in
+            [u == first_u, v == first_v, u == last_u, v == last_v].into_iter().enumerate()
+        {
+            if let (true, Ok(index)) = (is_on, along(edge).binary_search(&at(edge))) {
+                spots.entry(place).or_default().push(Spot { edge, ring: 1, index });
+            }
+        }
+    }
+}
+
+fn add_rings(rings: &Rings, spots: &mut Spots) {
+    for ring in &rings.rings {
+        for (edge, vertices) in ring.edges.iter().enumerate() {
+            for (index, (_, place)) in vertices.iter().enumerate() {
+                let spot = Spot { edge, ring: ring.number, index };
+                spots.entry(*place).or_default().push(spot);
+            }
+        }
+    }
+}
+
+/// Whether a triangle is one half of a cell of columns and rows.
+fn in_cell(grid: &Grid, triangle: &[Place; 3]) -> bool {
+    let spans_one = |along: &[u32], axis: usize| {
+        let [a, b, c] = triangle.map(|place| along.binary_search(&place[axis]).unwrap_or_default());
+        a.max(b).max(c) - a.min(b).min(c) == 1
+    };
+    spans_one(&grid.columns, 0) && spans_one(&grid.rows, 1)
+}
+
+/// Whether two vertices of a triangle are neighbours on a line, and the third one is on the line before or after it.
+fn between(spots: &Spots, triangle: &[Place; 3]) -> bool {
+    let of = |k: usize| spots.get(&triangle[k]).map_or(&[][..], Vec::as_slice);
+    (0..3).any(|first| {
+        let [a, b, c] = [0, 1, 2].map(|k| of((first + k) % 3));
+        let pairs = a.iter().flat_map(|one| b.iter().map(move |other| (one, other)));
+        let mut neighbours = pairs.filter(|(one, other)| {
+            one.edge == other.edge && one.ring == other.ring && one.index.abs_diff(other.index) == 1
+        });
+        neighbours.any(|(one, _)| {
+            c.iter().any(|third| third.edge == one.edge && third.ring.abs_diff(one.ring) == 1)
+        })
+    })
+}
+
+/// Whether a triangle has the three corners of the innermost ring, which is not a point.
+fn is_innermost(spots: &Spots, triangle: &[Place; 3], ring: u32) -> bool {
+    let [a, b, c] = *triangle;
+    let is_on = |place: &Place| {
+        spots.get(place).is_some_and(|spots| spots.iter().any(|spot| spot.ring == ring))
+    };
+    ring > 0 && triangle.iter().all(is_on) && a != b && b != c && c != a
+}

@@ -1,0 +1,141 @@
+//! The concentric triangles of a triangle patch, found in its vertices.
+//!
+//! Vulkan (22.6) and OpenGL make them from the inner level's division of an edge, at places t from 0 to 1. The corner
+//! of ring r is where two lines meet that are perpendicular to its edges at the r-th place; the ring's edge is divided
+//! by the perpendiculars at the other places. In coordinates:
+//!
+//! ```text
+//!         depth of ring r = 2/3 t(r)            n = 5: t = 0, 1/5, 2/5, 3/5, 4/5, 1
+//!   on v = depth:  u = t(k) - depth/2           ring 1: depth 2/15, 3 segments; ring 2: depth 4/15, 1 segment
+//!                                               places inside: 9 + 3
+//!        u=0 ╱╲ w=0
+//!           ╱──╲      ring r has n - 2r segments on each edge, so 3(n - 2r) vertices;
+//!          ╱╲  ╱╲     for even n the last one is a vertex, the centre
+//!         ╱──╲╱──╲
+//!            v=0
+//! ```
+//!
+//! A vertex is on the ring that its distance from the outline says. Where two rings are so close that rounding may mix
+//! them, there are no [`Rings`], and no rule about them judges the patch.
+
+use super::answer::Place;
+use super::edge::TOLERANCE;
+use tess_core::fixed_point::ONE;
+
+/// Vertices of one ring.
+#[derive(Debug)]
+pub(super) struct Ring {
+    /// Its number, from 1.
+    pub(super) number: u32,
+    /// The least and the largest distance of its vertices from the outline, as the least of u, v and w.
+    pub(super) depths: [u32; 2],
+    /// Vertices of each edge in the order of a clockwise walk, both corners included, each with its place t.
+    pub(super) edges: [Vec<(u32, Place)>; 3],
+}
+
+/// The rings of a patch, outermost first.
+#[derive(Debug)]
+pub(super) struct Rings {
+    pub(super) rings: Vec<Ring>,
+}
+
+/// How many vertices n segments of the inner level put inside.
+pub(super) fn vertices_inside(n: u32) -> usize {
+    (1..=n / 2).map(|ring| ring_vertices(n, ring)).sum()
+}
+
+/// The number of vertices on a ring; the centre is one.
+const fn ring_vertices(n: u32, ring: u32) -> usize {
+    if 2 * ring == n { 1 } else { 3 * (n - 2 * ring) as usize }
+}
+
+/// The third coordinate of a place in the domain.
+const fn w([u, v]: Place) -> u32 {
+    ONE.saturating_sub(u).saturating_sub(v)
+}
+
+fn depth(place: Place) -> u32 {
+    place[0].min(place[1]).min(w(place))
+}
+
+impl Rings {
+    /// The rings of n segments that vertices inside make; `None` if there are fewer or more vertices than these have, or
+    /// rings are too close to tell apart.
+    pub(super) fn new(mut inside: Vec<Place>, n: u32) -> Option<Self> {
+        if inside.len() != vertices_inside(n) {
+            return None;
+        }
+        inside.sort_by_key(|place| depth(*place));
+        let mut rest = inside.as_slice();
+        let mut rings: Vec<Ring> = Vec::new();
+        for number in 1..=n / 2 {
+            let (own, others) = rest.split_at_checked(ring_vertices(n, number))?;
+            let ring = Ring::new(number, own)?;
+            let is_apart =
+                rings.last().is_none_or(|outer| outer.depths[1] + 2 * TOLERANCE < ring.depths[0]);
+            if !is_apart {
+                return None;
+            }
+            rings.push(ring);
+            rest = others;
+        }
+        Some(Self { rings })
+    }
+
+    /// The places t that the outermost ring shows on its edge beside v = 0.
+    pub(super) fn outermost(&self) -> Vec<u32> {
+        let edge = self.rings.first().map(|ring| &ring.edges[1]);
+        edge.into_iter().flatten().map(|(t, _)| *t).collect()
+    }
+}
+
+impl Ring {
+    fn new(number: u32, places: &[Place]) -> Option<Self> {
+        let least = depth(*places.first()?);
+        let most = depth(*places.last()?);
+        let edge = |edge: usize| {
+            let distance = |place: Place| [place[0], place[1], w(place)][edge];
+            let own = places.iter().filter(|place| distance(**place) <= least + TOLERANCE);
+            let mut own: Vec<_> = own.map(|&place| (along(edge, place), place)).collect();
+            own.sort_unstable();
+            own
+        };
+        Some(Self { number, depths: [least, most], edges: [0, 1, 2].map(edge) })
+    }
+}
+
+/// The place t on an outer edge from which a perpendicular leads to a vertex.
+fn along(edge: usize, place: Place) -> u32 {
+    let [u, v] = place;
+    let half = |distance: u32| distance.div_ceil(2);
+    match edge {
+        0 => ONE.saturating_sub(v + half(u)),
+        1 => u + half(v),
+        _ => ONE.saturating_sub(u + half(w(place))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The worked case in the head of this file, and the first numbers of vertices.
+    #[test]
+    fn five_segments() {
+        assert_eq!([2, 3, 4, 5, 6].map(vertices_inside), [1, 3, 7, 12, 19]);
+        let line = "case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 40a00000";
+        let case: crate::Case = line.parse().expect("a case");
+        let points = case.patch().tessellate().points;
+        let places = points.iter().skip(3).map(|point| [point.u.to_bits(), point.v.to_bits()]);
+        let rings = Rings::new(places.collect(), 5).expect("five segments").rings;
+        for (ring, (depth, segments)) in rings.iter().zip([(2, 3), (4, 1)]) {
+            assert!(ring.depths.iter().all(|d| d.abs_diff(depth * ONE / 15) < 4), "{ring:?}");
+            for edge in &ring.edges {
+                assert_eq!(edge.len(), segments + 1, "{edge:?}");
+                for (k, (t, _)) in (ring.number..).zip(edge) {
+                    assert!(t.abs_diff(k * ONE / 5) < 4, "{k}: {t:05x}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Rules of Direct3D, which says where each vertex is and which primitives there are (specification, sections 5 to 7).
+//!
+//! The order of primitives is free, and so is the vertex that leads a triangle (section 13). The specified answer is
+//! the model's; there is none where a level has two legal conversions, or the patch may be culled.
+
+use super::Judged;
+use super::answer::{Answer, Place, show};
+use super::levels::has_one_conversion;
+use crate::case::Case;
+use std::collections::BTreeMap;
+use tess_core::Domain;
+
+/// The answer that Direct3D specifies for a case, if it leaves no choice.
+pub(super) fn specified(case: &Case) -> Option<Answer> {
+    if !has_one_conversion(case) {
+        return None;
+    }
+    let answer = Answer::new(case, &case.patch().tessellate()).ok();
+    answer.filter(|answer| !answer.is_empty())
+}
+
+/// As many primitives as the specified answer has; coinciding points may be merged.
+pub(super) fn counts(answer: &Answer, specified: Option<&Answer>) -> Judged {
+    let size = answer.case.primitive_size();
+    let (found, asked) = (answer.size() / size, specified?.size() / size);
+    let least = if answer.has_points() { specified?.places.len() } else { asked };
+    (!answer.is_empty()).then(|| match found {
+        _ if (least..=asked).contains(&found) => Ok(()),
+        _ => Err(format!("{found} primitives, its levels ask for {asked}")),
+    })
+}
+
+/// Vertices are at the specified places.
+pub(super) fn places(answer: &Answer, specified: Option<&Answer>) -> Judged {
+    let specified = specified?;
+    if answer.is_empty() {
+        return None;
+    }
+    let first_of = |these: &Answer, others: &Answer| {
+        let mut own = these.places.iter();
+        own.find(|place| others.places.binary_search(place).is_err()).map(|place| show(*place))
+    };
+    Some(match (first_of(answer, specified), first_of(specified, answer)) {
+        (None, None) => Ok(()),
+        (Some(extra), None) => Err(format!("a vertex is at {extra}, where none is specified")),
+        (None, Some(missing)) => Err(format!("no vertex is at {missing}, where one is specified")),
+        (Some(extra), Some(missing)) => {
+            Err(format!("a vertex is at {extra}, and none at {missing}, which is specified"))
+        }
+    })
+}
+
+/// How often each primitive comes, by its vertices; the smallest leads a triangle.
+fn primitives_of(answer: &Answer) -> BTreeMap<Vec<Place>, usize> {
+    let mut times = BTreeMap::new();
+    for primitive in answer.vertices.chunks(answer.case.primitive_size()) {
+        let mut primitive = primitive.to_vec();
+        if let [a, b, c] = primitive[..] {
+            let turns = [[a, b, c], [b, c, a], [c, a, b]];
+            primitive = turns.into_iter().min().unwrap_or([a, b, c]).to_vec();
+        }
+        *times.entry(primitive).or_default() += 1;
+    }
+    times
+}
+
+/// Primitives are the specified ones, in any order; coinciding points may be merged. Lines of triangles and quads join
+/// the points in their order, which is free, so they are not compared.
+pub(super) fn primitives(answer: &Answer, specified: Option<&Answer>) -> Judged {
+    let is_view = answer.case.primitive_size() == 2 && answer.case.domain() != Domain::Isoline;
+    let specified = specified?;
+    if answer.is_empty() || is_view {
+        return None;
+    }
+    let (own, right) = (primitives_of(answer), primitives_of(specified));
+    let times =
+        |of: &BTreeMap<Vec<Place>, usize>, primitive| of.get(primitive).copied().unwrap_or(0);
+    let text = |primitive: &Vec<Place>| {
+        primitive.iter().map(|place| show(*place)).collect::<Vec<_>>().join(" ")
+    };
+    let extra = own.iter().find(|(primitive, n)| **n > times(&right, *primitive));
+    let missing = right.iter().find(|(primitive, n)| match times(&own, *primitive) {
+        0 => true,
+        found => found < **n && !answer.has_points(),
+    });
+    Some(match (extra, missing) {
+        (None, None) => Ok(()),
+        (Some((extra, _)), None) => Err(format!("{} comes more often than specified", text(extra))),
+        (None, Some((missing, _))) => {
+            Err(format!("{} comes less often than specified", text(missing)))
+        }
+        (Some((extra, _)), Some((missing, _))) => {
+            Err(format!("{} is not specified, and {} is missing", text(extra), text(missing)))
+        }
+    })
+}
