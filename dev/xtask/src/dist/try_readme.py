@@ -44,8 +44,10 @@ def script(text):
                 if expected is None:
                     lines.append(command)
                     continue
-                Path(f"expected-{count}").write_text("\n".join(expected) + "\n")
-                lines += ["{", command, f"}} > printed-{count}", f"diff -u expected-{count} printed-{count}"]
+                # Absolute: the commands may go to another folder.
+                wanted, printed = Path(f"expected-{count}").absolute(), Path(f"printed-{count}").absolute()
+                wanted.write_text("\n".join(expected) + "\n")
+                lines += ["{", command, f"}} > '{printed}'", f"diff -u '{wanted}' '{printed}'"]
     return "\n".join(lines) + "\n", count
 
 

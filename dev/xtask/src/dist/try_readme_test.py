@@ -19,6 +19,11 @@ two
 $ wc -l < a.txt    # its lines
 2
 $ export WORD=so
+$ mkdir -p inner && cd inner
+$ echo in; pwd | grep -c inner
+in
+1
+$ cd ..
 $ echo \\
     $WORD > said
 ```
@@ -43,7 +48,7 @@ def verdict(text):
 
 def test_readmes():
     assert verdict(README) is None and Path("said").read_text() == "so\n", "a shell goes through it"
-    assert script(README)[1] == 3, "a comment leaves out one"
+    assert script(README)[1] == 6, "a comment leaves out one"
     assert "ended with 1" in verdict(README.replace("\n2\n", "\n3\n")), "other output"
     assert "ended with 1" in verdict(README.replace("$ export", "$ false\n$ export")), "a command fails"
     assert "ended with 1" in verdict(README.replace("<!-- not tried: it needs a window -->\n", "")), "it is tried"
