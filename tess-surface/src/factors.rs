@@ -68,9 +68,9 @@ pub enum FactorRule {
 /// The range of factors of all partitionings together.
 const RANGE: (f32, f32) = (1.0, 64.0);
 
-/// A factor within 1..=64; 1 for NaN.
+/// The factor clamped to 1..=64; 1 for NaN.
 #[must_use]
-pub const fn in_range(factor: f32) -> f32 {
+pub const fn clamp_factor(factor: f32) -> f32 {
     if factor > RANGE.0 { factor.min(RANGE.1) } else { RANGE.0 }
 }
 
@@ -92,7 +92,7 @@ pub fn root_quotient(dividend: f32, divisor: f32) -> f32 {
 fn within(dividend: f32, divisor: f32, most: f32, function: impl Fn(f32) -> f32) -> f32 {
     if dividend > divisor && divisor >= 0.0 {
         let is_most = dividend * (1.0 / most) >= divisor;
-        if is_most { RANGE.1 } else { in_range(function(dividend / divisor)) }
+        if is_most { RANGE.1 } else { clamp_factor(function(dividend / divisor)) }
     } else {
         RANGE.0
     }
@@ -154,7 +154,7 @@ impl FactorRule {
     #[must_use]
     pub fn edge(&self, curve: &Curve, bend: f32) -> f32 {
         match *self {
-            Self::Uniform(factor) => in_range(factor),
+            Self::Uniform(factor) => clamp_factor(factor),
             Self::Distance { eye, scale } => quotient(scale, eye.distance(curve.position(0.5))),
             Self::ScreenSize { eye, pixels_per_unit, segment } => {
                 let pixels = curve.length_bound() * pixels_per_unit;
@@ -180,7 +180,7 @@ impl FactorRule {
         partitioning: Partitioning,
     ) -> PatchFactors {
         if let Self::Uniform(factor) = *self {
-            let outer = model.sides(number).map(|()| in_range(factor));
+            let outer = model.sides(number).map(|()| clamp_factor(factor));
             return self.prepare(outer, Bend::ZERO, partitioning);
         }
         let patch = model.patch(number);

@@ -59,7 +59,7 @@ fn tess_edge(at: TessPlace, a: vec3<f32>, b: vec3<f32>) -> f32 {
     let pixels = tess_view.pixels_per_unit;
     switch u32(rule.x) {
         case 1u: {
-            return tess_in_range(rule.y);
+            return tess_clamp_factor(rule.y);
         }
         case 2u: {
             if tess_view.is_orthographic != 0u {

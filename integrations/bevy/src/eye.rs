@@ -99,7 +99,7 @@ impl Eye<'_> {
         let View { eye, pixels_per_unit, is_orthographic, .. } = self.view;
         let (ends, eye) = ([a, b].map(of_surface), of_surface(eye));
         match self.rule {
-            LevelOfDetail::Uniform(factor) => factors::in_range(factor),
+            LevelOfDetail::Uniform(factor) => factors::clamp_factor(factor),
             LevelOfDetail::Pixels(pixels) if is_orthographic => {
                 factors::quotient(a.distance(b) * pixels_per_unit, pixels)
             }

@@ -3,7 +3,7 @@
 // Needs pn_edge.wgsl.
 
 // A factor within 1 to 64; 1 for NaN.
-fn tess_in_range(factor: f32) -> f32 {
+fn tess_clamp_factor(factor: f32) -> f32 {
     if factor > 1.0 {
         return min(factor, 64.0);
     }
@@ -19,7 +19,7 @@ fn tess_quotient(dividend: f32, divisor: f32) -> f32 {
     if dividend * 0.015625 >= divisor { // 1/64
         return 64.0;
     }
-    return tess_in_range(dividend / divisor);
+    return tess_clamp_factor(dividend / divisor);
 }
 
 // The square root of dividend / divisor within 1 to 64, as tess_quotient.
@@ -30,7 +30,7 @@ fn tess_root_quotient(dividend: f32, divisor: f32) -> f32 {
     if dividend * 0.000244140625 >= divisor { // 1/4096
         return 64.0;
     }
-    return tess_in_range(sqrt(dividend / divisor));
+    return tess_clamp_factor(sqrt(dividend / divisor));
 }
 
 // --- Edges ---
