@@ -21,8 +21,8 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// From this many equal patches on, repeating is faster than processing.
-    const WORTH_REPEATING: usize = 8;
+    /// At this many equal patches and above, repeating one is faster than processing each.
+    pub(crate) const WORTH_REPEATING: usize = 8;
 
     /// The patches of a batch from `start` on, of which there are some.
     #[inline(always)]

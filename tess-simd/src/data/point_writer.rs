@@ -73,6 +73,14 @@ pub(crate) trait PointWriter {
         point: impl Fn(S) -> Self::Point,
     );
 
+    /// [`Writer::map_least`]; `point` may be asked twice for the same element.
+    fn map_least<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        point: impl Fn(S) -> Self::Point,
+    );
+
     /// [`Writer::blocks`].
     #[cfg(target_arch = "x86_64")]
     fn blocks<S: Copy, const N: usize, const LEAST: usize>(
@@ -100,6 +108,16 @@ impl<P: OutputPoint> PointWriter for Writer<'_, P> {
         point: impl Fn(S) -> P,
     ) {
         Writer::map::<_, N>(self, length, source, point);
+    }
+
+    #[inline(always)]
+    fn map_least<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        point: impl Fn(S) -> P,
+    ) {
+        Writer::map_least::<_, N, LEAST>(self, length, source, point);
     }
 
     #[cfg(target_arch = "x86_64")]

@@ -38,22 +38,31 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         source: &[S],
         element: impl Fn(S) -> T,
     ) {
+        self.map_least::<_, N, N>(length, source, element);
+    }
+
+    /// [`Self::map`], with one branch for all lengths up to `LEAST`, a multiple of `N`: that many elements are
+    /// written if there is room.
+    #[inline(always)]
+    pub(crate) fn map_least<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        element: impl Fn(S) -> T,
+    ) {
         let room = self.out.get_mut(self.at..).unwrap_or_default();
         self.at += length;
-        if length <= N
-            && let (Some(target), Some(block)) = (room.first_chunk_mut::<N>(), source.first_chunk())
+        if length <= LEAST
+            && let (Some(target), Some(source)) =
+                (room.first_chunk_mut::<LEAST>(), source.first_chunk::<LEAST>())
         {
-            *target = make(block, element);
+            write_blocks::<_, _, N>(target, source, element);
             return;
         }
         let padded = length.next_multiple_of(N);
-        let (Some(whole), Some(source)) = (room.get_mut(..padded), source.get(..padded)) else {
-            write_cut(room, source, element);
-            return;
-        };
-        for (target, block) in whole.as_chunks_mut::<N>().0.iter_mut().zip(source.as_chunks().0) {
-            *target = make(block, &element);
-            separate_blocks();
+        match (room.get_mut(..padded), source.get(..padded)) {
+            (Some(target), Some(source)) => write_blocks::<_, _, N>(target, source, element),
+            _ => write_cut(room, source, element),
         }
     }
 
@@ -150,6 +159,19 @@ impl<'a, T: Copy> Writer<'a, T> {
         } else {
             fill(self.out, period, times, LARGE_COPIED, |to, from, _| to.copy_from_slice(from));
         }
+    }
+}
+
+/// Whole blocks.
+#[inline(always)]
+fn write_blocks<S: Copy, T: Copy + Default, const N: usize>(
+    target: &mut [T],
+    source: &[S],
+    element: impl Fn(S) -> T,
+) {
+    for (target, block) in target.as_chunks_mut::<N>().0.iter_mut().zip(source.as_chunks().0) {
+        *target = make(block, &element);
+        separate_blocks();
     }
 }
 

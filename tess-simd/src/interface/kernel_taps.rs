@@ -166,11 +166,17 @@ impl KernelTap {
         match *kernel {
             Kernel::Process => levels::process(*level, config, &batch, kept),
             Kernel::Count => *part = levels::count(*level, config, &batch),
-            Kernel::CountAndKeep => *part = levels::count_and_keep(*level, config, &batch, kept),
+            Kernel::CountAndKeep => {
+                *part = levels::count_and_keep(*level, config, &batch, kept);
+                // Of a batch that begins with a run it keeps one patch or none.
+                if part.run > 1 {
+                    levels::process(*level, config, &batch, kept);
+                }
+            }
             Kernel::ProcessOne => {
                 self.ones.clear();
                 for factors in &work.patches {
-                    let (domain, [a, b, c]) = pairs(factors);
+                    let (domain, [a, b, c]) = (factors.domain(), pairs(factors));
                     let one = &mut self.one;
                     let counts = levels::process_one(*level, one, config, domain, a, b, c);
                     self.ones.push(counts);
@@ -226,7 +232,7 @@ impl TapTarget<'_> {
             Kernel::WriteIndices => levels::of_indices(*level, work, indices),
             Kernel::EmitOne => {
                 for patch in &work.patches {
-                    let (domain, [a, b, c]) = pairs(patch);
+                    let (domain, [a, b, c]) = (patch.domain(), pairs(patch));
                     {
                         let most_points = points.len();
                         let (points, indices) = (points.writer(), &mut *indices);

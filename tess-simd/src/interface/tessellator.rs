@@ -201,7 +201,10 @@ impl Tessellator {
         if total.points.max(total.indices) > u64::from(u32::MAX) {
             return Err(Error::BatchTooLarge { points: total.points, indices: total.indices });
         }
-        let kept = keep.then_some(&**packets);
+        // A batch that only begins with a run was not kept.
+        let run = slices[0].run;
+        let is_kept = keep && (run <= 1 || run == batch.len());
+        let kept = is_kept.then_some(&**packets);
         Ok(Counted { level, settings, workspaces, batch, slicing, slices, total, kept })
     }
 

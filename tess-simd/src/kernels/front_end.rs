@@ -4,13 +4,17 @@ use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
 use crate::data::lanes::LANES;
 use crate::stages::counts::{PacketCounts, PartCounts};
-use crate::stages::packet::{Packet, packet_counts};
+use crate::stages::packet::{Packet, one_counts, packet_counts};
 use tess_core::Config;
 
 /// Takes up to a chunk of patches through the front end. Lanes past the end count as culled; packets past the end
 /// stay as they are.
 #[inline(always)]
 pub(crate) fn process(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk::PACKETS]) {
+    if batch.len() <= FEW {
+        process_few(config, batch, batch.len(), &mut packets[0]);
+        return;
+    }
     let mut chunk = Chunk::EMPTY;
     chunk.load(batch);
     let (patches, domain) = (batch.len(), batch.domain());
@@ -33,9 +37,15 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
         if first == 0 {
             run = times;
         }
-        chunk.load(&batch.slice(&(first..first + patches)));
-        for number in 0..patches.div_ceil(LANES) {
-            sums.add(&packet_counts(config, domain, &chunk.packet(number)), times);
+        if patches == 1
+            && let Some(factors) = batch.patch(first)
+        {
+            sums.add_one(one_counts(config, &factors), times);
+        } else {
+            chunk.load(&batch.slice(&(first..first + patches)));
+            for number in 0..patches.div_ceil(LANES) {
+                sums.add(&packet_counts(config, domain, &chunk.packet(number)));
+            }
         }
         first += patches * times;
     }
@@ -43,19 +53,28 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
 }
 
 /// [`process`], then the output sizes of these patches together.
+///
+/// Of a batch of equal patches, one is kept. Another that begins with a run is counted, and nothing is kept.
 #[inline(always)]
 pub(crate) fn count_and_keep(
     config: Config,
     batch: &Batch<'_>,
     kept: &mut [Packet; Chunk::PACKETS],
 ) -> PartCounts {
-    if batch.len() <= FEW {
-        return count_and_keep_few(config, batch, &mut kept[0]);
+    let (patches, run) = (batch.len(), batch.run(0));
+    if run == patches {
+        return process_few(config, batch, 1, &mut kept[0]).times(run);
     }
-    let mut sums = Sums::default();
+    if run >= Stretch::WORTH_REPEATING {
+        return count(config, batch);
+    }
+    if patches <= FEW {
+        return process_few(config, batch, patches, &mut kept[0]);
+    }
     process(config, batch, kept);
-    for packet in kept.iter().take(batch.len().div_ceil(LANES)) {
-        sums.add(&packet.counts, 1);
+    let mut sums = Sums::default();
+    for packet in kept.iter().take(patches.div_ceil(LANES)) {
+        sums.add(&packet.counts);
     }
     sums.total()
 }
@@ -63,13 +82,18 @@ pub(crate) fn count_and_keep(
 /// As many patches are processed one by one: that takes less than a whole packet.
 const FEW: usize = 4;
 
-/// [`count_and_keep`] of at most [`FEW`] patches.
+/// Takes the first patches of a batch, at most [`FEW`], through the front end. The other lanes stay as they are.
 #[inline(always)]
-fn count_and_keep_few(config: Config, batch: &Batch<'_>, kept: &mut Packet) -> PartCounts {
+fn process_few(
+    config: Config,
+    batch: &Batch<'_>,
+    patches: usize,
+    packet: &mut Packet,
+) -> PartCounts {
     let mut total = PartCounts::default();
-    for lane in 0..FEW {
+    for lane in 0..patches.min(FEW) {
         let Some(factors) = batch.patch(lane) else { break };
-        let counts = kept.process_one(config, lane, factors);
+        let counts = packet.process_one(config, lane, factors);
         total.points += u64::from(counts.points);
         total.indices += u64::from(counts.indices);
         total.largest = total.largest.max(counts.points);
@@ -86,23 +110,26 @@ struct Sums {
 }
 
 impl Sums {
+    /// Patches that differ.
     #[inline(always)]
-    fn add(&mut self, counts: &PacketCounts, times: usize) {
-        // A product of 64 bits would not become vectors.
-        if times == 1 {
-            self.add_times(counts, |n| n)
-        } else {
-            self.add_times(counts, |n| times as u64 * n)
+    fn add(&mut self, counts: &PacketCounts) {
+        for lane in 0..LANES {
+            self.points[lane] += u64::from(counts.points[lane]);
+            self.indices[lane] += u64::from(counts.indices[lane]);
+            self.largest[lane] = counts.points[lane].max(self.largest[lane]);
         }
     }
 
+    /// A patch that comes several times.
     #[inline(always)]
-    fn add_times(&mut self, counts: &PacketCounts, times: impl Fn(u64) -> u64) {
-        for lane in 0..LANES {
-            self.points[lane] += times(u64::from(counts.points[lane]));
-            self.indices[lane] += times(u64::from(counts.indices[lane]));
-            self.largest[lane] = counts.points[lane].max(self.largest[lane]);
-        }
+    fn add_one(
+        &mut self,
+        PacketCounts { points: [points], indices: [indices] }: PacketCounts<1>,
+        times: usize,
+    ) {
+        self.points[0] += times as u64 * u64::from(points);
+        self.indices[0] += times as u64 * u64::from(indices);
+        self.largest[0] = points.max(self.largest[0]);
     }
 
     #[inline(always)]

@@ -33,6 +33,13 @@ impl PartCounts {
         })
     }
 
+    /// The counts of a patch that comes several times, from the count of one.
+    #[inline(always)]
+    pub(crate) const fn times(self, run: usize) -> Self {
+        let Self { points, indices, largest, .. } = self;
+        Self { points: run as u64 * points, indices: run as u64 * indices, largest, run }
+    }
+
     /// The size of the output in the widest formats.
     #[cfg(feature = "rayon")]
     pub(crate) const fn bytes(&self) -> u64 {

@@ -72,7 +72,6 @@ use crate::stages::points::{self, LocationTables, corner};
 use crate::stages::settings::Settings;
 use alloc::vec::Vec;
 use cache::{Cache, INDEX_STEP};
-use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, MAX_INDICES, MAX_POINTS, Patch, PatchFactors};
 
 /// The most points and indices of a compact patch: a quad's whose edges have [`COMPACT_EDGE`] points.
@@ -324,7 +323,7 @@ fn short(point: DomainPoint) -> CompactPoint {
 pub(crate) fn long<P: OutputPoint>(point: CompactPoint) -> P {
     let [u, v] = point.map(|coordinate| {
         let bits = u32::from(coordinate);
-        if bits == 0xFFFF { ONE } else { bits }
+        bits + ((bits + 1) >> 16)
     });
     P::from_bits(u, v)
 }

@@ -25,7 +25,8 @@ pub(crate) struct Job<'a> {
     pub(crate) level: Level,
     pub(crate) settings: &'a Settings,
     pub(crate) numbering: Numbering,
-    /// The packets of the whole batch, if the count kept them. Such a batch is one chunk and one part.
+    /// The packets of the whole batch, if the count kept them: of equal patches, a packet of one. Such a batch is
+    /// one chunk and one part.
     pub(crate) kept: Option<&'a [Packet; Chunk::PACKETS]>,
 }
 
@@ -99,8 +100,8 @@ impl Workspace {
         config: Config,
         factors: &PatchFactors,
     ) -> Counts {
-        let (domain, [a, b, c]) = pairs(factors);
-        levels::process_one(level, &mut self.memory().one, config, domain, a, b, c)
+        let [a, b, c] = pairs(factors);
+        levels::process_one(level, &mut self.memory().one, config, factors.domain(), a, b, c)
     }
 
     /// Writes one patch, and perhaps up to `MORE` elements behind it in either buffer. Returns its output sizes.
@@ -114,9 +115,9 @@ impl Workspace {
         mut points: impl PointRoom,
         indices: &mut [I],
     ) -> Result<Counts, Error> {
-        let (domain, [a, b, c]) = pairs(factors);
+        let (domain, raw @ [a, b, c]) = (factors.domain(), pairs(factors));
         let WorkspaceMemory { one, lookup, caches, .. } = self.memory();
-        let written = {
+        let written = !one.is_large_and_has(domain, raw) && {
             let most_points = points.len();
             let (points, indices) = (points.writer(), &mut *indices);
             let to =
@@ -171,7 +172,8 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
     let (mut start, all) = (0, batch.len());
     while start < all {
         let (Stretch { patches, times }, packets) = if let Some(kept) = kept {
-            (Stretch { patches: all, times: 1 }, kept)
+            let (patches, times) = if run == all { (1, run) } else { (all, 1) };
+            (Stretch { patches, times }, kept)
         } else {
             let stretch = if start == 0 && run > 1 {
                 Stretch { patches: 1, times: run }

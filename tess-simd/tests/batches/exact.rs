@@ -42,6 +42,28 @@ fn every_configuration_at_every_level() {
     }
 }
 
+/// Equal patches, alone and with another patch before or after them, at every length at which a batch is processed in
+/// another way: 4 patches one by one, 8 are worth copying, 64 are a chunk.
+#[test]
+fn runs_of_every_length() {
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    for level in levels() {
+        let mut tessellator = tessellator(config, level);
+        for domain in Domain::ALL {
+            for equal in (1..=9).chain([15, 16, 17, 62, 63, 64, 65, 127, 128, 129]) {
+                for factor in [0.0, 1.0, 4.0, 20.0] {
+                    let mut all = vec![PatchFactors::uniform(domain, factor); equal];
+                    compare_all(&mut tessellator, domain, &Patches::new(all.clone()));
+                    all.push(PatchFactors::uniform(domain, 2.5));
+                    compare_all(&mut tessellator, domain, &Patches::new(all.clone()));
+                    all.rotate_right(1);
+                    compare_all(&mut tessellator, domain, &Patches::new(all));
+                }
+            }
+        }
+    }
+}
+
 /// Many patches, so that templates replace each other.
 #[test]
 fn large_batches() {

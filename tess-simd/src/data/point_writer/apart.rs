@@ -57,11 +57,17 @@ impl PointWriter for ApartWriter<'_> {
         source: &[S],
         point: impl Fn(S) -> [f32; 2],
     ) {
-        if N < BLOCK {
-            self.write::<_, BLOCK, BLOCK>(length, source, |block| apart(block, &point));
-        } else {
-            self.write::<_, N, N>(length, source, |block| apart(block, &point));
-        }
+        self.map_least::<_, BLOCK, BLOCK>(length, source, point);
+    }
+
+    #[inline(always)]
+    fn map_least<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        point: impl Fn(S) -> [f32; 2],
+    ) {
+        self.write::<_, N, LEAST>(length, source, |block| apart(block, &point));
     }
 
     #[cfg(target_arch = "x86_64")]

@@ -6,9 +6,10 @@
 
 use super::Packet;
 use crate::data::lanes::{MAX_FACTORS, set};
+use crate::stages::counts::{PacketCounts, counts};
+use crate::stages::factor_context::point_counts;
 use crate::stages::factors::{Processed, all, process};
-use core::array::from_fn;
-use tess_core::{Config, Counts, Domain, PatchFactors};
+use tess_core::{Config, Counts, Domain, PatchFactors, QuadFactors, TriangleFactors};
 
 /// A patch that came alone, and a packet that has it in its first lane.
 #[derive(Clone, Debug)]
@@ -50,6 +51,11 @@ impl OnePatch {
     /// The output sizes of the patch; zeros if it is culled.
     pub(crate) const fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// Whether this is the patch that was processed last, and it is not compact.
+    pub(crate) fn is_large_and_has(&self, domain: Domain, raw: RawPairs) -> bool {
+        !self.packet.patch(0).is_compact() && self.domain == domain && self.raw == raw
     }
 
     /// Processes the raw factors of one patch, unless they are those of the patch before. Returns its output
@@ -117,33 +123,22 @@ fn kept(processed: &Processed<1, ROWS>) -> [u32; ROWS] {
     processed.fixed.map(|[factor]| factor & mask)
 }
 
+/// The raw factors of one patch in pairs, in the order of its domain.
 #[inline(always)]
-fn side_by_side(factors: PatchFactors) -> RawFactors {
-    let raw = match factors {
-        PatchFactors::Isoline(factors) => {
-            let [density, detail] = factors.into();
-            [density, detail, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+pub(crate) fn pairs(factors: &PatchFactors) -> RawPairs {
+    let pair = |one: f32, other: f32| u64::from(one.to_bits()) | (u64::from(other.to_bits()) << 32);
+    match *factors {
+        PatchFactors::Isoline(factors) => [pair(factors.density, factors.detail), 0, 0],
+        PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside }) => {
+            [pair(u0, v0), pair(w0, inside), 0]
         }
-        PatchFactors::Triangle(factors) => {
-            let [u0, v0, w0, inside] = factors.into();
-            [u0, v0, w0, inside, 0.0, 0.0, 0.0, 0.0]
+        PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v }) => {
+            [pair(u0, v0), pair(u1, v1), pair(inside_u, inside_v)]
         }
-        PatchFactors::Quad(factors) => {
-            let [u0, v0, u1, v1, inside_u, inside_v] = factors.into();
-            [u0, v0, u1, v1, inside_u, inside_v, 0.0, 0.0]
-        }
-    };
-    raw.map(|factor| [factor])
+    }
 }
 
-/// The domain and the raw factors of one patch, in pairs.
-#[inline(always)]
-pub(crate) fn pairs(factors: &PatchFactors) -> (Domain, RawPairs) {
-    let raw = side_by_side(*factors).map(|[factor]| u64::from(factor.to_bits()));
-    (factors.domain(), from_fn(|i| raw[2 * i] | (raw[2 * i + 1] << 32)))
-}
-
-/// The factors of which [`pairs`] made these.
+/// The factors of which [`pairs`] made these, as vectors of one lane.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
 fn apart(raw: RawPairs) -> RawFactors {
@@ -162,24 +157,16 @@ impl Packet {
         factors: PatchFactors,
     ) -> Counts {
         use Domain::{Isoline, Quad, Triangle};
-        let raw = side_by_side(factors);
+        let raw = apart(pairs(&factors));
+        let mut keep = |domain| {
+            self.keep_one(config, domain, lane, &process(config.partitioning, domain, &raw))
+        };
         // In each arm the domain is a constant.
         match factors.domain() {
-            Isoline => self.process_as(config, Isoline, lane, &raw),
-            Triangle => self.process_as(config, Triangle, lane, &raw),
-            Quad => self.process_as(config, Quad, lane, &raw),
+            Isoline => keep(Isoline),
+            Triangle => keep(Triangle),
+            Quad => keep(Quad),
         }
-    }
-
-    #[inline(always)]
-    fn process_as(
-        &mut self,
-        config: Config,
-        domain: Domain,
-        lane: usize,
-        raw: &RawFactors,
-    ) -> Counts {
-        self.keep_one(config, domain, lane, &process(config.partitioning, domain, raw))
     }
 
     /// Makes a lane from processed factors.
@@ -195,6 +182,23 @@ impl Packet {
         set(&mut self.counts.points, lane, counts.points);
         set(&mut self.counts.indices, lane, counts.indices);
         counts.of_patch(config, domain)
+    }
+}
+
+/// The output sizes of one patch.
+#[inline(always)]
+pub(crate) fn one_counts(config: Config, factors: &PatchFactors) -> PacketCounts<1> {
+    use Domain::{Isoline, Quad, Triangle};
+    let raw = apart(pairs(factors));
+    let of = |domain| {
+        let processed = process(config.partitioning, domain, &raw);
+        counts(config, domain, &processed, &point_counts(&processed.fixed, &processed.odd))
+    };
+    // In each arm the domain is a constant.
+    match factors.domain() {
+        Isoline => of(Isoline),
+        Triangle => of(Triangle),
+        Quad => of(Quad),
     }
 }
 
@@ -227,8 +231,8 @@ mod tests {
         for partitioning in [Integer, Pow2, FractionalOdd, FractionalEven] {
             let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
             let processed = |one: &mut OnePatch, patch| {
-                let (domain, [a, b, c]) = pairs(patch);
-                one.process(config, domain, a, b, c)
+                let [a, b, c] = pairs(patch);
+                one.process(config, patch.domain(), a, b, c)
             };
             for before in patches.iter().step_by(7) {
                 for patch in &patches {

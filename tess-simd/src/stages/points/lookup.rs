@@ -115,6 +115,8 @@ fn triangle_entry(number: usize, factor: usize, position: usize) -> (usize, usiz
 }
 
 impl<W: PointWriter> CompactPoints<W> for Lookup {
+    const LONG_BLOCKS: bool = false;
+
     fn kept(domain: Domain, code: u16) -> u16 {
         entry_of(domain, code)
     }

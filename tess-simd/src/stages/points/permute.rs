@@ -80,6 +80,8 @@ const INSIDE: i32 = (Domain::Quad.outer_factors() * HALF_EDGE) as i32 * (1 << LO
 pub(crate) struct Permutes<F>(pub(crate) F);
 
 impl<W, F: Fn(PacketPatch<'_>, &[Code], &mut W)> CompactPoints<W> for Permutes<F> {
+    const LONG_BLOCKS: bool = true;
+
     /// The code itself.
     fn kept(_: Domain, code: u16) -> u16 {
         code
