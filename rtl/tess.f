@@ -8,6 +8,7 @@ tess_factor.sv
 tess_factor_context.sv
 tess_factors.sv
 tess_fork.sv
+tess_skid.sv
 tess_place_position.sv
 tess_place_blend.sv
 tess_place.sv

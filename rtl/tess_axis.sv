@@ -1,38 +1,48 @@
 // tess_top with AXI4-Stream ports: one slave for patches, masters for counts, points and primitives. Only names and
 // packing change, so the timing is that of tess_top. Fields fill bytes from the lowest bit; the bits between are 0.
-module tess_axis (
+//
+//   port        bits, packed   PADDED   fields, by their lowest bit
+//   patch       200            256      0 domain, 2 partitioning, 4 output (2 bits each, numbers of tess_pkg), 6 split
+//                                       order; 8 the six factors, factor 0 lowest
+//   counts      32             32       0 points (13 bits), 16 primitives (14 bits)
+//   point       48             64       0 u, 24 v (17 bits each, 16.16). tlast: the last point of the patch
+//   primitive   56             64       0, 16, 32 the indices (13 bits each), 48 how many there are. tlast: the last
+//                                       primitive of the patch
+//
+// PADDED gives the widths that DMA engines and width converters take: powers of two. The bits that it adds are above all
+// fields; those of the patch are ignored.
+module tess_axis #(
+    parameter bit PADDED   = 1'b0,
+    parameter bit BUFFERED = 1'b0 // a register stage at each port: tess_skid
+) (
     input  logic         aclk,
     input  logic         aresetn, // low: reset, synchronous
 
-    // 0 domain, 2 partitioning, 4 output (2 bits each, numbers of tess_pkg), 6 split order; from 8 the six factors.
-    input  logic         s_axis_patch_tvalid,
-    output logic         s_axis_patch_tready,
-    /* verilator lint_off UNUSEDSIGNAL */ // bit 7
-    input  logic [199:0] s_axis_patch_tdata,
+    input  logic                            s_axis_patch_tvalid,
+    output logic                            s_axis_patch_tready,
+    /* verilator lint_off UNUSEDSIGNAL */ // bit 7, and what PADDED adds
+    input  logic [(PADDED ? 256 : 200)-1:0] s_axis_patch_tdata,
     /* verilator lint_on UNUSEDSIGNAL */
 
-    // 0 points (13 bits), 16 primitives (14 bits).
-    output logic         m_axis_counts_tvalid,
-    input  logic         m_axis_counts_tready,
-    output logic [31:0]  m_axis_counts_tdata,
+    output logic                            m_axis_counts_tvalid,
+    input  logic                            m_axis_counts_tready,
+    output logic [31:0]                     m_axis_counts_tdata,
 
-    // 0 u, 24 v (17 bits each, 16.16). tlast: the last point of the patch.
-    output logic         m_axis_point_tvalid,
-    input  logic         m_axis_point_tready,
-    output logic [47:0]  m_axis_point_tdata,
-    output logic         m_axis_point_tlast,
+    output logic                            m_axis_point_tvalid,
+    input  logic                            m_axis_point_tready,
+    output logic [(PADDED ? 64 : 48)-1:0]   m_axis_point_tdata,
+    output logic                            m_axis_point_tlast,
 
-    // 0, 16, 32 the indices (13 bits each), 48 how many there are. tlast: the last primitive of the patch.
-    output logic         m_axis_primitive_tvalid,
-    input  logic         m_axis_primitive_tready,
-    output logic [55:0]  m_axis_primitive_tdata,
-    output logic         m_axis_primitive_tlast
+    output logic                            m_axis_primitive_tvalid,
+    input  logic                            m_axis_primitive_tready,
+    output logic [(PADDED ? 64 : 56)-1:0]   m_axis_primitive_tdata,
+    output logic                            m_axis_primitive_tlast
 );
     logic [12:0] points, i0, i1, i2;
     logic [13:0] primitives;
     logic [16:0] u, v;
     logic [1:0]  size;
-    tess_top top (
+    tess_top #(.BUFFERED(BUFFERED)) top (
         .clk               (aclk),
         .rst               (!aresetn),
         .patch_valid       (s_axis_patch_tvalid),
@@ -59,7 +69,15 @@ module tess_axis (
         .primitive_i2      (i2),
         .primitive_last    (m_axis_primitive_tlast)
     );
-    assign m_axis_counts_tdata    = {2'd0, primitives, 3'd0, points};
-    assign m_axis_point_tdata     = {7'd0, v, 7'd0, u};
-    assign m_axis_primitive_tdata = {6'd0, size, 3'd0, i2, 3'd0, i1, 3'd0, i0};
+    assign m_axis_counts_tdata = {2'd0, primitives, 3'd0, points};
+    always_comb begin
+        m_axis_point_tdata           = '0;
+        m_axis_point_tdata[16:0]     = u;
+        m_axis_point_tdata[40:24]    = v;
+        m_axis_primitive_tdata        = '0;
+        m_axis_primitive_tdata[12:0]  = i0;
+        m_axis_primitive_tdata[28:16] = i1;
+        m_axis_primitive_tdata[44:32] = i2;
+        m_axis_primitive_tdata[49:48] = size;
+    end
 endmodule

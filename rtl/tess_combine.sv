@@ -56,21 +56,21 @@ module tess_combine (
     logic        quad;
     logic [2:0]  kind;
     logic [1:0]  number;
-    tess_delay #(.WIDTH(6), .CLOCKS(3)) beside (
+    tess_delay #(.WIDTH(1 + 3 + 2), .CLOCKS(3)) beside (
         .clk, .advance, .in({is_quad, at, side}), .out({quad, kind, number}));
 
     logic [16:0] u_next, v_next;
     always_comb begin
         u_next = a;
         v_next = b;
-        case (kind)
+        unique case (kind)
             tess_pkg::AT_CORNER: begin
                 // Triangle: (0, ONE), (0, 0), (ONE, 0). Quad: (0, 0), (ONE, 0), (ONE, ONE), (0, ONE).
                 u_next = (number == 2'd2 || (number == 2'd1 && quad)) ? tess_pkg::ONE : 17'd0;
                 v_next = (quad ? number[1] : number == 2'd0) ? tess_pkg::ONE : 17'd0;
             end
             tess_pkg::AT_OUTER: begin
-                case (number)
+                unique case (number)
                     2'd0:    begin u_next = 17'd0; v_next = a; end
                     2'd1:    begin u_next = a; v_next = 17'd0; end
                     2'd2:    begin
@@ -82,7 +82,7 @@ module tess_combine (
             end
             tess_pkg::AT_RING: begin
                 if (!quad) begin
-                    case (number)
+                    unique case (number)
                         2'd0:    begin u_next = q_perp; v_next = q; end
                         2'd1:    begin u_next = q; v_next = q_perp; end
                         default: begin u_next = q; v_next = beyond - q; end

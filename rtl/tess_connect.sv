@@ -72,7 +72,7 @@ module tess_connect (
     logic                             strip_along_u;
 
     function automatic logic [6:0] points_of(input logic [tess_pkg::COUNTS_BITS-1:0] all, input logic [2:0] i);
-        case (i)
+        unique case (i)
             3'd0:    points_of = all[7*0 +: 7];
             3'd1:    points_of = all[7*1 +: 7];
             3'd2:    points_of = all[7*2 +: 7];
@@ -104,7 +104,7 @@ module tess_connect (
         middle_next     = (m >> 1) - 7'd1;
         offset_next     = 7'd2;   // of the inner base from the outer one, but for stitches
         kind_next       = tess_pkg::STRAIGHT;
-        case (at)
+        unique case (at)
             AT_SEQUENCE: further_next = 7'd63;
             AT_LINE: begin
                 outer_last_next = detail; // the last point of a line begins no segment
@@ -187,7 +187,7 @@ module tess_connect (
     end
 
     logic is_last_edge;
-    assign is_last_edge = {7'd0, edge_further} >= remaining;
+    assign is_last_edge = remaining[13:7] == 7'd0 && edge_further >= remaining[6:0];
     assign passes       = edge_valid && (!ahead_valid || takes);
     assign ends_patch   = passes && is_last_edge;
 

@@ -39,7 +39,7 @@ module tess_factor_context #(
     assign has_fraction = half[15:0] != 16'd0;
     logic [6:0] less_odd;
     assign less_odd = half[22:16] - {6'd0, odd_here};
-    tess_delay #(.WIDTH(44), .CLOCKS(CLOCKS)) at_rest (
+    tess_delay #(.WIDTH(23 + 3 * 7), .CLOCKS(CLOCKS)) at_rest (
         .clk, .advance,
         .in ({half, half[22:16] + 7'(has_fraction), less_odd, less_odd + 7'(has_fraction)}),
         .out({floor_points, fraction, ceil_points, floor_before, ceil_before})

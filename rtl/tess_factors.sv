@@ -70,7 +70,7 @@ module tess_factors (
         assign is_large[i]    = !x[31] && x[30:0] > 31'h3F80_0040 && x[30:0] <= 31'h7F80_0000;
     end
     logic comes_culled;
-    assign comes_culled = (is_outer & ~is_positive) != 6'd0;
+    assign comes_culled = in_domain > tess_pkg::QUAD || (is_outer & ~is_positive) != 6'd0;
     assign in_ready     = !rst && advance && (!busy || issues_last);
 
     always_ff @(posedge clk) begin
@@ -101,7 +101,7 @@ module tess_factors (
     logic [1:0]  mode;
     logic        is_inside, framed;
     always_comb begin
-        case (k)
+        unique case (k)
             3'd0:    bits_next = factors[0*32 +: 32];
             3'd1:    bits_next = factors[1*32 +: 32];
             3'd2:    bits_next = factors[2*32 +: 32];
@@ -146,7 +146,7 @@ module tess_factors (
         logic       is_outer;
         logic [2:0] k;
     } tag_t;
-    localparam int TAG_BITS = 10;
+    localparam int TAG_BITS = 2 + 2 + 1 + 1 + 1 + 3;
     tag_t       selected, fixed_tag, context_tag;
     logic [5:0] valids, lasts; // of the six clocks from select to points
     logic       is_one; // the factor equals ONE

@@ -45,7 +45,8 @@ package tess_pkg;
     localparam logic [2:0] BACK         = 3'd4;
     localparam logic [2:0] LAST         = 3'd5;
 
-    localparam int CONTEXT_BITS = 70; // of tess_context_t
+    // Of tess_context_t, field by field: `$bits` of it is not a constant to every tool (docs/rtl.md, Style).
+    localparam int CONTEXT_BITS = 1 + 17 + 17 + 16 + 6 + 6 + 7;
     // A patch has at most six factors: outer first, then inside. Vectors hold one context for each.
     localparam int FACTORS = 6;
     localparam int CONTEXTS_BITS = FACTORS * CONTEXT_BITS;

@@ -37,7 +37,7 @@ module tess_place_blend #(
     /* verilator lint_on UNUSEDSIGNAL */
     logic [16:0] once, half_next;
     logic        is_middle, flips, is_flipped;
-    tess_delay #(.WIDTH(85), .CLOCKS(CLOCKS)) at_add (
+    tess_delay #(.WIDTH(2 * 33 + 17 + 2), .CLOCKS(CLOCKS)) at_add (
         .clk, .advance,
         .in ({coarse_next, fine_next, once_next, middle, flip}),
         .out({coarse_part, fine_part, once, is_middle, flips})
@@ -47,7 +47,7 @@ module tess_place_blend #(
 
     // ---- mirror --------------------------------------------------------------------------------
 
-    tess_delay #(.WIDTH(18), .CLOCKS(CLOCKS)) at_mirror (
+    tess_delay #(.WIDTH(17 + 1), .CLOCKS(CLOCKS)) at_mirror (
         .clk, .advance, .in({half_next, flips}), .out({half_location, is_flipped}));
     assign location = is_flipped ? ONE - half_location : half_location;
 endmodule

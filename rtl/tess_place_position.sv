@@ -34,7 +34,7 @@ module tess_place_position #(
     // ---- choose --------------------------------------------------------------------------------
 
     logic [5:0] chosen, chosen_half, chosen_split;
-    tess_delay #(.WIDTH(18), .CLOCKS(CLOCKS)) at_choose (
+    tess_delay #(.WIDTH(3 * 6), .CLOCKS(CLOCKS)) at_choose (
         .clk, .advance,
         .in ({position_next, half_points, split}),
         .out({chosen, chosen_half, chosen_split})
@@ -55,12 +55,12 @@ module tess_place_position #(
 
     logic [5:0]  coarse_position, fine_position;
     logic [16:0] coarse_unit, fine_unit;
-    tess_delay #(.WIDTH(19), .CLOCKS(CLOCKS)) at_multiply (
+    tess_delay #(.WIDTH(1 + 3 * 6), .CLOCKS(CLOCKS)) at_multiply (
         .clk, .advance,
         .in ({middle_next, coarse_next, fine_next, chosen}),
         .out({middle, coarse_position, fine_position, position})
     );
-    tess_delay #(.WIDTH(35), .CLOCKS(2 * CLOCKS)) units (
+    tess_delay #(.WIDTH(2 * 17 + 1), .CLOCKS(2 * CLOCKS)) units (
         .clk, .advance,
         .in ({inv_floor, inv_ceil, flip_next}),
         .out({coarse_unit, fine_unit, flip})

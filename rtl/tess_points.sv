@@ -75,7 +75,7 @@ module tess_points (
 
     /* verilator lint_off UNUSEDSIGNAL */ // the rest of each context
     function automatic logic [6:0] points_of(input logic [tess_pkg::CONTEXTS_BITS-1:0] all, input logic [2:0] i);
-        case (i)
+        unique case (i)
             3'd0:    points_of = all[BITS*0 +: 7];
             3'd1:    points_of = all[BITS*1 +: 7];
             3'd2:    points_of = all[BITS*2 +: 7];
@@ -100,7 +100,7 @@ module tess_points (
         across      = {1'b0, ring};
         a_runs      = 1'b1;
         is_backward = 1'b0;
-        case (at)
+        unique case (at)
             AT_OUTER: begin
                 start       = backward ? n_outer - 7'd1 : 7'd0;
                 is_backward = backward;
@@ -131,7 +131,7 @@ module tess_points (
     always_comb begin
         described_a = contexts[BITS*4 +: BITS];
         if (at == AT_OUTER) begin
-            case (side)
+            unique case (side)
                 2'd0:    described_a = contexts[BITS*0 +: BITS];
                 2'd1:    described_a = contexts[BITS*1 +: BITS];
                 2'd2:    described_a = contexts[BITS*2 +: BITS];
@@ -143,7 +143,7 @@ module tess_points (
     // ---- the edge behind it --------------------------------------------------------------------
 
     logic describes, is_last_edge, ends_patch;
-    assign is_last_edge = {6'd0, further} >= remaining;
+    assign is_last_edge = remaining[12:7] == 6'd0 && further >= remaining[6:0];
     assign ends_patch   = describes && is_last_edge;
     assign start_ready  = !active || ends_patch;
 
@@ -270,7 +270,7 @@ module tess_points (
     logic       quad_there;
     logic [2:0] at_there;
     logic [1:0] side_there;
-    tess_delay #(.WIDTH(6), .CLOCKS(PLACING)) beside (
+    tess_delay #(.WIDTH(1 + 3 + 2), .CLOCKS(PLACING)) beside (
         .clk, .advance, .in({here.is_quad, here.at, here.side}), .out({quad_there, at_there, side_there}));
     tess_combine combine (
         .clk, .advance, .is_quad(quad_there), .at(at_there), .side(side_there), .in_a(a), .in_b(b), .u(out_u), .v(out_v));

@@ -50,7 +50,7 @@ module tess_stitch (
     assign behind_out   = here.has_inner ? tess_pkg::MIDDLE_INNER : behind_inner;
     assign behind_first = has_masked ? tess_pkg::OUT : behind_out;
     always_comb begin
-        case (phase)
+        unique case (phase)
             tess_pkg::FIRST:        phase_next = behind_first;
             tess_pkg::OUT:          phase_next = ends_way ? behind_out : tess_pkg::OUT;
             tess_pkg::MIDDLE_INNER: phase_next = behind_inner;
@@ -102,7 +102,7 @@ module tess_stitch (
         next.last           = here.last && ends;
         next.advances_outer = 1'b1;
         next.begins_outer   = 1'b1;
-        case (here.kind)
+        unique case (here.kind)
             tess_pkg::TRANSITION: begin
                 next.advances_outer = phase != tess_pkg::MIDDLE_INNER;
                 next.begins_outer   = phase != tess_pkg::MIDDLE_INNER && phase != tess_pkg::MIDDLE_OUTER;

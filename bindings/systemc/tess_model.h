@@ -59,10 +59,13 @@ class tess_model : public tess_ports {
             const uint32_t bits = patch_factors.read().range(32 * i + 31, 32 * i).to_uint();
             std::memcpy(&factors[i], &bits, sizeof bits);
         }
-        TessCounts made;
-        const TessStatus status = config.domain > TESS_DOMAIN_QUAD ? TESS_UNKNOWN_VALUE
-            : tess_patch(&config, factors, FACTORS[config.domain], fixed.data(), fixed.size(), indices.data(),
-                indices.size(), &made);
+        TessCounts made = {};
+        if (config.domain > TESS_DOMAIN_QUAD) { // culled, as in the circuit
+            counts.push_back(made);
+            return;
+        }
+        const TessStatus status = tess_patch(&config, factors, FACTORS[config.domain], fixed.data(), fixed.size(),
+            indices.data(), indices.size(), &made);
         if (status != TESS_OK) SC_REPORT_FATAL(name(), tess_status_message(status));
         counts.push_back(made);
         for (uint32_t i = 0; i < made.points; i++) points.push_back({fixed[i].u, fixed[i].v, i + 1 == made.points});

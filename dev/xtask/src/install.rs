@@ -141,8 +141,8 @@ fn build(command: &mut Command, system: System) -> Result<Built, String> {
     Ok(Built { archive: with(".a")?, shared: with(system.shared())? })
 }
 
-/// The files of the library that one of cargo's messages speaks of.
-fn artifacts(line: &str) -> Option<Vec<PathBuf>> {
+/// The files of the library that one of cargo's messages names.
+pub(crate) fn artifacts(line: &str) -> Option<Vec<PathBuf>> {
     let message: serde_json::Value = serde_json::from_str(line).ok()?;
     let is_library =
         message["reason"] == "compiler-artifact" && message["target"]["name"] == "tess_capi";

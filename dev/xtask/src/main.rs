@@ -69,8 +69,8 @@ usage: cargo xtask <command>
   integrations
           build the plugin for Bevy, run its tests and its example, and compare the pictures of its two
           ways to tessellate; `ci` leaves it out, as Bevy takes long to build
-  rtl     lint the circuit and compare it with the model in Verilator: level 1, random patches under back-pressure,
-          single stages; plant its faults; print clocks for the workloads of `tess bench`
+  rtl     check the circuit's ports, lint it and compare it with the model in Verilator: level 1, random patches under
+          back-pressure, single stages; plant its faults; print clocks for the workloads of `tess bench` and isolines
   rtl --plant FOLDER [NUMBER]
           write the design to FOLDER with every fault of rtl/dv/circuit.faults behind a simulation's `+fault=NUMBER`, or
           with one; print their numbers
@@ -78,7 +78,8 @@ usage: cargo xtask <command>
           write anew the lists of sources for Bender and FuseSoC
   rtl --long | --prove | --synth | --place
           compare level 2, 10 million random patches and every input of single stages, which takes hours and goes on
-          where it stopped; prove handshakes and placement; print what the circuit costs
+          where it stopped; prove handshakes and placement, and compare the netlist as gates; print the circuit's cost;
+          print the clock that it reaches and the time that each port leaves
   install --prefix FOLDER [--target TARGET]
           build the C library and install headers, both libraries, `tess.pc` and CMake's package there, so that
           `cc program.c $(pkg-config --cflags --libs tess)` works

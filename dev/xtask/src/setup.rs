@@ -3,9 +3,9 @@
 mod needs;
 
 use crate::command;
-pub(crate) use needs::{ICARUS, PYTHON};
 #[cfg(feature = "kit")]
-pub(crate) use needs::{SYSTEMC, VERILATOR, YOSYS};
+pub(crate) use needs::{CELLS, SYSTEMC, VERILATOR, YOSYS};
+pub(crate) use needs::{ICARUS, PYTHON};
 use std::path::Path;
 use std::process::{Command, Stdio};
 

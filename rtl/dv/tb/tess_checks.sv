@@ -1,23 +1,28 @@
-// Assertions on the design, bound to its modules. A bench compiles this file beside the design; each failure prints
-// the stage and the signal, and counts in tess_check_pkg::failures, which the bench's verdict looks at.
+// Assertions on the design, bound to its modules: the contracts of ports and the ranges of section 14.1. A bench compiles this
+// file and tess_references.sv with the design. Each failure prints the stage, the signal and the module, and is counted in
+// tess_check_pkg::failures, which the bench's verdict includes.
 package tess_check_pkg;
     int unsigned failures = 0;
 
-    function automatic void failed(input string stage, input string signal);
+    function automatic void failed(input string stage, input string signal, input string module_name);
         failures++;
-        if (failures <= 20) $display("ASSERTION stage=%s signal=%s at %0t", stage, signal, $time);
+        if (failures <= 20)
+            $display("ASSERTION stage=%s signal=%s module=%s at %0t", stage, signal, module_name, $time);
     endfunction
 endpackage
 
-`define TESS_CHECK(STAGE, SIGNAL, CONDITION) \
+`ifndef TESS_GATES // a netlist has no modules to bind to
+
+`define TESS_CHECK(STAGE, SIGNAL, MODULE, CONDITION) \
     assert property (@(posedge clk) disable iff (rst) CONDITION) \
-    else tess_check_pkg::failed(STAGE, SIGNAL);
+    else tess_check_pkg::failed(STAGE, SIGNAL, MODULE);
 
 // A stream: an element that is not taken stays, and is offered until it is; a reset withdraws it.
 module tess_check_stream #(
-    parameter string STAGE = "",
-    parameter int    WIDTH = 1,
-    parameter bit    COMES = 1'b0 // a stream that the design takes: a reset does not withdraw it
+    parameter string STAGE  = "",
+    parameter string MODULE = "",
+    parameter int    WIDTH  = 1,
+    parameter bit    COMES  = 1'b0 // a stream that the design takes: a reset does not withdraw it
 ) (
     input logic             clk, rst,
     input logic             valid, ready,
@@ -30,14 +35,15 @@ module tess_check_stream #(
         stalled    <= data;
         was_reset  <= rst;
     end
-    `TESS_CHECK(STAGE, "valid", !is_stalled || valid)
-    `TESS_CHECK(STAGE, "data", !is_stalled || data == stalled)
-    `TESS_CHECK(STAGE, "reset", COMES || !was_reset || !valid)
+    `TESS_CHECK(STAGE, "valid", MODULE, !is_stalled || valid)
+    `TESS_CHECK(STAGE, "data", MODULE, !is_stalled || data == stalled)
+    `TESS_CHECK(STAGE, "reset", MODULE, COMES || !was_reset || !valid)
 endmodule
 
-// A stream against the counts that its stage was started with: as many elements, `last` with the last alone.
+// A stream against the counts that its stage was started with: that many elements, `last` with only the last.
 module tess_check_counts #(
-    parameter string STAGE = ""
+    parameter string STAGE  = "",
+    parameter string MODULE = ""
 ) (
     input logic        clk, rst,
     input logic        start,     // a patch begins
@@ -50,9 +56,9 @@ module tess_check_counts #(
         if (rst) begin
             due.delete();
         end else begin
-            if (passes && due.size() == 0) tess_check_pkg::failed(STAGE, "valid");
+            if (passes && due.size() == 0) tess_check_pkg::failed(STAGE, "valid", MODULE);
             if (passes && due.size() != 0) begin
-                if (last != (due[0] == 14'd1)) tess_check_pkg::failed(STAGE, "last");
+                if (last != (due[0] == 14'd1)) tess_check_pkg::failed(STAGE, "last", MODULE);
                 due[0] = due[0] - 14'd1;
                 if (due[0] == 14'd0) void'(due.pop_front());
             end
@@ -67,10 +73,10 @@ module tess_check_top (
     input logic [198:0] patch,
     input logic [26:0]  counts
 );
-    always @(posedge clk) if (rst && patch_ready) tess_check_pkg::failed("patch", "ready");
-    tess_check_stream #(.STAGE("patch"), .WIDTH(199), .COMES(1'b1)) patches (
+    always @(posedge clk) if (rst && patch_ready) tess_check_pkg::failed("patch", "ready", "tess_factors");
+    tess_check_stream #(.STAGE("patch"), .MODULE("tess_top"), .WIDTH(199), .COMES(1'b1)) patches (
         .clk, .rst, .valid(patch_valid && !rst), .ready(patch_ready), .data(patch));
-    tess_check_stream #(.STAGE("counts"), .WIDTH(27)) counted (
+    tess_check_stream #(.STAGE("counts"), .MODULE("tess_top"), .WIDTH(27)) counted (
         .clk, .rst, .valid(counts_valid), .ready(counts_ready), .data(counts));
 endmodule
 bind tess_top tess_check_top checks (
@@ -79,7 +85,13 @@ bind tess_top tess_check_top checks (
     .counts({counts_points, counts_primitives})
 );
 
-// Section 14.1: ranges of what the front end makes.
+// Structures have the widths that tess_pkg sums up by hand.
+module tess_check_widths;
+    if ($bits(tess_context_t) != tess_pkg::CONTEXT_BITS) $error("CONTEXT_BITS is not the width of tess_context_t");
+endmodule
+bind tess_factors tess_check_widths widths ();
+
+// Section 14.1: ranges of the front end's values.
 module tess_check_factors (
     input logic        clk, rst, advance, context_valid, context_culled, out_valid, out_ready,
     input logic        fixed_valid, fixed_culled,
@@ -92,15 +104,15 @@ module tess_check_factors (
 );
     logic is_made;
     assign is_made = context_valid && !context_culled;
-    `TESS_CHECK("factors", "fixed", !fixed_valid || fixed_culled || (fixed >= 23'h01_0000 && fixed <= 23'h40_0000))
-    `TESS_CHECK("factor_context", "points", !is_made || (points >= 7'd2 && points <= 7'd65))
-    `TESS_CHECK("factor_context", "half_points", !is_made || (half_points >= 6'd1 && half_points <= 6'd32))
-    `TESS_CHECK("factor_context", "split", !is_made || split <= 6'd33)
-    `TESS_CHECK("factor_context", "inv_floor", !is_made || (inv_floor >= 17'd1024 && inv_floor <= 17'h1_0000))
-    `TESS_CHECK("factor_context", "inv_ceil", !is_made || (inv_ceil >= 17'd1024 && inv_ceil <= 17'h1_0000))
-    `TESS_CHECK("counts", "points", !out_valid || out_points <= 13'd4225)
-    `TESS_CHECK("counts", "primitives", !out_valid || out_primitives <= 14'd8192)
-    tess_check_stream #(.STAGE("factors"), .WIDTH(27)) stream (
+    `TESS_CHECK("factors", "fixed", "tess_factor", !fixed_valid || fixed_culled || (fixed >= 23'h01_0000 && fixed <= 23'h40_0000))
+    `TESS_CHECK("factor_context", "points", "tess_factor_context", !is_made || (points >= 7'd2 && points <= 7'd65))
+    `TESS_CHECK("factor_context", "half_points", "tess_factor_context", !is_made || (half_points >= 6'd1 && half_points <= 6'd32))
+    `TESS_CHECK("factor_context", "split", "tess_factor_context", !is_made || split <= 6'd33)
+    `TESS_CHECK("factor_context", "inv_floor", "tess_factor_context", !is_made || (inv_floor >= 17'd1024 && inv_floor <= 17'h1_0000))
+    `TESS_CHECK("factor_context", "inv_ceil", "tess_factor_context", !is_made || (inv_ceil >= 17'd1024 && inv_ceil <= 17'h1_0000))
+    `TESS_CHECK("counts", "points", "tess_factors", !out_valid || out_points <= 13'd4225)
+    `TESS_CHECK("counts", "primitives", "tess_factors", !out_valid || out_primitives <= 14'd8192)
+    tess_check_stream #(.STAGE("factors"), .MODULE("tess_factors"), .WIDTH(27)) stream (
         .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_points, out_primitives}));
 endmodule
 bind tess_factors tess_check_factors checks (
@@ -110,7 +122,7 @@ bind tess_factors tess_check_factors checks (
     .out_points(out_patch.points), .out_primitives(out_patch.primitives)
 );
 
-// Positions are on their edges, ring numbers climb by one, locations end at ONE.
+// Positions are on their edges, ring numbers increase by one, locations are at most ONE.
 module tess_check_points (
     input logic        clk, rst, active, start_valid, start_ready, walks, out_valid, out_ready, out_last,
     input logic [5:0]  ring,
@@ -126,14 +138,14 @@ module tess_check_points (
         was_active  <= active && !rst;
         was_start   <= start_valid && start_ready;
     end
-    `TESS_CHECK("points", "ring", !(active && was_active && !was_start) || ring == ring_before || ring == ring_before + 6'd1)
-    `TESS_CHECK("points", "a_p", !(walks && is_placed) || a_p < a_points)
-    `TESS_CHECK("points", "b_p", !(walks && is_placed) || b_p < b_points)
-    `TESS_CHECK("points", "u", !out_valid || out_u <= 17'h1_0000)
-    `TESS_CHECK("points", "v", !out_valid || out_v <= 17'h1_0000)
-    tess_check_stream #(.STAGE("points"), .WIDTH(35)) stream (
+    `TESS_CHECK("points", "ring", "tess_points", !(active && was_active && !was_start) || ring == ring_before || ring == ring_before + 6'd1)
+    `TESS_CHECK("points", "a_p", "tess_points", !(walks && is_placed) || a_p < a_points)
+    `TESS_CHECK("points", "b_p", "tess_points", !(walks && is_placed) || b_p < b_points)
+    `TESS_CHECK("points", "u", "tess_points", !out_valid || out_u <= 17'h1_0000)
+    `TESS_CHECK("points", "v", "tess_points", !out_valid || out_v <= 17'h1_0000)
+    tess_check_stream #(.STAGE("points"), .MODULE("tess_points"), .WIDTH(35)) stream (
         .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_u, out_v, out_last}));
-    tess_check_counts #(.STAGE("points")) counts (
+    tess_check_counts #(.STAGE("points"), .MODULE("tess_points")) counts (
         .clk, .rst, .start(start_valid && start_ready), .elements({1'b0, start_points}),
         .passes(out_valid && out_ready), .last(out_last));
 endmodule
@@ -162,13 +174,13 @@ module tess_check_connect (
             if (start_valid && start_ready && start_primitives != 14'd0) counts.push_back(start_points);
         end
     end
-    `TESS_CHECK("connect", "i0", !out_valid || out_i0 < points)
-    `TESS_CHECK("connect", "i1", !out_valid || out_i1 < points)
-    `TESS_CHECK("connect", "i2", !out_valid || out_i2 < points)
-    `TESS_CHECK("connect", "size", !out_valid || out_size != 2'd0)
-    tess_check_stream #(.STAGE("connect"), .WIDTH(42)) stream (
+    `TESS_CHECK("connect", "i0", "tess_connect", !out_valid || out_i0 < points)
+    `TESS_CHECK("connect", "i1", "tess_connect", !out_valid || out_i1 < points)
+    `TESS_CHECK("connect", "i2", "tess_connect", !out_valid || out_i2 < points)
+    `TESS_CHECK("connect", "size", "tess_connect", !out_valid || out_size != 2'd0)
+    tess_check_stream #(.STAGE("connect"), .MODULE("tess_connect"), .WIDTH(42)) stream (
         .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_size, out_i0, out_i1, out_i2, out_last}));
-    tess_check_counts #(.STAGE("connect")) counts_check (
+    tess_check_counts #(.STAGE("connect"), .MODULE("tess_connect")) counts_check (
         .clk, .rst, .start(start_valid && start_ready), .elements(start_primitives),
         .passes(out_valid && out_ready), .last(out_last));
 endmodule
@@ -177,14 +189,15 @@ bind tess_connect tess_check_connect checks (
     .start_points(start_patch.points), .start_primitives(start_patch.primitives), .out_size, .out_i0, .out_i1, .out_i2
 );
 
-// Neither row of a stitch advances behind its last entry.
+// Neither row of a stitch advances past its last entry.
 module tess_check_rows (
     input logic       clk, rst, advance, valid, is_stitch, advances_outer,
     input logic [6:0] outer_left, inner_left
 );
-    `TESS_CHECK("connect", "outer_left", !(valid && is_stitch && advances_outer) || outer_left != 7'd0)
-    `TESS_CHECK("connect", "inner_left", !(valid && is_stitch && !advances_outer) || inner_left != 7'd0)
+    `TESS_CHECK("connect", "outer_left", "tess_stitch", !(valid && is_stitch && advances_outer) || outer_left != 7'd0)
+    `TESS_CHECK("connect", "inner_left", "tess_stitch", !(valid && is_stitch && !advances_outer) || inner_left != 7'd0)
 endmodule
 bind tess_rows tess_check_rows checks (
     .clk, .rst, .advance, .valid, .is_stitch(size == 2'd3), .advances_outer(here.advances_outer), .outer_left, .inner_left
 );
+`endif

@@ -22,6 +22,13 @@ function automatic void cover_patch();
     kind_before = kind;
 endfunction
 
+// ---- a primitive whose points are still to come ------------------------------------------------
+
+// Both streams are in the same patch if as many patches are due of each.
+function automatic void cover_primitive();
+    if (of_points.size() == of_primitives.size() && 32'(primitive_i0) >= next_point) hit("a primitive before its points");
+endfunction
+
 // ---- stalls and resets by position -------------------------------------------------------------
 
 int unsigned stalled_for[3] = '{0, 0, 0}; // clocks
@@ -41,13 +48,16 @@ function automatic void cover_sequences();
         stalled_for[stream] = (waits[stream] && !rst) ? stalled_for[stream] + 1 : 0;
         if (stalled_for[stream] == 1) hit({"stall of ", STREAMS[stream], ", ", position_of(stream)});
         if (stalled_for[stream] == 32) hit({"long stall of ", STREAMS[stream], ", ", position_of(stream)});
+        if (stalled_for[stream] == LONG_STALL) hit({"stall of 1024 clocks of ", STREAMS[stream]});
         if (stalled_for[stream] == 8 && !(|(waits & ~(3'd1 << stream)))) hit({STREAMS[stream], " alone wait"});
     end
 endfunction
 
 function automatic void cover_reset();
+`ifndef TESS_GATES
     if (axis.top.stage_fork.in_valid)
         hit($sformatf("reset with a patch in the fork, taken by %03b", axis.top.stage_fork.took));
+`endif
     if (point_valid) hit({"reset of points, ", position_of(1)});
     if (primitive_valid) hit({"reset of primitives, ", position_of(2)});
     if (counts_valid) hit("reset of counts, only");
@@ -65,10 +75,10 @@ endfunction
 
 // How many bins have no hit; names them.
 function automatic int unsigned sequences_missed();
-    sequences_missed = missed("reset before the first element") + missed("reset of counts, only");
+    sequences_missed = missed("reset before the first element") + missed("reset of counts, only") + missed("a primitive before its points");
     foreach (KINDS[i]) foreach (KINDS[j]) sequences_missed += missed({KINDS[i], " after ", KINDS[j]});
     for (int unsigned stream = 0; stream < 3; stream++) begin
-        sequences_missed += missed({STREAMS[stream], " alone wait"});
+        sequences_missed += missed({STREAMS[stream], " alone wait"}) + missed({"stall of 1024 clocks of ", STREAMS[stream]});
         foreach (POSITIONS[i]) if ((stream == 0 && i == 0) || (stream == 1 && i != 0) || stream == 2) begin // a patch has two points at least
             string place = {STREAMS[stream], ", ", POSITIONS[i]};
             sequences_missed += missed({"stall of ", place}) + missed({"long stall of ", place});

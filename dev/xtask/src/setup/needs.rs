@@ -74,6 +74,14 @@ pub(crate) const YOSYS: Need = Need {
     is_there: || has_program("yosys") && has_program("yosys-smtbmc"),
 };
 
+/// The library of cells that a netlist of the circuit is made of.
+#[cfg(feature = "kit")]
+pub(crate) const CELLS: Need = Need {
+    what: "the OSU 0.18 um cells (the circuit as gates)",
+    packages: &["qflow-tech-osu018"],
+    is_there: || Path::new("/usr/share/qflow/tech/osu018/osu018_stdcells.lib").exists(),
+};
+
 /// The second simulator of the cocotb bench.
 pub(crate) const ICARUS: Need = Need {
     what: "Icarus Verilog (tests of the cocotb bench)",

@@ -1,0 +1,165 @@
+//! The time that each port of the placed circuit leaves to its user, from the delays that nextpnr writes (SDF).
+//!
+//! `rtl/fpga/tess_registered.sv` has a register `at_PORT` at each port. Of an input, the longest path from that register to one
+//! of the circuit counts; of an output, the longest one from a register of the circuit. What is left of a clock is the user's:
+//! its register, its logic and the wire to the port.
+//!
+//! ```text
+//! at_point_ready.Q -> wire -> LUT -> wire -> register of the circuit      6.2 ns: 3.8 ns of 10 are left
+//! ```
+
+use crate::command::{self, in_file};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// The clock of `rtl/fpga/ecp5.lpf`, in ps.
+const PERIOD: u64 = 10_000;
+
+/// The registers at inputs and at outputs.
+const INPUTS: [&str; 6] =
+    ["rst", "patch_valid", "patch", "counts_ready", "point_ready", "primitive_ready"];
+const OUTPUTS: [&str; 4] = ["patch_ready", "counts", "point", "primitive"];
+
+/// Prints the time of each port.
+///
+/// # Errors
+/// The file cannot be read, or a port's register is not in it.
+pub(super) fn print(sdf: &Path) -> Result<(), String> {
+    let delays = Delays::read(&command::read(sdf)?);
+    println!("\n| port | ns of {} left |\n| --- | --- |", PERIOD / 1000);
+    for (ports, path) in [(&INPUTS[..], Direction::In), (&OUTPUTS[..], Direction::Out)] {
+        for port in ports {
+            let longest = delays.longest(port, path);
+            let longest = longest.ok_or_else(|| in_file(sdf, &format!("no register at {port}")))?;
+            let left = PERIOD.saturating_sub(longest) / 100;
+            println!("| `{port}` | {}.{} |", left / 10, left % 10);
+        }
+    }
+    Ok(())
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Direction {
+    In,
+    Out,
+}
+
+/// The delays between pins, in ps. A pin is `CELL/PIN`.
+#[derive(Default)]
+struct Delays {
+    /// From each pin to the next ones.
+    next: HashMap<String, Vec<(String, u64)>>,
+    /// Of the pins where a path ends: the time before the clock at which a value must be there.
+    setup: HashMap<String, u64>,
+    /// Clock to output of each register.
+    clocked: HashMap<String, u64>,
+}
+
+impl Delays {
+    fn read(text: &str) -> Self {
+        let mut delays = Self::default();
+        let mut cell = String::new();
+        for line in text.lines() {
+            let words: Vec<&str> =
+                line.trim().trim_matches(['(', ')']).split_whitespace().collect();
+            match words[..] {
+                ["INSTANCE", name] => cell = name.to_owned(),
+                ["INTERCONNECT", from, to, .., delay] => delays.add(from, to, longest(delay)),
+                ["IOPATH", "CLK", to, .., delay] => {
+                    _ = delays.clocked.insert(format!("{cell}/{to}"), longest(delay));
+                }
+                ["IOPATH", from, to, .., delay] => {
+                    delays.add(&format!("{cell}/{from}"), &format!("{cell}/{to}"), longest(delay));
+                }
+                // (SETUPHOLD (posedge M) (posedge CLK) (SETUP) (HOLD))
+                ["SETUPHOLD", _, pin, "(posedge", _, setup, _] => {
+                    let pin = format!("{cell}/{}", pin.trim_end_matches(')'));
+                    _ = delays.setup.insert(pin, longest(setup));
+                }
+                _ => {}
+            }
+        }
+        delays
+    }
+
+    fn add(&mut self, from: &str, to: &str, delay: u64) {
+        self.next.entry(from.to_owned()).or_default().push((to.to_owned(), delay));
+    }
+
+    /// The longest path of a port: from its register's output on, or to its register's input.
+    fn longest(&self, port: &str, direction: Direction) -> Option<u64> {
+        let register = format!("at_{port}_TRELLIS_FF_");
+        let mut known = HashMap::new();
+        let is_here = |pin: &str| pin.starts_with(&register);
+        let starts =
+            self.clocked.iter().filter(|(pin, _)| is_here(pin) == (direction == Direction::In));
+        let paths = starts.filter_map(|(pin, clock)| {
+            let from = match direction {
+                Direction::In => self.from(pin, &|pin| self.setup.get(pin).copied(), &mut known)?,
+                Direction::Out => {
+                    clock + self.from(pin, &|pin| is_here(pin).then_some(0), &mut known)?
+                }
+            };
+            Some(from)
+        });
+        paths.max()
+    }
+
+    /// The longest path from a pin to one that `ends` gives the rest of; `None` if there is none.
+    fn from(
+        &self,
+        pin: &str,
+        ends: &impl Fn(&str) -> Option<u64>,
+        known: &mut HashMap<String, Option<u64>>,
+    ) -> Option<u64> {
+        if let Some(rest) = known.get(pin) {
+            return *rest;
+        }
+        let next = self.next.get(pin).into_iter().flatten();
+        let paths = next.filter_map(|(to, delay)| Some(delay + self.from(to, ends, known)?));
+        let rest = paths.max().or_else(|| ends(pin));
+        known.insert(pin.to_owned(), rest);
+        rest
+    }
+}
+
+/// The largest of `(least:typical:most)`.
+fn longest(delay: &str) -> u64 {
+    let numbers = delay.trim_matches(['(', ')']).rsplit(':');
+    numbers.take(1).filter_map(|number| number.parse().ok()).next().unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SDF: &str = "\
+    (INSTANCE )
+        (INTERCONNECT at_rst_TRELLIS_FF_Q/Q lut/A (1:2:100) (1:2:100))
+        (INTERCONNECT lut/F one/M (1:2:50) (1:2:50))
+        (INTERCONNECT lut/F two/CE (1:2:70) (1:2:70))
+        (INTERCONNECT one/Q at_point_TRELLIS_FF_Q_3/M (5:6:9) (5:6:9))
+    (INSTANCE lut)
+        (IOPATH A F (1:2:30) (1:2:30))
+    (INSTANCE at_rst_TRELLIS_FF_Q)
+        (IOPATH CLK Q (1:2:500) (1:2:500))
+    (INSTANCE one)
+        (IOPATH CLK Q (1:2:400) (1:2:400))
+      (SETUPHOLD (posedge M) (posedge CLK) (1:2:8) (1:2:3))
+    (INSTANCE two)
+      (SETUPHOLD (posedge CE) (posedge CLK) (1:2:4) (1:2:3))
+    (INSTANCE at_point_TRELLIS_FF_Q_3)
+        (IOPATH CLK Q (1:2:500) (1:2:500))
+      (SETUPHOLD (posedge M) (posedge CLK) (1:2:8) (1:2:3))
+";
+
+    #[test]
+    fn the_longest_path_counts() {
+        let delays = Delays::read(SDF);
+        let input = delays.longest("rst", Direction::In);
+        assert_eq!(input, Some(100 + 30 + 70 + 4), "to the register that is furthest");
+        let output = delays.longest("point", Direction::Out);
+        assert_eq!(output, Some(400 + 9), "from the register's clock on");
+        assert_eq!(delays.longest("patch", Direction::In), None, "no such register");
+    }
+}
