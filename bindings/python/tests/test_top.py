@@ -47,6 +47,16 @@ def test_planted_faults_are_named(tmp_path: Path, fault: str) -> None:
     assert f"MISMATCH {FAULTS[fault]}" in run.stdout and "tess explain " in run.stdout, run.stdout
 
 
+def test_foreign_source_and_sinks(tmp_path: Path) -> None:
+    options = ("--sim", "icarus", "--foreign", "--random", "60")
+    run = bench(tmp_path, *options)
+    assert run.returncode == 0 and "1 tests, 0 failed" in run.stdout, run.stdout + run.stderr
+    assert "60 counts, " in run.stdout, run.stdout
+    fault = NUMBERS["the spare entry is overwritten"]
+    run = bench(tmp_path, *options, "--fault", fault)
+    assert run.returncode == 1 and "1 tests, 1 failed" in run.stdout, run.stdout + run.stderr
+
+
 # ---- what is not reached ----------------------------------------------------------------------------
 
 
