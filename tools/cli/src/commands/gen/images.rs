@@ -17,9 +17,11 @@ const LAYOUTS: [&str; 4] = [
      2 fractional_odd, 3 fractional_even), output 4 (0 point, 1 line, 2 triangle_cw, \
      3 triangle_ccw), split 4 (0 ruler, 1 center), first point 32, points 32, first primitive 32, \
      primitives 32",
-    "192 bits: six binary32 factors in the order of the specification, zero where there is none",
+    "192 bits: six binary32 factors in the order of the specification, factor 0 in the top 32 bits \
+     (the port patch_factors of rtl/tess_top.sv has it in the lowest), zero where there is none",
     "34 bits: u 17, v 17",
-    "48 bits: three indices of 16, ffff where there is none",
+    "48 bits: three indices of 16, the first on top, ffff where there is none \
+     (the ports of rtl/tess_top.sv give 0 there)",
 ];
 
 /// How many words each image has.
