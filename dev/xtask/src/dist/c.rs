@@ -24,7 +24,7 @@ pub(super) fn pack(release: &Release) -> Result<(), String> {
     let name = format!("tess-c-{VERSION}-{SYSTEM}");
     let stage = release.stage(&name)?;
     install(&stage)?;
-    copy_tracked("bindings/c/examples", &stage.join("examples"))?;
+    examples(&stage.join("examples"))?;
     copy_tracked("bindings/c/verilog", &stage.join("verilog"))?;
     bill(release)?;
     copy(&release.out.join(bill::licences_file("c")), &stage.join("LICENCES-DEPENDENCIES.txt"))?;
@@ -35,6 +35,13 @@ pub(super) fn pack(release: &Release) -> Result<(), String> {
 fn bill(release: &Release) -> Result<(), String> {
     let packages = ["tess-capi".to_owned()];
     bill::write(release, &bill::Of { name: "c", manifest: "Cargo.toml", packages: &packages })
+}
+
+/// The examples, without those that time calls in a checkout.
+fn examples(to: &Path) -> Result<(), String> {
+    copy_tracked("bindings/c/examples", to)?;
+    let calls = to.join("calls");
+    fs::remove_dir_all(&calls).map_err(|error| in_file(&calls, &error))
 }
 
 /// The installation, without the names that only a debugger reads.
@@ -57,7 +64,7 @@ pub(super) fn pack_deb(release: &Release) -> Result<(), String> {
     }
     bill(release)?;
     copy(&release.out.join(bill::licences_file("c")), &documents.join("dependencies.txt"))?;
-    copy_tracked("bindings/c/examples", &documents.join("examples"))?;
+    examples(&documents.join("examples"))?;
     readme::put("dev/xtask/src/dist/readmes/deb.md", &documents, "README.Debian")?;
     write(&documents.join("copyright"), COPYRIGHT)?;
     write(&documents.join("changelog"), &changelog(release)?)?;

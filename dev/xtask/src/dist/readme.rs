@@ -15,7 +15,7 @@ const PAGES: &str = "https://github.com/tess-model/tess/blob/main";
 
 /// Words of the source tree that no archive's README may have.
 const OF_THE_TREE: &[&str] =
-    &["](..", "cargo build", "cargo run", "cargo xtask", "pip install ./", "target/"];
+    &["cargo build", "cargo run", "cargo xtask", "pip install ./", "target/"];
 
 /// Writes the tree's README `from` into a finished folder of an archive, as `to`.
 ///

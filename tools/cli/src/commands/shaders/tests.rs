@@ -9,6 +9,7 @@ use std::collections::HashSet;
 use std::mem::offset_of;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::layout::Job;
+use tess_gpu::surfaces::MODULES;
 use tess_gpu::{Capacity, IndexType, Limits, Numbering, Plan, Setup, Workgroups};
 use tess_verify::generate::{SplitMix64, configurations};
 
@@ -150,4 +151,33 @@ fn the_header_has_what_the_manifest_has() {
         formulas.clone().count() > 0 && formulas.into_iter().all(|f| f.terms.len() <= 6),
         "fit"
     );
+}
+
+/// The modules for shaders of the user's own come with WGSL, and `modules.json` names their files.
+#[test]
+fn wgsl_comes_with_surfaces() {
+    for (target, comes_with) in [(Target::Wgsl, true), (Target::Glsl, false)] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let translation = Translation { target, checks: Checks::Full };
+        let shaders = Shaders::new(small(), translation).expect("it can be written");
+        shaders.write(folder.path()).expect("written");
+        let surfaces = folder.path().join("surfaces");
+        assert_eq!(surfaces.exists(), comes_with, "{target:?}");
+        if !comes_with {
+            continue;
+        }
+        let read = |name: &str| std::fs::read_to_string(surfaces.join(name)).expect("a file");
+        let listed: serde_json::Value = serde_json::from_str(&read("modules.json")).expect("JSON");
+        let listed = listed.as_array().expect("a list");
+        assert_eq!(listed.len(), MODULES.len(), "every module");
+        for (entry, module) in listed.iter().zip(MODULES) {
+            assert_eq!(read(entry["file"].as_str().expect("a name")), module.source, "{entry}");
+            assert_eq!(
+                entry["needs"].as_array().map(Vec::len),
+                Some(module.needs.len()),
+                "{entry}"
+            );
+            assert!(read("README.md").contains(&format!("| `{}` |", module.name)), "{entry}");
+        }
+    }
 }
