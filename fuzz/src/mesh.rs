@@ -8,7 +8,7 @@ pub mod obj;
 pub mod seeds;
 
 use crate::fault_is_planted;
-use tess_surface::{MeshError, MeshFault, Model, PolygonMesh, Style};
+use tess_surface::{MeshError, FaceError, Model, PolygonMesh, Style};
 
 /// Checks one reading: `names_a_place` judges the message of a refusal, `independent` reads again.
 fn check<T>(
@@ -68,7 +68,7 @@ fn mesh_words(mesh: &PolygonMesh) -> Vec<u32> {
 fn models(mut mesh: PolygonMesh) -> Result<(), String> {
     tess_program::fuzzing::without_collapsed(&mut mesh);
     for style in [Style::Flat, Style::PointNormal] {
-        if let Err(MeshError::Face { face, fault: MeshFault::RepeatedCorner }) =
+        if let Err(MeshError::Face { face, fault: FaceError::RepeatedCorner }) =
             Model::polygons(mesh.clone(), style)
         {
             return Err(format!("face {face} still has corners in the same place"));

@@ -3,7 +3,7 @@
 //! Neighbours may disagree about the normal and, on a seam of the image, about the texture
 //! coordinates. So a shared edge has the mean of both sides' normals as its direction, and the
 //! texture coordinates of one side; a corner has one direction and one pair of coordinates for
-//! all patches that meet there (as in I. Castaño, *Tessellation of
+//! all patches of a sheet ([`crate::sheets`]) that meet there (as in I. Castaño, *Tessellation of
 //! Displaced Subdivision Surfaces in DX11*, Gamefest 2008). Shading follows J. F. Blinn,
 //! *Simulation of Wrinkled Surfaces*, SIGGRAPH 1978.
 
@@ -16,6 +16,7 @@ use crate::lanes::{INSIDE, LANES, Lanes2, Lanes3, Vertices};
 use crate::math::{length, plain_zero, select, unit, unit_or_not};
 use crate::model::Model;
 use crate::patch::{Sample, SurfacePatch};
+use crate::sheets::{fans, mixed};
 use crate::sides::{Place, Sides, corner_coordinates, edge_corners};
 use crate::topology::{HalfEdge, weld};
 use alloc::vec;
@@ -27,6 +28,15 @@ use glam::{Vec2, Vec3};
 struct Anchor {
     direction: Vec3,
     texcoord: Vec2,
+}
+
+impl Anchor {
+    /// The anchor at `t` on the way to another one.
+    fn towards(self, end: Self, t: f32) -> Self {
+        let direction = self.direction + (end.direction - self.direction) * t;
+        let texcoord = self.texcoord + (end.texcoord - self.texcoord) * t;
+        Self { direction: unit(direction).unwrap_or(Vec3::ZERO), texcoord }
+    }
 }
 
 /// The corners of a model, each with one direction and one pair of texture coordinates.
@@ -53,15 +63,10 @@ impl Anchors {
                 corners.push((corner < samples.len()).then_some(*sample));
             }
         }
-        let of_corner = weld(&positions);
-        let none = Anchor { direction: Vec3::ZERO, texcoord: Vec2::ZERO };
-        let mut anchors = vec![none; positions.len()];
-        for (slot, corner) in corners.iter().enumerate() {
-            let (first, Some(sample)) = (of_corner[slot] as usize, corner) else { continue };
-            anchors[first].direction += sample.normal;
-            if first == slot {
-                anchors[first].texcoord = sample.texcoord;
-            }
+        let mut of_corner = weld(&positions);
+        let mut anchors = sums(&corners, &of_corner);
+        if separate_sheets(model, &corners, &anchors, &mut of_corner) {
+            anchors = sums(&corners, &of_corner);
         }
         for anchor in &mut anchors {
             anchor.direction = unit(anchor.direction).unwrap_or(Vec3::ZERO);
@@ -72,6 +77,51 @@ impl Anchors {
     fn at(&self, patch: usize, corner: usize) -> Anchor {
         self.anchors[self.of_corner[patch * 4 + corner] as usize]
     }
+}
+
+/// At the first corner of each anchor, the sum of its corners' normals and its own texture coordinates.
+fn sums(corners: &[Option<Sample>], of_corner: &[u32]) -> Vec<Anchor> {
+    let none = Anchor { direction: Vec3::ZERO, texcoord: Vec2::ZERO };
+    let mut anchors = vec![none; corners.len()];
+    for (slot, corner) in corners.iter().enumerate() {
+        let (first, Some(sample)) = (of_corner[slot] as usize, corner) else { continue };
+        anchors[first].direction += sample.normal;
+        if first == slot {
+            anchors[first].texcoord = sample.texcoord;
+        }
+    }
+    anchors
+}
+
+/// Gives each sheet its own anchor where sheets with different normals meet at a corner. Returns whether there is such
+/// a corner.
+fn separate_sheets(
+    model: &Model,
+    corners: &[Option<Sample>],
+    sums: &[Anchor],
+    of_corner: &mut [u32],
+) -> bool {
+    let mut is_mixed = vec![false; corners.len()];
+    for (corner, &place) in corners.iter().zip(&*of_corner) {
+        if let Some(sample) = corner {
+            let agrees = sample.normal.dot(sums[place as usize].direction) > 0.0;
+            is_mixed[place as usize] |= !agrees;
+        }
+    }
+    if !is_mixed.contains(&true) {
+        return false;
+    }
+    let slots = (0u32..).zip(corners).zip(&*of_corner);
+    let slots = slots.filter(|((_, corner), _)| corner.is_some());
+    let mixed = mixed(slots.map(|((slot, _), &place)| (place, slot)), &is_mixed);
+    for place in mixed.chunk_by(|a, b| a.0 == b.0) {
+        let slots: Vec<u32> = place.iter().map(|&(_, slot)| slot).collect();
+        let fans = fans(&slots, |patch| model.sides(patch), |half| model.topology().others(half));
+        for (&slot, fan) in slots.iter().zip(fans) {
+            of_corner[slot as usize] = slots[fan];
+        }
+    }
+    true
 }
 
 /// A model and its displacement.
@@ -110,6 +160,7 @@ impl<'a> DisplacedModel<'a> {
             Side {
                 corner: anchors.at(number, edge),
                 beyond: twin.map(|twin| (model.patch(twin.patch), twin.edge)),
+                is_seam: !model.topology().seam(half).is_empty(),
                 leads: twin.is_none_or(|twin| half < twin),
             }
         });
@@ -131,6 +182,8 @@ struct Side {
     corner: Anchor,
     /// The patch beyond the edge, and the edge's number there.
     beyond: Option<(SurfacePatch, usize)>,
+    /// Whether the edge has no single other side, so that only its ends say where it moves.
+    is_seam: bool,
     /// Whether the edge has this patch's texture coordinates, not those of the patch beyond.
     leads: bool,
 }
@@ -170,11 +223,8 @@ impl DisplacedPatch<'_> {
     ) {
         let side = &self.sides.as_slice()[edge];
         let direction = self.patch.edges().as_slice()[edge].direction;
-        if direction == Direction::Symmetric {
-            // Collapsed, or without a canonical direction: the whole edge has the anchor of one corner.
-            let corner = self.sides.as_slice()[edge_corners(&self.sides)[edge][0]].corner;
-            let on_edge = (0..LANES).filter(|&lane| vertices.is_on(edge, lane));
-            on_edge.for_each(|lane| anchors.set(lane, corner));
+        if direction == Direction::Symmetric || side.is_seam {
+            self.anchors_between_ends(edge, vertices, anchors);
             return;
         }
         let (Some((patch, their_edge)), Some(formulas)) = (&side.beyond, beyond) else { return };
@@ -197,6 +247,24 @@ impl DisplacedPatch<'_> {
             if shared & !side.leads {
                 anchors.texcoord.set(lane, beyond.texcoord.get(lane));
             }
+        }
+    }
+
+    /// Gives points on an edge an anchor between those of its ends.
+    fn anchors_between_ends(&self, edge: usize, vertices: &Vertices, anchors: &mut Anchors8) {
+        let ends = edge_corners(&self.sides)[edge];
+        let [start, end] = ends.map(|corner| self.sides.as_slice()[corner].corner);
+        let direction = self.patch.edges().as_slice()[edge].direction;
+        let own = running(self.patch.edges(), edge, vertices);
+        for lane in (0..LANES).filter(|&lane| vertices.is_on(edge, lane)) {
+            let t = direction.canonical(own[lane]);
+            let anchor = match direction {
+                // Collapsed, or without a canonical direction: the whole edge has one anchor.
+                Direction::Symmetric => start,
+                Direction::Along => start.towards(end, t),
+                Direction::Against => end.towards(start, t),
+            };
+            anchors.set(lane, anchor);
         }
     }
 

@@ -14,7 +14,7 @@ pub const MAX_COORDINATE: f32 = 1e16;
 /// Fault of one face or patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
-pub enum MeshFault {
+pub enum FaceError {
     /// An index points beyond its list.
     #[error("a {what} index is out of range: there are {count}")]
     OutOfRange {
@@ -52,13 +52,6 @@ pub enum MeshFault {
     /// A weight is not greater than zero.
     #[error("a weight is not greater than zero")]
     Weight,
-    /// An edge of this face already belongs to two other faces, and not as many of all its faces run
-    /// one way along it as the other.
-    #[error("one of its edges belongs to two other faces already (not manifold)")]
-    NonManifold {
-        /// The numbers of the other faces.
-        others: [usize; 2],
-    },
 }
 
 /// Why a mesh cannot be tessellated.
@@ -80,14 +73,14 @@ pub enum MeshError {
         /// Its number, from 0.
         face: usize,
         /// Its fault.
-        fault: MeshFault,
+        fault: FaceError,
     },
 }
 
 /// A value for each corner was given for another domain than the surface's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("the values belong to a {found:?} patch, but the surface is a {expected:?}")]
-pub struct WrongDomain {
+pub struct WrongDomainError {
     /// The domain of the values.
     pub found: Domain,
     /// The domain of the surface.

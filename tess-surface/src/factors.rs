@@ -130,6 +130,19 @@ pub fn edge_by_flatness(bend: f32, tolerance: f32) -> f32 {
     next_power_of_two(root_quotient(bend, 4.0 * tolerance))
 }
 
+/// The factors of an edge beside two edges of half its length, from the factor that a rule has for the whole edge: of
+/// the whole, a power of two in 2..=64, and of each half, half as much. The whole never gets less than the rule's.
+///
+/// With these the domain points of the whole edge are those of both halves, under [`Partitioning::Integer`] and
+/// [`Partitioning::Pow2`]. With other factors, such as 6 beside 3 and 3, they differ by up to 9.5/65536 of the edge: the
+/// tessellator rounds every location to 1/65536, and the rounded halves are not the whole's. Neighbours must compute
+/// both from the whole edge.
+#[must_use]
+pub fn edge_beside_halves(factor: f32) -> [f32; 2] {
+    let whole = next_power_of_two(clamp_factor(factor)).max(2.0);
+    [whole, 0.5 * whole]
+}
+
 /// The inside factors along u and v of a quad with these factors on its edges u = 0, v = 0, u = 1, v = 1: the mean of the
 /// two edges that run the same way.
 #[must_use]
@@ -150,7 +163,7 @@ fn middle([a, b]: [Vec3; 2]) -> Vec3 {
 
 impl FactorRule {
     /// The factor of an edge, 1..=64, from its canonical curve ([`Edge::curve`](crate::Edge::curve))
-    /// and the larger [`Bend::along`] it of both patches.
+    /// and the largest [`Bend::along`] it of all its patches.
     #[must_use]
     pub fn edge(&self, curve: &Curve, bend: f32) -> f32 {
         match *self {
@@ -187,9 +200,11 @@ impl FactorRule {
         let bend = self.bend(&patch);
         let outer = patch.edges().map_numbered(|edge, shared| {
             let half = HalfEdge { patch: number, edge };
-            let twin = model.twin(half).map_or(0.0, |twin| self.bend_beside(model, twin));
             let own = bend.along(&patch.edges().map(drop), edge);
-            self.edge(&shared.curve, own.max(twin))
+            let others = model.topology().others(half);
+            let largest =
+                others.fold(own, |largest, side| largest.max(self.bend_beside(model, side)));
+            self.edge(&shared.curve, largest)
         });
         self.prepare(outer, bend, partitioning)
     }
@@ -199,12 +214,12 @@ impl FactorRule {
         if matches!(self, Self::Flatness { .. }) { Bend::of(patch.surface()) } else { Bend::ZERO }
     }
 
-    fn bend_beside(&self, model: &Model, twin: HalfEdge) -> f32 {
+    fn bend_beside(&self, model: &Model, side: HalfEdge) -> f32 {
         if !matches!(self, Self::Flatness { .. }) {
             return 0.0;
         }
-        let patch = model.patch(twin.patch);
-        self.bend(&patch).along(&patch.edges().map(drop), twin.edge)
+        let patch = model.patch(side.patch);
+        self.bend(&patch).along(&patch.edges().map(drop), side.edge)
     }
 
     fn prepare(&self, outer: Sides<f32>, bend: Bend, partitioning: Partitioning) -> PatchFactors {

@@ -23,6 +23,8 @@ pub enum Address {
     Repeat,
     /// The outermost texels, for ever.
     Clamp,
+    /// The image again, every second time reversed, so that copies meet at equal heights.
+    Mirror,
 }
 
 impl HeightMap {
@@ -66,7 +68,7 @@ impl HeightMap {
     /// The height at a place that is counted from the top: (0, 0) is the upper left corner of the image, (1, 1) the lower
     /// right one. The place is rounded to 1/256 of a texel, the precision of samplers, as `tess_sample` of
     /// tess-gpu's `surfaces::HEIGHT` does, which clamps. Beyond a clamped image every place has a height,
-    /// infinity too; an image that repeats has none there: NaN.
+    /// infinity too; an image that repeats or is mirrored has none at infinity: NaN.
     #[must_use]
     pub fn height_at(&self, place: Vec2) -> f32 {
         self.at(place, |texels| round(texels * 256.0) / 256.0).0
@@ -74,40 +76,39 @@ impl HeightMap {
 
     /// [`HeightMap::sample`] at a place that is counted from the top, in texels rounded by `precision`.
     fn at(&self, place: Vec2, precision: fn(f32) -> f32) -> (f32, Vec2) {
-        let (corners, part) = match self.address {
-            Address::Repeat => {
-                let (column, fx) = cell(place.x, self.width, precision);
-                let (row, fy) = cell(place.y, self.height, precision);
-                (self.corners(column, row), [fx, fy])
-            }
-            Address::Clamp => {
-                let (columns, fx) = clamped_cell(place.x, self.width, precision);
-                let (rows, fy) = clamped_cell(place.y, self.height, precision);
-                let at = |row: usize, column: usize| {
-                    self.texels[rows[row] * self.width + columns[column]]
-                };
-                ([at(0, 0), at(0, 1), at(1, 0), at(1, 1)], [fx, fy])
-            }
+        let cell = match self.address {
+            Address::Repeat => repeated,
+            Address::Clamp => clamped,
+            Address::Mirror => mirrored,
         };
-        bilinear(corners, part, self.size())
+        let column = cell(place.x, self.width, precision);
+        let row = cell(place.y, self.height, precision);
+        bilinear(self.corners(&column, &row), [&column, &row], self.size())
     }
 
     /// [`HeightMap::sample`] at the lanes' texture coordinates.
     #[inline(always)]
     pub(crate) fn samples(&self, texcoords: &Lanes2) -> (Lanes, Lanes2) {
-        if self.address == Address::Clamp {
-            return self.samples_one_by_one(texcoords);
+        let exact = |texels| texels;
+        match self.address {
+            Address::Repeat => self.in_cells(texcoords, |x, size| repeated(x, size, exact)),
+            Address::Clamp => self.in_cells(texcoords, |x, size| clamped(x, size, exact)),
+            Address::Mirror => self.in_cells(texcoords, |x, size| mirrored(x, size, exact)),
         }
-        let (mut columns, mut fx) = ([0; LANES], [0.0; LANES]);
-        let (mut rows, mut fy) = ([0; LANES], [0.0; LANES]);
+    }
+
+    /// [`HeightMap::samples`] in the cells that a way to continue the image has for coordinates.
+    #[inline(always)]
+    fn in_cells(&self, texcoords: &Lanes2, cell: impl Fn(f32, usize) -> Cell) -> (Lanes, Lanes2) {
+        let (mut columns, mut rows) = ([Cell::default(); LANES], [Cell::default(); LANES]);
         for lane in 0..LANES {
             let texcoord = texcoords.get(lane);
-            (columns[lane], fx[lane]) = cell(texcoord.x, self.width, |texels| texels);
-            (rows[lane], fy[lane]) = cell(1.0 - texcoord.y, self.height, |texels| texels);
+            columns[lane] = cell(texcoord.x, self.width);
+            rows[lane] = cell(1.0 - texcoord.y, self.height);
         }
         let mut corners = [[0.0; LANES]; 4];
         for lane in 0..LANES {
-            let [a, b, c, d] = self.corners(columns[lane], rows[lane]);
+            let [a, b, c, d] = self.corners(&columns[lane], &rows[lane]);
             (corners[0][lane], corners[1][lane]) = (a, b);
             (corners[2][lane], corners[3][lane]) = (c, d);
         }
@@ -115,32 +116,19 @@ impl HeightMap {
         let (mut heights, mut slopes) = ([0.0; LANES], Lanes2::ZERO);
         for lane in 0..LANES {
             let corners = [a[lane], b[lane], c[lane], d[lane]];
-            let (height, slope) = bilinear(corners, [fx[lane], fy[lane]], size);
+            let (height, slope) = bilinear(corners, [&columns[lane], &rows[lane]], size);
             heights[lane] = height;
             slopes.set(lane, slope);
         }
         (heights, slopes)
     }
 
-    fn samples_one_by_one(&self, texcoords: &Lanes2) -> (Lanes, Lanes2) {
-        let (mut heights, mut slopes) = ([0.0; LANES], Lanes2::ZERO);
-        for (lane, height) in heights.iter_mut().enumerate() {
-            let slope;
-            (*height, slope) = self.sample(texcoords.get(lane));
-            slopes.set(lane, slope);
-        }
-        (heights, slopes)
-    }
-
-    /// The texels around a point, from the numbers of the column and the row before it.
+    /// The texels at the corners of a cell: of its upper row, then of its lower row.
     #[inline(always)]
-    fn corners(&self, column: u32, row: u32) -> [f32; 4] {
-        let (column, row) = (column as usize, row as usize);
-        let next = if column + 1 == self.width { 0 } else { column + 1 };
-        let below = if row + 1 == self.height { 0 } else { row + 1 };
-        let (row, below) = (row * self.width, below * self.width);
-        let at = |index: usize| self.texels[index];
-        [at(row + column), at(row + next), at(below + column), at(below + next)]
+    fn corners(&self, columns: &Cell, rows: &Cell) -> [f32; 4] {
+        let [left, right] = columns.texels.map(|column| column as usize);
+        let [upper, lower] = rows.texels.map(|row| row as usize * self.width);
+        [upper + left, upper + right, lower + left, lower + right].map(|texel| self.texels[texel])
     }
 
     /// Width and height in texels.
@@ -150,12 +138,27 @@ impl HeightMap {
     }
 }
 
+/// Two neighbouring texels of a row or column, and a place between their centres.
+#[derive(Clone, Copy, Default)]
+struct Cell {
+    texels: [u32; 2],
+    /// The way from the first texel to the second one, 0 to 1.
+    part: f32,
+    /// The derivative of the place in the image by the coordinate: 1, or -1 where the image is reversed.
+    way: f32,
+}
+
 /// The height between four texels and its derivatives by the texture coordinates.
 #[inline(always)]
-fn bilinear([a, b, c, d]: [f32; 4], [fx, fy]: [f32; 2], [width, height]: [f32; 2]) -> (f32, Vec2) {
-    let (top, bottom) = (a + (b - a) * fx, c + (d - c) * fx);
-    let along_x = (b - a) + ((d - c) - (b - a)) * fy;
-    (top + (bottom - top) * fy, Vec2::new(along_x * width, (top - bottom) * height))
+fn bilinear(
+    [a, b, c, d]: [f32; 4],
+    [column, row]: [&Cell; 2],
+    [width, height]: [f32; 2],
+) -> (f32, Vec2) {
+    let (top, bottom) = (a + (b - a) * column.part, c + (d - c) * column.part);
+    let along_x = (b - a) + ((d - c) - (b - a)) * row.part;
+    let slope = Vec2::new(along_x * width * column.way, (top - bottom) * height * row.way);
+    (top + (bottom - top) * row.part, slope)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "images are far smaller than 2^24")]
@@ -164,7 +167,7 @@ fn texels(size: usize) -> f32 {
     size as f32
 }
 
-/// The texel whose centre lies before a coordinate, wrapped around, and the fraction beyond it.
+/// The cell of a coordinate in an image that repeats.
 #[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,
@@ -172,29 +175,43 @@ fn texels(size: usize) -> f32 {
     clippy::cast_sign_loss,
     reason = "the value is in 0..size, and images are far smaller than 2^24"
 )]
-fn cell(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> (u32, f32) {
+fn repeated(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cell {
     let scaled = precision((coordinate - floor(coordinate)) * texels(size) - 0.5);
     let before = floor(scaled);
     let last = size as i32 - 1;
     // `before` is -1 on the first half texel, which wraps to the last one.
     let texel = if before < 0.0 { last } else { (before as i32).min(last) };
-    (texel as u32, scaled - before)
+    let after = if texel == last { 0 } else { texel + 1 };
+    Cell { texels: [texel as u32, after as u32], part: scaled - before, way: 1.0 }
 }
 
-/// The texels whose centres lie before and behind a coordinate, both within the image, and the fraction from the first to
-/// the second. Beyond the image both are the outermost texel.
+/// The cell of a coordinate in an image that is clamped. Beyond the image both texels are the outermost one.
+#[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "casts of floats saturate, and images are far smaller than 2^24"
 )]
-fn clamped_cell(coordinate: f32, size: usize, precision: fn(f32) -> f32) -> ([usize; 2], f32) {
+fn clamped(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cell {
     // Within a texel of the image, so that the fraction is a number; further out both texels are the same.
     let scaled = precision(coordinate * texels(size) - 0.5).max(-1.0).min(texels(size));
     let before = floor(scaled);
-    // Casts turn NaN and what is below 0 to 0.
-    let texel = |number: f32| (number as usize).min(size - 1);
-    ([texel(before), texel(before + 1.0)], scaled - before)
+    // Casts turn NaN and numbers below 0 to 0.
+    let texel = |number: f32| (number as u32).min(size as u32 - 1);
+    Cell { texels: [texel(before), texel(before + 1.0)], part: scaled - before, way: 1.0 }
+}
+
+/// The cell of a coordinate in an image that is mirrored: that of the coordinate folded to 0..=1.
+#[inline(always)]
+fn mirrored(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cell {
+    // 0 to 2, exactly: halves of binary numbers have the same digits.
+    let in_pair = coordinate - 2.0 * floor(0.5 * coordinate);
+    let is_reversed = in_pair > 1.0;
+    let folded = if is_reversed { 2.0 - in_pair } else { in_pair };
+    let cell = clamped(folded, size, precision);
+    // Infinity has no place in the image.
+    let part = if folded.is_nan() { f32::NAN } else { cell.part };
+    Cell { part, way: if is_reversed { -1.0 } else { 1.0 }, ..cell }
 }
 
 /// Heights in the units of a model, to displace its surface along the normal.

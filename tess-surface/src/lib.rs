@@ -25,7 +25,9 @@ mod model;
 pub mod patch;
 pub mod pn;
 mod samples;
+mod sheets;
 pub mod sides;
+mod smooth;
 pub mod teapot;
 mod topology;
 
@@ -33,7 +35,7 @@ pub use bend::Bend;
 pub use bezier::BezierPatch;
 pub use curve::{Curve, Direction, Edge};
 pub use displaced::{DisplacedModel, DisplacedPatch};
-pub use error::{HeightError, MAX_COORDINATE, MeshError, MeshFault, WrongDomain};
+pub use error::{FaceError, HeightError, MAX_COORDINATE, MeshError, WrongDomainError};
 pub use factors::FactorRule;
 pub use frame::{Frame, Tangents};
 pub use glam;

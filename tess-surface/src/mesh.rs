@@ -1,9 +1,8 @@
 //! Triangles and quads with indices, as a model file holds them.
 
-use crate::error::{MeshError, MeshFault};
+use crate::error::{FaceError, MeshError};
 use crate::math::{is_in_range, unit};
 use crate::sides::{Sides, edge_corners};
-use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec2, Vec3};
 
@@ -21,6 +20,10 @@ pub struct Face {
 }
 
 /// Faces over shared positions, normals and texture coordinates.
+///
+/// A face may be there twice, with its corners in both orders, once for each side: the two are different sheets. Smooth
+/// normals are made for each sheet alone: from faces that are neighbours, run the same way round, and do not lie on
+/// each other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolygonMesh {
     /// Positions, in the model's units, each coordinate within [`MAX_COORDINATE`] of 0.
@@ -39,10 +42,7 @@ impl PolygonMesh {
     /// Checks every face. Positions and normals that no face uses may be anything.
     ///
     /// # Errors
-    /// The first face with a [`MeshFault`], save edges of more than two faces, which [`Model::polygons`]
-    /// finds; a mesh with no face or with 2^30.
-    ///
-    /// [`Model::polygons`]: crate::Model::polygons
+    /// The first face with a [`FaceError`]; a mesh with no face or with 2^30.
     pub fn check(&self) -> Result<(), MeshError> {
         crate::topology::check_count(self.faces.len())?;
         for (number, face) in self.faces.iter().enumerate() {
@@ -61,8 +61,8 @@ impl PolygonMesh {
     /// Checks one face, of this mesh or made for it.
     ///
     /// # Errors
-    /// Its first [`MeshFault`].
-    pub fn check_face(&self, face: &Face) -> Result<(), MeshFault> {
+    /// Its first [`FaceError`].
+    pub fn check_face(&self, face: &Face) -> Result<(), FaceError> {
         let corners = face.positions.as_slice().len();
         let positions = gather(&self.positions, face.positions, corners, "position")?;
         for position in positions.as_slice() {
@@ -71,7 +71,7 @@ impl PolygonMesh {
         if let Some(normals) = face.normals {
             let normals = gather(&self.normals, normals, corners, "normal")?;
             if normals.as_slice().iter().any(|&normal| unit(normal).is_none()) {
-                return Err(MeshFault::NotFinite("normal"));
+                return Err(FaceError::NotFinite("normal"));
             }
         }
         if let Some(texcoords) = face.texcoords {
@@ -93,29 +93,17 @@ impl PolygonMesh {
         face.positions.map(|position| self.positions[position as usize])
     }
 
-    /// One unit normal for each position: the sum of its faces' normals, each weighted by the angle
-    /// there.
-    ///
-    /// G. Thürmer, C. A. Wüthrich, *Computing Vertex Normals from Polygonal Facets*, Journal of
-    /// Graphics Tools 3(1), 1998. `vertices` maps positions to those that they coincide with.
-    #[must_use]
-    pub(crate) fn smooth_normals(&self, vertices: &[u32]) -> Vec<Vec3> {
-        let mut sums = vec![Vec3::ZERO; self.positions.len()];
-        for face in &self.faces {
-            let corners = self.corners(face);
-            for (corner, &position) in face.positions.as_slice().iter().enumerate() {
-                sums[vertices[position as usize] as usize] += angle_weighted(&corners, corner);
-            }
-        }
-        // Normals that cancel out leave none to choose; any unit vector is as good as another.
-        sums.iter().map(|&sum| unit(sum).unwrap_or(Vec3::Z)).collect()
+    /// The unit normal of the plane through a face's corners, as nearly as there is one; zero for none.
+    pub(crate) fn face_normal(&self, face: &Face) -> Vec3 {
+        let [a, b] = diagonals(&self.corners(face));
+        a.cross(b).normalize_or_zero().as_vec3()
     }
 }
 
-fn check_vector(what: &'static str, is_finite: bool, is_in_range: bool) -> Result<(), MeshFault> {
+fn check_vector(what: &'static str, is_finite: bool, is_in_range: bool) -> Result<(), FaceError> {
     match (is_finite, is_in_range) {
-        (false, _) => Err(MeshFault::NotFinite(what)),
-        (true, false) => Err(MeshFault::TooLarge(what)),
+        (false, _) => Err(FaceError::NotFinite(what)),
+        (true, false) => Err(FaceError::TooLarge(what)),
         (true, true) => Ok(()),
     }
 }
@@ -126,45 +114,38 @@ fn gather<T: Copy>(
     indices: Sides<u32>,
     corners: usize,
     what: &'static str,
-) -> Result<Sides<T>, MeshFault> {
+) -> Result<Sides<T>, FaceError> {
     let found = indices.as_slice().len();
     if found != corners {
-        return Err(MeshFault::WrongCount { what, found, corners });
+        return Err(FaceError::WrongCount { what, found, corners });
     }
     if indices.as_slice().iter().any(|&index| index as usize >= values.len()) {
-        return Err(MeshFault::OutOfRange { what, count: values.len() });
+        return Err(FaceError::OutOfRange { what, count: values.len() });
     }
     Ok(indices.map(|index| values[index as usize]))
 }
 
 /// Refuses two neighbouring corners with one position, and an area that vanishes against the
 /// product of the diagonals.
-fn check_area(corners: &Sides<Vec3>) -> Result<(), MeshFault> {
+fn check_area(corners: &Sides<Vec3>) -> Result<(), FaceError> {
     let points = corners.as_slice();
     if edge_corners(corners).iter().any(|&[a, b]| points[a] == points[b]) {
-        return Err(MeshFault::RepeatedCorner);
+        return Err(FaceError::RepeatedCorner);
     }
-    let [a, b] = match corners {
-        Sides::Triangle([a, b, c]) => [[a, b], [a, c]],
-        Sides::Quad([a, b, c, d]) => [[a, c], [b, d]],
-    }
-    .map(|[from, to]| to.as_dvec3() - from.as_dvec3());
+    let [a, b] = diagonals(corners);
     // 2^-22: below it, the rounding of binary32 coordinates decides about the area.
     const LEAST_SINE: f64 = 1.0 / 4_194_304.0;
     if a.cross(b).length() <= LEAST_SINE * a.length() * b.length() {
-        return Err(MeshFault::NoArea);
+        return Err(FaceError::NoArea);
     }
     Ok(())
 }
 
-/// The unit normal at a corner times the angle between its edges.
-fn angle_weighted(corners: &Sides<Vec3>, corner: usize) -> Vec3 {
-    let points = corners.as_slice();
-    let count = points.len();
-    let here = points[corner].as_dvec3();
-    let next = points[(corner + 1) % count].as_dvec3() - here;
-    let previous = points[(corner + count - 1) % count].as_dvec3() - here;
-    let cross: DVec3 = next.cross(previous);
-    let angle = libm::atan2(cross.length(), next.dot(previous));
-    (cross.normalize_or_zero() * angle).as_vec3()
+/// Two vectors whose cross product is along the normal: of a quad the diagonals.
+fn diagonals(corners: &Sides<Vec3>) -> [DVec3; 2] {
+    match corners {
+        Sides::Triangle([a, b, c]) => [[a, b], [a, c]],
+        Sides::Quad([a, b, c, d]) => [[a, c], [b, d]],
+    }
+    .map(|[from, to]| to.as_dvec3() - from.as_dvec3())
 }

@@ -2,13 +2,14 @@
 
 use crate::bezier::BezierPatch;
 use crate::curve::{Direction, Edge};
-use crate::error::{MeshError, MeshFault};
+use crate::error::{FaceError, MeshError};
 use crate::math::{is_in_range, unit};
 use crate::mesh::PolygonMesh;
 use crate::patch::{Surface, SurfacePatch};
 use crate::pn::{PnCorner, PnQuad, PnTriangle, edge_points};
 use crate::sides::{Sides, edge_corners, runs_onwards};
-use crate::topology::{HalfEdge, Topology, check_count, hash, weld};
+use crate::smooth::smooth_normals;
+use crate::topology::{HalfEdge, HalfEdges, Topology, check_count, hash, weld};
 use alloc::vec::Vec;
 use glam::Vec3;
 
@@ -38,37 +39,26 @@ enum ModelSource {
 
 impl Model {
     /// Makes a model of a polygon mesh. Normals are scaled to unit length, and faces without
-    /// normals get smooth ones. Faces are neighbours where the positions of their corners have equal
-    /// coordinates, whatever their indices.
+    /// normals get smooth ones, each from the faces of the same sheet ([`PolygonMesh`]). Faces are
+    /// neighbours where the positions of their corners have equal coordinates, whatever their
+    /// indices.
     ///
     /// # Errors
-    /// Faults that [`PolygonMesh::check`] finds, and edges of more than two faces, unless as many of them
-    /// run one way along the edge as the other ([`Model::crowded_edges`]).
+    /// Faults that [`PolygonMesh::check`] finds.
     pub fn polygons(mut mesh: PolygonMesh, style: Style) -> Result<Self, MeshError> {
         mesh.check()?;
         mesh.normalize();
         let vertices = weld(&mesh.positions);
+        let topology = {
+            let edges = MeshEdges { mesh: &mesh, vertices: &vertices };
+            Topology::pair(mesh.faces.len(), edges.hashes(), &edges)
+        };
         let lacks_normals = mesh.faces.iter().any(|face| face.normals.is_none());
-        let normals = if lacks_normals { mesh.smooth_normals(&vertices) } else { Vec::new() };
-        let ends = |half: HalfEdge| {
-            let corners = &mesh.faces[half.patch].positions;
-            let ends = edge_corners(corners)[half.edge];
-            ends.map(|corner| vertices[corners.as_slice()[corner] as usize])
+        let normals = if lacks_normals && style == Style::PointNormal {
+            smooth_normals(&mut mesh, &vertices, &topology)
+        } else {
+            Vec::new()
         };
-        let key = |half| {
-            let [a, b] = ends(half);
-            (u64::from(a.min(b)) << 32) | u64::from(a.max(b))
-        };
-        let edges = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
-            (0..face.positions.as_slice().len()).map(move |edge| HalfEdge { patch, edge })
-        });
-        let mut hashes = Vec::with_capacity(mesh.faces.len() * 4);
-        hashes.extend(edges.map(|half| (key(half), half.slot())));
-        let is_forward = |half: HalfEdge| {
-            let onwards = runs_onwards(&mesh.faces[half.patch].positions, half.edge);
-            ends(half).is_sorted() == onwards
-        };
-        let topology = Topology::pair(mesh.faces.len(), hashes, |_, _| true, is_forward)?;
         Ok(Self { source: ModelSource::Polygons { mesh, vertices, normals, style }, topology })
     }
 
@@ -77,10 +67,8 @@ impl Model {
     ///
     /// # Errors
     /// The first patch with a control point that is not finite or too large to be evaluated
-    /// ([`MeshFault::TooLarge`]), with a weight that is not greater than zero, with no area, or with an
-    /// edge of two other patches, unless as many run one way along it as the other
-    /// ([`Model::crowded_edges`]); no patch, or 2^30. A boundary collapsed to a point is no error, and
-    /// no edge.
+    /// ([`FaceError::TooLarge`]), with a weight that is not greater than zero, or with no area; no
+    /// patch, or 2^30. A boundary collapsed to a point is no error, and no edge.
     pub fn bezier(patches: Vec<BezierPatch>) -> Result<Self, MeshError> {
         check_count(patches.len())?;
         let mut hashes = Vec::with_capacity(patches.len() * 4);
@@ -94,13 +82,7 @@ impl Model {
                 }
             }
         }
-        let edge = |half: HalfEdge| Edge::new(patches[half.patch].boundary()[half.edge]);
-        let same = |a, b| edge(a).curve.key() == edge(b).curve.key();
-        let is_forward = |half: HalfEdge| {
-            let onwards = runs_onwards(&Sides::Quad([(); 4]), half.edge);
-            (edge(half).direction == Direction::Along) == onwards
-        };
-        let topology = Topology::pair(patches.len(), hashes, same, is_forward)?;
+        let topology = Topology::pair(patches.len(), hashes, &BezierEdges(&patches));
         Ok(Self { source: ModelSource::Bezier(patches), topology })
     }
 
@@ -114,20 +96,43 @@ impl Model {
         }
     }
 
-    /// The other side of an edge; `None` on the border of the model, for collapsed edges and for
-    /// edges that do not exist.
+    /// The other side of an edge; `None` on the border of the model, on seams, for collapsed edges and
+    /// for edges that do not exist.
     #[must_use]
     pub fn twin(&self, half: HalfEdge) -> Option<HalfEdge> {
         self.topology.twin(half)
     }
 
-    /// The number of edges with more than two patches, as where two cubes stand edge to edge.
+    /// One side of each edge with more than two patches that are neighbours in pairs, as where two cubes touch along an
+    /// edge; in ascending order.
     ///
     /// An equal number of patches runs each way along such an edge, and each is the neighbour of one that runs the other
     /// way. So the surfaces that touch there have no cracks, but they may be divided differently.
     #[must_use]
-    pub const fn crowded_edges(&self) -> usize {
-        self.topology.crowded
+    pub fn crowded_edges(&self) -> &[HalfEdge] {
+        &self.topology.crowded
+    }
+
+    /// All sides of each edge with more than two patches that have no single neighbour, as where a fin stands on a
+    /// surface; each in ascending order.
+    ///
+    /// The patches there keep their own normals. They share the edge's curve and factor, so no crack opens.
+    #[must_use]
+    pub fn seams(&self) -> &[Vec<HalfEdge>] {
+        &self.topology.seams
+    }
+
+    /// The mesh that the model was made of, if it was; faces where several sheets meet may have got normals.
+    #[must_use]
+    pub const fn mesh(&self) -> Option<&PolygonMesh> {
+        match &self.source {
+            ModelSource::Polygons { mesh, .. } => Some(mesh),
+            ModelSource::Bezier(_) => None,
+        }
+    }
+
+    pub(crate) const fn topology(&self) -> &Topology {
+        &self.topology
     }
 
     /// The shape of patch `number`, triangle or quad, without its surface.
@@ -204,15 +209,30 @@ impl Model {
         }
     }
 
-    /// The means of the inner control points that both sides of an edge ask for.
+    /// The means of the inner control points that all sides of an edge ask for.
     fn shared_edge_points(&self, half: HalfEdge, start: PnCorner, end: PnCorner) -> [Vec3; 2] {
         let own = edge_points(start, end);
-        let Some(twin) = self.twin(half) else { return own };
-        let corners = self.pn_corners(twin.patch);
-        let [a, b] = edge_corners(&corners)[twin.edge].map(|corner| corners.as_slice()[corner]);
-        let theirs =
-            if a.position == start.position { edge_points(a, b) } else { edge_points(b, a) };
-        [(own[0] + theirs[0]) * 0.5, (own[1] + theirs[1]) * 0.5]
+        if let Some(twin) = self.twin(half) {
+            let theirs = self.edge_points_beyond(twin, start);
+            return [(own[0] + theirs[0]) * 0.5, (own[1] + theirs[1]) * 0.5];
+        }
+        let seam = self.topology.seam(half);
+        if seam.is_empty() {
+            return own;
+        }
+        // In the order of the seam, so that all sides get the same sum.
+        let points = seam.iter().map(|&side| self.edge_points_beyond(side, start));
+        let sum = points.fold([Vec3::ZERO; 2], |sum, [a, b]| [sum[0] + a, sum[1] + b]);
+        #[expect(clippy::cast_precision_loss, reason = "a seam has far fewer than 2^24 sides")]
+        let count = seam.len() as f32;
+        sum.map(|points| points / count)
+    }
+
+    /// The inner control points that a side of an edge asks for, in the direction from `start`.
+    fn edge_points_beyond(&self, half: HalfEdge, start: PnCorner) -> [Vec3; 2] {
+        let corners = self.pn_corners(half.patch);
+        let [a, b] = edge_corners(&corners)[half.edge].map(|corner| corners.as_slice()[corner]);
+        if a.position == start.position { edge_points(a, b) } else { edge_points(b, a) }
     }
 
     fn pn_corners(&self, number: usize) -> Sides<PnCorner> {
@@ -230,13 +250,82 @@ impl Model {
     }
 }
 
-fn check_patch(patch: &BezierPatch) -> Result<(), MeshFault> {
+/// The edges of a mesh whose coinciding positions are known.
+pub(crate) struct MeshEdges<'a> {
+    pub(crate) mesh: &'a PolygonMesh,
+    /// The position that each one coincides with.
+    pub(crate) vertices: &'a [u32],
+}
+
+impl MeshEdges<'_> {
+    /// The vertices at the ends, in the direction of the edge's running coordinate.
+    fn ends(&self, half: HalfEdge) -> [u32; 2] {
+        let corners = &self.mesh.faces[half.patch].positions;
+        let ends = edge_corners(corners)[half.edge];
+        ends.map(|corner| self.vertices[corners.as_slice()[corner] as usize])
+    }
+
+    /// A number for each half-edge that is equal for sides of one edge only, and its slot.
+    fn hashes(&self) -> Vec<(u64, u32)> {
+        let edges = self.mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
+            (0..face.positions.as_slice().len()).map(move |edge| HalfEdge { patch, edge })
+        });
+        let key = |half| {
+            let [a, b] = self.ends(half);
+            (u64::from(a.min(b)) << 32) | u64::from(a.max(b))
+        };
+        let mut hashes = Vec::with_capacity(self.mesh.faces.len() * 4);
+        hashes.extend(edges.map(|half| (key(half), half.slot())));
+        hashes
+    }
+}
+
+impl HalfEdges for MeshEdges<'_> {
+    fn same(&self, _: HalfEdge, _: HalfEdge) -> bool {
+        true
+    }
+
+    fn is_forward(&self, half: HalfEdge) -> bool {
+        let onwards = runs_onwards(&self.mesh.faces[half.patch].positions, half.edge);
+        self.ends(half).is_sorted() == onwards
+    }
+
+    fn normal(&self, half: HalfEdge) -> Vec3 {
+        self.mesh.face_normal(&self.mesh.faces[half.patch])
+    }
+}
+
+struct BezierEdges<'a>(&'a [BezierPatch]);
+
+impl BezierEdges<'_> {
+    fn edge(&self, half: HalfEdge) -> Edge {
+        Edge::new(self.0[half.patch].boundary()[half.edge])
+    }
+}
+
+impl HalfEdges for BezierEdges<'_> {
+    fn same(&self, one: HalfEdge, other: HalfEdge) -> bool {
+        self.edge(one).curve.key() == self.edge(other).curve.key()
+    }
+
+    fn is_forward(&self, half: HalfEdge) -> bool {
+        let onwards = runs_onwards(&Sides::Quad([(); 4]), half.edge);
+        (self.edge(half).direction == Direction::Along) == onwards
+    }
+
+    fn normal(&self, half: HalfEdge) -> Vec3 {
+        let [u, v] = [[0.0, 0.5], [0.5, 0.0], [1.0, 0.5], [0.5, 1.0]][half.edge];
+        self.0[half.patch].normal(u, v)
+    }
+}
+
+fn check_patch(patch: &BezierPatch) -> Result<(), FaceError> {
     let points = patch.points.as_flattened();
     if points.iter().any(|point| !point.is_finite()) {
-        return Err(MeshFault::NotFinite("control point"));
+        return Err(FaceError::NotFinite("control point"));
     }
     if points.iter().any(|point| point.w <= 0.0) {
-        return Err(MeshFault::Weight);
+        return Err(FaceError::Weight);
     }
     let positions = points.iter().map(|&point| crate::math::project(point));
     // Tangents are the positions' differences, times a quotient of weights.
@@ -244,11 +333,11 @@ fn check_patch(patch: &BezierPatch) -> Result<(), MeshFault> {
     let (least, greatest) = weights.fold((f32::MAX, 0.0f32), |(l, g), w| (l.min(w), g.max(w)));
     let evaluable = positions.clone().all(|p| is_in_range((p * (greatest / least)).as_ref()));
     if !evaluable || !points.iter().all(|point| is_in_range(point.as_ref())) {
-        return Err(MeshFault::TooLarge("control point"));
+        return Err(FaceError::TooLarge("control point"));
     }
     let mut directions = positions.map(|point| point - crate::math::project(patch.points[0][0]));
-    let first = directions.by_ref().find_map(unit).ok_or(MeshFault::NoArea)?;
+    let first = directions.by_ref().find_map(unit).ok_or(FaceError::NoArea)?;
     let mut others = directions.filter_map(unit);
     let spans = others.any(|other| first.cross(other).length_squared() > 1e-12);
-    if spans { Ok(()) } else { Err(MeshFault::NoArea) }
+    if spans { Ok(()) } else { Err(FaceError::NoArea) }
 }

@@ -6,7 +6,7 @@
 
 use crate::bezier::BezierPatch;
 use crate::curve::{Curve, Direction, Edge};
-use crate::error::WrongDomain;
+use crate::error::WrongDomainError;
 use crate::frame::{Frame, Frames, Tangents};
 use crate::math::{plain_zero, unit};
 use crate::pn::{PnQuad, PnTriangle, normal_along};
@@ -64,13 +64,13 @@ impl SurfacePatch {
     /// The same patch with these texture coordinates at its corners.
     ///
     /// # Errors
-    /// [`WrongDomain`] if there are three for a quad or four for a triangle.
-    pub fn with_texcoords(self, texcoords: Sides<Vec2>) -> Result<Self, WrongDomain> {
+    /// [`WrongDomainError`] if there are three for a quad or four for a triangle.
+    pub fn with_texcoords(self, texcoords: Sides<Vec2>) -> Result<Self, WrongDomainError> {
         let (found, expected) = (texcoords.domain(), self.domain());
         if found == expected {
             Ok(Self { texcoords, ..self })
         } else {
-            Err(WrongDomain { found, expected })
+            Err(WrongDomainError { found, expected })
         }
     }
 

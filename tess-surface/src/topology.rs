@@ -1,6 +1,6 @@
 //! Finding which edges of a model's patches are the same edge.
 
-use crate::error::{MeshError, MeshFault};
+use crate::error::MeshError;
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::Vec3;
@@ -14,13 +14,17 @@ pub struct HalfEdge {
     pub edge: usize,
 }
 
-/// The other side of every edge of every patch.
+/// The other sides of every edge of every patch.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Topology {
-    /// Indexed by slot; `ALONE` for edges of the model's border and collapsed edges.
+    /// Indexed by slot; `ALONE` for edges of the model's border, seams and collapsed edges.
     twins: Vec<u32>,
-    /// How many edges have more than two sides.
-    pub(crate) crowded: usize,
+    /// One side of each edge that has more than two, all of them paired; in the order of slots.
+    pub(crate) crowded: Vec<HalfEdge>,
+    /// All sides of each edge whose more than two sides are not paired; in the order of slots.
+    pub(crate) seams: Vec<Vec<HalfEdge>>,
+    /// The slot of each side of a seam and the seam's number, in the order of slots.
+    seam_of_slot: Vec<(u32, u32)>,
 }
 
 const ALONE: u32 = u32::MAX;
@@ -44,67 +48,111 @@ impl HalfEdge {
         (self.patch * 4 + self.edge) as u32
     }
 
-    const fn of_slot(slot: u32) -> Self {
+    pub(crate) const fn of_slot(slot: u32) -> Self {
         Self { patch: (slot / 4) as usize, edge: (slot % 4) as usize }
     }
 }
 
+/// What [`Topology::pair`] asks about half-edges.
+pub(crate) trait HalfEdges {
+    /// Whether two half-edges with equal hashes are sides of one edge.
+    fn same(&self, one: HalfEdge, other: HalfEdge) -> bool;
+
+    /// Which of its two ways the patch runs along the edge, the same for all sides of the edge.
+    fn is_forward(&self, half: HalfEdge) -> bool;
+
+    /// The patch's unit normal near the edge, or zero.
+    fn normal(&self, half: HalfEdge) -> Vec3;
+}
+
 impl Topology {
-    /// Pairs the half-edges that are equal. `hashes` has each one's hash and slot; `same` decides
-    /// about those with equal hashes, and `is_forward` which way one runs along its edge.
+    /// Pairs the half-edges that are equal. `hashes` has each one's hash and slot.
     ///
     /// More than two are pairs if as many run one way as the other: sheets that touch, as where two
-    /// cubes stand edge to edge. Every sheet keeps its sides together, whichever they are (A. Guéziec
-    /// et al., *Cutting and Stitching*, IEEE TVCG 7(2), 2001).
+    /// cubes stand edge to edge, or the two sides of a sheet that has a face for each (A. Guéziec et
+    /// al., *Cutting and Stitching*, IEEE TVCG 7(2), 2001). Pairs are those that bend the least.
+    /// Where the numbers differ there is no single neighbour, and the edge is a seam.
     pub(crate) fn pair(
         patches: usize,
         mut hashes: Vec<(u64, u32)>,
-        same: impl Fn(HalfEdge, HalfEdge) -> bool,
-        is_forward: impl Fn(HalfEdge) -> bool,
-    ) -> Result<Self, MeshError> {
+        edges: &impl HalfEdges,
+    ) -> Self {
         if !hashes.is_empty() {
             sort(&mut hashes);
         }
-        let mut topology = Self { twins: vec![ALONE; patches * 4], crowded: 0 };
+        let (crowded, seams, seam_of_slot) = (Vec::new(), Vec::new(), Vec::new());
+        let mut topology = Self { twins: vec![ALONE; patches * 4], crowded, seams, seam_of_slot };
         let mut sides: Vec<HalfEdge> = Vec::new();
         let mut others: Vec<HalfEdge> = Vec::new();
         for run in hashes.chunk_by(|a, b| a.0 == b.0) {
             others.extend(run.iter().map(|&(_, slot)| HalfEdge::of_slot(slot)));
             while let Some(&first) = others.first() {
-                sides.extend(others.extract_if(.., |&mut half| half == first || same(half, first)));
-                topology.join(&sides, &is_forward)?;
+                let is_side = |half: &mut HalfEdge| *half == first || edges.same(*half, first);
+                sides.extend(others.extract_if(.., is_side));
+                topology.join(&sides, edges);
                 sides.clear();
             }
         }
-        Ok(topology)
+        topology.number_seams();
+        topology
     }
 
-    /// Pairs all sides of one edge.
-    fn join(
-        &mut self,
-        sides: &[HalfEdge],
-        is_forward: impl Fn(HalfEdge) -> bool,
-    ) -> Result<(), MeshError> {
-        let [first, second, third, ..] = *sides else {
+    /// Pairs all sides of one edge, which are in the order of slots.
+    fn join(&mut self, sides: &[HalfEdge], edges: &impl HalfEdges) {
+        let [first, _, _, ..] = *sides else {
             if let [one, other] = *sides {
                 self.connect(one, other);
             }
-            return Ok(());
+            return;
         };
         let (forward, backward): (Vec<_>, Vec<_>) =
-            sides.iter().partition(|&&half| is_forward(half));
+            sides.iter().partition(|&&half| edges.is_forward(half));
         if forward.len() != backward.len() {
-            let fault = MeshFault::NonManifold { others: [first.patch, second.patch] };
-            return Err(MeshError::Face { face: third.patch, fault });
+            self.seams.push(sides.to_vec());
+            return;
         }
-        self.crowded += 1;
-        forward.into_iter().zip(backward).for_each(|(one, other)| self.connect(one, other));
-        Ok(())
+        self.crowded.push(first);
+        let mut pairs = Vec::with_capacity(forward.len() * backward.len());
+        for &one in &forward {
+            let normal = edges.normal(one);
+            pairs.extend(
+                backward.iter().map(|&other| (normal.dot(edges.normal(other)), one, other)),
+            );
+        }
+        // Stable, so that slots decide between equals.
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, one, other) in pairs {
+            if self.twin(one).is_none() && self.twin(other).is_none() {
+                self.connect(one, other);
+            }
+        }
+    }
+
+    fn number_seams(&mut self) {
+        self.crowded.sort_unstable();
+        self.seams.sort_unstable();
+        let numbered = (0u32..).zip(&self.seams);
+        let slots =
+            numbered.flat_map(|(seam, sides)| sides.iter().map(move |half| (half.slot(), seam)));
+        self.seam_of_slot = slots.collect();
+        self.seam_of_slot.sort_unstable();
     }
 
     fn connect(&mut self, one: HalfEdge, other: HalfEdge) {
         self.twins[one.slot() as usize] = other.slot();
         self.twins[other.slot() as usize] = one.slot();
+    }
+
+    /// All sides of a seam, in the order of slots; none for other edges.
+    pub(crate) fn seam(&self, half: HalfEdge) -> &[HalfEdge] {
+        let found = self.seam_of_slot.binary_search_by_key(&half.slot(), |&(slot, _)| slot);
+        found.map_or(&[], |at| &self.seams[self.seam_of_slot[at].1 as usize])
+    }
+
+    /// The sides of an edge other than this one: the twin, or those of a seam.
+    pub(crate) fn others(&self, half: HalfEdge) -> impl Iterator<Item = HalfEdge> {
+        let of_seam = self.seam(half).iter().copied().filter(move |&other| other != half);
+        self.twin(half).into_iter().chain(of_seam)
     }
 
     /// The other side of an edge, if there is one.

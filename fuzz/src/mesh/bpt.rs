@@ -21,9 +21,28 @@ pub fn check(data: &[u8]) -> Result<(), String> {
 
 fn naive(data: &[u8]) -> Option<Vec<BezierPatch>> {
     let lines = without_mark(data).split(|&byte| byte == b'\n');
-    // A patch is the line of its degrees and 16 points; before all there is their number.
+    let lines = lines.map(|line| line.split(|&byte| byte == b'#').next().unwrap_or_default());
     let lines: Vec<Vec<String>> = lines.map(words_of).filter(|words| !words.is_empty()).collect();
-    let patches = lines.get(1..)?.chunks(17).map(|lines| {
+    let all: Vec<String> = lines.concat();
+    let count: usize = all.first()?.parse().ok()?;
+    // A patch is the line of its degrees and 16 points; before all there is their number.
+    let has_right_length = |(k, line): (usize, &Vec<String>)| match k % 17 {
+        0 => line.len() == 2,
+        _ => matches!(line.len(), 3 | 4),
+    };
+    let has_points_on_lines = lines[0].len() == 1
+        && lines.len() == 1 + 17 * count
+        && lines[1..].iter().enumerate().all(has_right_length);
+    let lines: Vec<Vec<String>> = if has_points_on_lines {
+        lines[1..].to_vec()
+    } else {
+        let numbers = (all.len() - 1) / count;
+        let mut rest = all[1..].iter().cloned();
+        let mut line = |length: usize| rest.by_ref().take(length).collect();
+        let length = |k: usize| if k % 17 == 0 { 2 } else { (numbers - 2) / 16 };
+        (0..17 * count).map(|k| line(length(k))).collect()
+    };
+    let patches = lines.chunks(17).map(|lines| {
         let points: Vec<Vec4> =
             lines[1..].iter().map(|words| point(words)).collect::<Option<_>>()?;
         let rows: Vec<[Vec4; 4]> = points.as_chunks().0.to_vec();

@@ -21,6 +21,7 @@ pub fn obj() -> Vec<Vec<u8>> {
         format!("{CUBE}f 1 2 2\nf 1 1 2 3\nf 1 2 3 3\nf 4 4 4 4\nf 1 2 1 3\nf 5 6 7\n"),
         format!("mtllib a.mtl\n{CUBE}g x y\nusemtl m\ns off\nl 1 2 3\np 1\n{FACES}"),
         "v 0 0 0 1\nv 1 0 0 .5 .5 .5\nv\t0 1. -0\nf 1 2 3".to_owned(),
+        format!("{CUBE}vt 0 0\nvn nan 0 inf\nf 1/1/ 4/1/ 3/1/\nf 1// 2// 6// 5//\nf 1 4 8 7 3 2\n"),
     ];
     let mut seeds: Vec<Vec<u8>> = texts.into_iter().map(String::into_bytes).collect();
     seeds.push([b"# caf\xE9 \xFF\ng \xE9\n", CUBE.as_bytes(), FACES.as_bytes()].concat());
@@ -44,6 +45,9 @@ pub fn bpt() -> Vec<Vec<u8>> {
         format!("\n 1 \n\n{}\n", one("", " \n\t\n")),
         format!("3\n{plain}{}{plain}", one(" 1e-3", "\n")),
         format!("1\n{}", plain.replace(" 2 ", " -2.5e3 ")),
+        format!("# a patch\n1 # of one\n4 4\n{}", rows("", " #\n")),
+        format!("2 3 3 {} 3 3\n{}", rows("", " "), rows("", "\t")),
+        format!("1\n3 3\n{}", rows(" 2", " ")),
     ]
     .map(String::into_bytes)
     .to_vec()
@@ -172,6 +176,42 @@ pub fn gltf() -> Vec<Vec<u8>> {
                 "values": {"bufferView": values}},
         });
     });
+    let moved = |b: &mut Builder| {
+        let moves = b.accessor(&floats(&[0.5, -1.0, 2.0].repeat(4)), 5126, "VEC3", 4);
+        let turns = b.accessor(&floats(&[1.0, 0.0, -0.25].repeat(4)), 5126, "VEC3", 4);
+        b.document["meshes"][0]["primitives"][0]["targets"] =
+            json!([{"POSITION": moves}, {"NORMAL": turns, "POSITION": moves}]);
+        b.document["meshes"][0]["weights"] = json!([0.5, 1]);
+    };
+    let skinned = |b: &mut Builder| {
+        let joints = b.accessor(&[0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0, 0], 5121, "VEC4", 4);
+        let weights = floats(&[0.25, 0.75, 0.0, 0.0].repeat(4));
+        let weights = b.accessor(&weights, 5126, "VEC4", 4);
+        b.attribute("JOINTS_0", joints);
+        b.attribute("WEIGHTS_0", weights);
+        let inverse: Vec<f32> = (0..32u8).map(|k| f32::from(u8::from(k % 5 == k / 16))).collect();
+        let inverse = b.accessor(&floats(&inverse), 5126, "MAT4", 2);
+        b.document["skins"] = json!([{"joints": [1, 2.0], "inverseBindMatrices": inverse}]);
+        b.document["nodes"] = json!([
+            {"mesh": 0, "skin": 0, "scale": [9, 9, 9]}, {"translation": [1, 2, 3], "children": [2]},
+            {"rotation": [0, 0.6, 0, 0.8], "scale": [1, -1, 0]},
+        ]);
+    };
+    let modes = |mode: u32| {
+        small().with(|b| {
+            b.document["meshes"][0]["primitives"][0]["mode"] = json!(mode);
+            b.document["animations"] = json!([{}]);
+            _ = b.document.as_object_mut().expect("a document").remove("scenes");
+        })
+    };
+    let quantized = small().with(|b| {
+        let number = b.accessor(&[1, 2, 255, 0, 3, 4, 5, 0, 6, 128, 8, 0, 9, 9, 1, 0], 5120, "VEC3", 4);
+        let view = b.document["accessors"][number]["bufferView"].as_u64().unwrap_or(0) as usize;
+        b.document["bufferViews"][view]["byteStride"] = json!(4);
+        b.document["accessors"][number]["normalized"] = json!(true);
+        b.document["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+        b.attribute("NORMAL", number);
+    });
     let interleaved = Builder::new().with(|b| {
         let data: Vec<f32> = (0..32u16).map(|k| f32::from(k * k % 17) - 4.0).collect();
         let number = b.accessor(&floats(&data), 5126, "VEC3", 3);
@@ -211,6 +251,12 @@ pub fn gltf() -> Vec<Vec<u8>> {
         sparse.text(),
         zeros.text(),
         interleaved.binary(),
+        small().with(normals).with(moved).text(),
+        small().with(normals).with(moved).with(skinned).text(),
+        modes(5).text(),
+        modes(6).binary(),
+        modes(1).text(),
+        quantized.text(),
     ]
 }
 

@@ -33,6 +33,15 @@ fn tess_root_quotient(dividend: f32, divisor: f32) -> f32 {
     return tess_clamp_factor(sqrt(dividend / divisor));
 }
 
+// The least power of two that is not less than `factor`, which is from 1 to 64.
+fn tess_power_of_two(factor: f32) -> f32 {
+    var power = 1.0;
+    while power < factor {
+        power *= 2.0;
+    }
+    return power;
+}
+
 // --- Edges ---
 
 // Segments of `segment` pixels, whichever way the edge from a to b points. `pixels_per_unit` is the number of pixels
@@ -64,12 +73,15 @@ fn tess_edge_by_curvature(
 // Segments that stay within `tolerance` of a surface whose bend along the edge is at most `bend`, the larger one of
 // both patches (bend.rs has the bounds): a power of two.
 fn tess_edge_by_flatness(bend: f32, tolerance: f32) -> f32 {
-    let needed = tess_root_quotient(bend, 4.0 * tolerance);
-    var factor = 1.0;
-    while factor < needed {
-        factor *= 2.0;
-    }
-    return factor;
+    return tess_power_of_two(tess_root_quotient(bend, 4.0 * tolerance));
+}
+
+// The factors of an edge beside two edges of half its length, from the factor that a rule has for the whole edge: of the
+// whole, a power of two from 2 to 64, and of each half, half as much. With these both sides have the same points under
+// integer and power-of-two partitioning. Neighbours must compute both from the whole edge.
+fn tess_edge_beside_halves(factor: f32) -> vec2<f32> {
+    let whole = max(tess_power_of_two(tess_clamp_factor(factor)), 2.0);
+    return vec2<f32>(whole, 0.5 * whole);
 }
 
 // --- Insides ---

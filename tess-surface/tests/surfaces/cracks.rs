@@ -24,7 +24,7 @@ fn every_model_and_rule() {
             }
         }
     }
-    assert_eq!(compared, 12 * 6 * 4 * 2, "every combination was compared");
+    assert_eq!(compared, 16 * 6 * 4 * 2, "every combination was compared");
 }
 
 #[test]

@@ -71,10 +71,33 @@ fn heights_beyond_a_clamped_image_are_its_outermost() {
     }
 }
 
+#[test]
+fn mirrored_images_meet_at_equal_heights() {
+    let map = HeightMap::new(2, 2, vec![0.0, 1.0, 2.0, 3.0]).unwrap().with_address(Address::Mirror);
+    for (at, expected, slope) in [
+        ((0.25, 0.25), 0.0, [2.0, -4.0]), // the centre of the upper left texel
+        ((0.375, 0.5), 1.25, [2.0, -4.0]),
+        ((-0.375, 0.5), 1.25, [-2.0, -4.0]),
+        ((1.625, 0.5), 1.25, [-2.0, -4.0]),
+        ((2.375, 0.5), 1.25, [2.0, -4.0]),
+        ((0.375, -0.5), 1.25, [2.0, 4.0]),
+        ((0.0, 0.5), 1.0, [0.0, -4.0]), // both neighbours are the outermost texel
+        ((1.0, 0.5), 2.0, [0.0, -4.0]),
+    ] {
+        let place = Vec2::from(at);
+        assert_eq!(map.height_at(place), expected, "height at {at:?}");
+        let (height, found) = map.sample(Vec2::new(place.x, 1.0 - place.y));
+        assert_eq!((height, found.to_array()), (expected, slope), "sample at {at:?}");
+    }
+    for place in [f32::INFINITY, f32::NEG_INFINITY] {
+        assert!(map.height_at(Vec2::new(place, 0.5)).is_nan(), "no height at infinity");
+    }
+}
+
 /// 1/256 of a texel is as far as heights at places go; samples go further.
 #[test]
 fn places_are_rounded_as_samplers_do() {
-    for address in [Address::Repeat, Address::Clamp] {
+    for address in [Address::Repeat, Address::Clamp, Address::Mirror] {
         let map = HeightMap::new(2, 1, vec![0.0, 256.0]).unwrap().with_address(address);
         for (parts, expected) in
             [(0.0, 0.0), (0.5, 0.0), (0.625, 1.0), (1.5, 2.0), (100.375, 100.0)]
@@ -134,20 +157,28 @@ fn textured(positions: &[[f32; 3]], texcoords: &[[f32; 2]]) -> Model {
     Model::polygons(mesh, Style::Flat).unwrap()
 }
 
-/// Texture coordinates beyond a clamped image have the heights of its border, in lanes as one by one.
+/// Texture coordinates beyond the image have its heights there, in lanes as one by one.
 #[test]
-fn clamped_heights_move_points() {
-    let map = HeightMap::new(2, 2, vec![0.0, 1.0, 2.0, 3.0]).unwrap().with_address(Address::Clamp);
-    let displacement = Displacement::new(map.clone(), 0.25).unwrap();
+fn heights_beyond_the_image_move_points() {
+    let image = HeightMap::new(2, 2, vec![0.0, 1.0, 2.0, 3.0]).unwrap();
     let model = textured(
         &[[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
         &[[-1.5, -0.5], [1.75, -0.5], [1.75, 2.0], [-1.5, 2.0]],
     );
-    let patch = DisplacedModel::new(&model, &displacement).patch(0);
-    for at in [[0.125, 0.25], [0.5, 0.5], [0.75, 0.875]] {
-        let sample = patch.sample(at);
-        assert_eq!(sample.position.z, map.sample(sample.texcoord).0 * 0.25, "{at:?}");
+    let places = [[0.125, 0.25], [0.5, 0.5], [0.75, 0.875]];
+    let mut heights = Vec::new();
+    for address in [Address::Repeat, Address::Clamp, Address::Mirror] {
+        let map = image.clone().with_address(address);
+        let displacement = Displacement::new(map.clone(), 0.25).unwrap();
+        let patch = DisplacedModel::new(&model, &displacement).patch(0);
+        for at in places {
+            let sample = patch.sample(at);
+            let expected = map.sample(sample.texcoord).0 * 0.25;
+            assert_eq!(sample.position.z, expected, "{at:?}, {address:?}");
+            heights.push(expected);
+        }
     }
+    assert!(heights[..3] != heights[3..6] && heights[3..6] != heights[6..], "{heights:?}");
 }
 
 /// A flat patch over an image that rises evenly: its normals are those of the moved points' differences, however the

@@ -2,10 +2,10 @@
 
 use crate::models::models;
 use glam::Vec3;
-use tess_core::{Partitioning, PatchFactors};
+use tess_core::{Config, OutputPrimitive, Partitioning, Patch, PatchFactors, QuadFactors};
 use tess_surface::factors::{
-    edge_by_curvature, edge_by_distance, edge_by_flatness, edge_by_screen_size, inside_quad,
-    inside_triangle, quotient, root_quotient,
+    edge_beside_halves, edge_by_curvature, edge_by_distance, edge_by_flatness, edge_by_screen_size,
+    inside_quad, inside_triangle, quotient, root_quotient,
 };
 use tess_surface::pn::edge_points;
 use tess_surface::{Bend, BezierPatch, Curve, Edge, FactorRule, Model, PnCorner, Surface};
@@ -186,4 +186,52 @@ fn powers_of_two() {
         let factors = FactorRule::Uniform(5.0).factors(model, 0, Partitioning::Pow2);
         assert!(factors.iter().all(|factor| factor == 8.0), "{name}: {factors:?}");
     }
+}
+
+/// The points on an edge of this factor, in units of 2^-16.
+fn edge_points_of(factor: f32, partitioning: Partitioning) -> Vec<u32> {
+    let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
+    let whole = Patch::new(config, QuadFactors::from([factor; 6])).tessellate();
+    let on_edge = whole.points.iter().filter(|point| point.v.to_bits() == 0);
+    let mut points: Vec<u32> = on_edge.map(|point| point.u.to_bits()).collect();
+    points.sort_unstable();
+    points
+}
+
+/// The largest distance of a point of an edge from that of the two halves beside it, in units of 2^-17; `None` if the
+/// numbers of points differ.
+fn misfit(whole: f32, half: f32, partitioning: Partitioning) -> Option<u32> {
+    let whole: Vec<u32> = edge_points_of(whole, partitioning).iter().map(|u| 2 * u).collect();
+    let half = edge_points_of(half, partitioning);
+    let second = half.iter().skip(1).map(|u| u + 65536);
+    let halves: Vec<u32> = half.iter().copied().chain(second).collect();
+    let distances = whole.iter().zip(&halves).map(|(a, b)| a.abs_diff(*b));
+    (whole.len() == halves.len()).then(|| distances.max().unwrap_or(0))
+}
+
+#[test]
+fn an_edge_meets_its_halves() {
+    for partitioning in [Partitioning::Integer, Partitioning::Pow2] {
+        for sixteenths in 0..=1040u16 {
+            let factor = f32::from(sixteenths) / 16.0;
+            let [whole, half] = edge_beside_halves(factor);
+            assert!(whole >= factor.min(64.0), "{factor}: not fewer than asked for, {whole}");
+            assert!(whole < 2.0 * factor.max(1.0) || whole == 2.0, "{factor}: {whole}");
+            assert_eq!(misfit(whole, half, partitioning), Some(0), "{whole} and {half}");
+        }
+    }
+    assert_eq!(edge_beside_halves(f32::NAN), [2.0, 1.0], "NaN counts as 1");
+}
+
+/// Why it takes a rule: docs/porting.md has these numbers.
+#[test]
+fn other_edges_miss_their_halves() {
+    let misfits = (1..=32u16).map(|half| {
+        let half = f32::from(half);
+        misfit(2.0 * half, half, Partitioning::Integer).expect("as many points")
+    });
+    let misfits: Vec<u32> = misfits.collect();
+    let exact: Vec<usize> = (1..=32).filter(|half| misfits[half - 1] == 0).collect();
+    assert_eq!(exact, [1, 2, 4, 8, 16, 32], "only powers of two meet exactly");
+    assert_eq!(misfits.iter().max(), Some(&19), "others are up to 9.5/65536 off");
 }

@@ -19,5 +19,6 @@ mod normals;
 mod point_normal;
 mod range;
 mod samples;
+mod sheets;
 mod teapot;
 mod weld;

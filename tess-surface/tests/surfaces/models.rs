@@ -126,6 +126,39 @@ pub(crate) fn hills() -> PolygonMesh {
     out
 }
 
+/// The hills with every face twice, once for each side.
+pub(crate) fn leaf() -> PolygonMesh {
+    let mut mesh = hills();
+    let backs: Vec<Face> = mesh.faces.iter().map(back).collect();
+    mesh.faces.extend(backs);
+    mesh
+}
+
+/// A face with its corners in the opposite order.
+fn back(face: &Face) -> Face {
+    let positions = match face.positions {
+        Sides::Triangle([a, b, c]) => Sides::Triangle([a, c, b]),
+        Sides::Quad([a, b, c, d]) => Sides::Quad([a, d, c, b]),
+    };
+    Face { positions, ..*face }
+}
+
+/// The hills with a fin of two quads on the edges between the second row and the third.
+pub(crate) fn fin() -> PolygonMesh {
+    let mut mesh = hills();
+    let row = 2 * 6;
+    let first = u32::try_from(mesh.positions.len()).unwrap();
+    // Twisted: on a plane, the row beside an edge with one segment is so close to it that both are one in 16.16.
+    let lean = |i: usize| Vec3::new(0.0, 0.8 * (i % 2) as f32, 1.0);
+    let tops: Vec<Vec3> = (0..3).map(|i| mesh.positions[row + 1 + i] + lean(i)).collect();
+    mesh.positions.extend(tops);
+    let below = u32::try_from(row + 1).unwrap();
+    for i in 0..2 {
+        mesh.faces.push(face(&[below + i, below + i + 1, first + i + 1, first + i]));
+    }
+    mesh
+}
+
 pub(crate) fn models() -> Vec<(&'static str, Model)> {
     let polygons = [
         ("octahedron", octahedron()),
@@ -133,6 +166,8 @@ pub(crate) fn models() -> Vec<(&'static str, Model)> {
         ("creased cube", creased_cube()),
         ("torus", torus()),
         ("hills", hills()),
+        ("leaf", leaf()),
+        ("fin", fin()),
     ];
     let mut all = vec![
         ("teapot", Model::bezier(teapot::patches()).unwrap()),

@@ -4,7 +4,7 @@ use crate::models::{creased_cube, cube, torus};
 use glam::{Vec2, Vec3};
 use tess_core::{Config, OutputPrimitive, Partitioning, PatchFactors};
 use tess_surface::{
-    DisplacedModel, Displacement, FactorRule, HeightMap, MAX_COORDINATE, MeshError, MeshFault,
+    DisplacedModel, Displacement, FaceError, FactorRule, HeightMap, MAX_COORDINATE, MeshError,
     Model, PolygonMesh, Sample, Sides, Style, Surface, SurfacePatch, teapot,
 };
 
@@ -100,11 +100,11 @@ fn larger_coordinates_are_refused() {
             }
             let found = Model::polygons(mesh, Style::Flat).err();
             let face = if position { 1 } else { 0 };
-            let expected = MeshError::Face { face, fault: MeshFault::TooLarge(what) };
+            let expected = MeshError::Face { face, fault: FaceError::TooLarge(what) };
             assert_eq!(found, is_refused.then_some(expected), "{what} times {scale}");
         }
     }
-    let error = MeshError::Face { face: 2, fault: MeshFault::TooLarge("position") };
+    let error = MeshError::Face { face: 2, fault: FaceError::TooLarge("position") };
     let words = "face 2: a position is too large to be evaluated: coordinates must lie within \
                  1e16 of 0";
     assert_eq!(error.to_string(), words, "which and why");

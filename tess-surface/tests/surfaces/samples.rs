@@ -74,7 +74,10 @@ fn many_are_one_by_one() {
 fn every_machine_has_these_bits() {
     let ball = Model::bezier(rational_ball()).expect("a model");
     let (mut plain, mut displaced) = (Digest::default(), Digest::default());
-    for (_, model) in models().into_iter().chain([("rational ball", ball)]) {
+    // The bits of these were recorded before there were others.
+    let is_recorded = |(name, _): &(&str, Model)| *name != "leaf" && *name != "fin";
+    let recorded = models().into_iter().filter(is_recorded);
+    for (_, model) in recorded.chain([("rational ball", ball)]) {
         let displacement = bumps();
         let displaced_model = DisplacedModel::new(&model, &displacement);
         for number in 0..model.len() {

@@ -103,7 +103,15 @@ pub(crate) fn complaint(out: &Tessellated) -> Option<String> {
     let border = uses(out.border.iter().filter_map(|&[a, b]| edge_key(a, b)));
     let odd =
         |uses: &BTreeMap<EdgeKey, u32>, key: &EdgeKey| uses.get(key).copied().unwrap_or(0) % 2 == 1;
-    let cracks = inside.keys().filter(|key| odd(&inside, key) && !odd(&border, key)).count();
-    let missing = border.keys().filter(|key| odd(&border, key) && !odd(&inside, key)).count();
-    (cracks + missing > 0).then(|| format!("{cracks} cracks, {missing} border segments missing"))
+    let cracks: Vec<_> = inside.keys().filter(|k| odd(&inside, k) && !odd(&border, k)).collect();
+    let missing: Vec<_> = border.keys().filter(|k| odd(&border, k) && !odd(&inside, k)).collect();
+    let first = |keys: &[&EdgeKey]| keys.first().map(|key| key.map(|p| p.map(f32::from_bits)));
+    let (a, b) = (first(&cracks), first(&missing));
+    let counts = (cracks.len(), missing.len());
+    (counts != (0, 0)).then(|| {
+        format!(
+            "{} cracks, the first {a:?}; {} border segments missing, the first {b:?}",
+            counts.0, counts.1
+        )
+    })
 }

@@ -110,12 +110,13 @@ mod tests {
     }
 
     /// Functions that helpers call among themselves; the README says nothing of them.
-    const OF_HELPERS: [&str; 6] = [
+    const OF_HELPERS: [&str; 7] = [
         "tess_bilinear",
-        "tess_in_range",
+        "tess_clamp_factor",
         "tess_is_before",
         "tess_is_behind",
         "tess_pn_edge_point",
+        "tess_power_of_two",
         "tess_root_quotient",
     ];
 

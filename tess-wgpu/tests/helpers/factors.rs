@@ -23,8 +23,8 @@ fn ranges_and_quotients() -> Vec<Table> {
     };
     vec![
         Table {
-            name: "tess_in_range",
-            call: "vec4(tess_in_range(a[0].x), 0, 0, 0)",
+            name: "tess_clamp_factor",
+            call: "vec4(tess_clamp_factor(a[0].x), 0, 0, 0)",
             cases: ranges(),
         },
         two(
@@ -63,6 +63,11 @@ fn of_edges() -> Vec<Table> {
             name: "tess_edge_by_flatness",
             call: "vec4(tess_edge_by_flatness(a[0].x, a[0].y), 0, 0, 0)",
             cases: by_flatness(),
+        },
+        Table {
+            name: "tess_edge_beside_halves",
+            call: "vec4(tess_edge_beside_halves(a[0].x), 0, 0)",
+            cases: beside_halves(),
         },
     ]
 }
@@ -141,7 +146,7 @@ fn ranges() -> Vec<Case> {
     let others =
         [f32::NAN, f32::NEG_INFINITY, -3.0, 0.0, 0.5, 1.5, 2.5, 63.5, 65.0, 1e30, f32::INFINITY];
     let all = around.into_iter().chain(others);
-    all.map(|x| case([one(x)], Expected::Bits(one(factors::in_range(x))))).collect()
+    all.map(|x| case([one(x)], Expected::Bits(one(factors::clamp_factor(x))))).collect()
 }
 
 /// Dividends and divisors: quotients of all sizes, and those of 0.
@@ -259,6 +264,18 @@ fn by_flatness() -> Vec<Case> {
     let case = |[bend, tolerance]: [f32; 2]| {
         let factor = factors::edge_by_flatness(bend, tolerance);
         case([[bend, tolerance, 0.0, 0.0]], Expected::Bits(one(factor)))
+    };
+    given.into_iter().map(case).collect()
+}
+
+fn beside_halves() -> Vec<Case> {
+    let mut given = vec![-1.0, 0.0, 1.0, 63.9, 64.0, 1e9];
+    for power in [1.0f32, 2.0, 4.0, 8.0, 16.0, 32.0] {
+        given.extend([power.next_down(), power, power.next_up()]);
+    }
+    let case = |factor: f32| {
+        let [whole, half] = factors::edge_beside_halves(factor);
+        case([one(factor)], Expected::Bits([whole, half, 0.0, 0.0]))
     };
     given.into_iter().map(case).collect()
 }

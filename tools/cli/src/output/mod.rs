@@ -134,7 +134,11 @@ pub(crate) fn print(bar: &ProgressBar, text: &str) -> Result<(), Failure> {
 
 /// A number with what it counts: `1 point`, `2 points`.
 pub(crate) fn counted(number: u64, one: &str) -> String {
-    let ending = if number == 1 { "" } else { "s" };
+    let ending = match number {
+        1 => "",
+        _ if one.ends_with("ch") => "es",
+        _ => "s",
+    };
     format!("{number} {one}{ending}")
 }
 

@@ -26,6 +26,8 @@ mod merge;
 mod mesh;
 mod mesh_gltf;
 mod mesh_input;
+mod mesh_pose;
+mod mesh_repair;
 mod options;
 mod patch;
 #[cfg(all(feature = "probe", feature = "shaders"))]

@@ -20,27 +20,36 @@ use crate::output::{OutputArgs, Role, form, note, refuse_shared};
 use crate::threads::start_pool;
 use clap::builder::ValueParser;
 use glam::Vec3;
-use input::{Input, height};
+use input::{Input, InputOptions, TexcoordRange, Weld, height};
 use output::{IndexWidth, MeshFile, Options, ResultForm};
 use pipeline::MeshJob;
 use statistics::{MeshStage, Statistics};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use tess_core::Partitioning;
-use tess_surface::{DisplacedModel, Displacement, FactorRule, HeightError, Model, Style};
+use tess_surface::{Address, DisplacedModel, Displacement, FactorRule, HeightError, Model, Style};
 use tess_verify::Named;
 use view::{CameraView, ViewArgs};
 
 /// Tessellate a model into a mesh or a picture
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Neighbouring patches get the same factor on their common edge, and the same points to the bit, so
-no crack opens. Faces with more than four corners are refused, as are edges of more than two faces,
-unless surfaces touch there: as many faces run one way along the edge as the other.
-Faces without area are left out, and a note says how many: where corners coincide, as at the pole of
-a sphere, the neighbours meet without them; where corners lie on one line, cracks may open. Points
-and lines of OBJ files are left out too. Buffers of glTF must be files in the model's folder or below
-it. Notes and statistics go to stderr.
+Neighbouring patches get the same factor on their common edge, and the same points to the bit, so no crack opens between \
+them. Corners are the same if their coordinates are equal. Where a corner is on the inside of another face's edge, or \
+differs from another corner in its last digits, a crack may open: a note counts such corners, and --weld closes the gaps.
+
+Some faces are changed, and a note says how many and where the first one is. Polygons of more than four corners and \
+concave quads are cut into triangles. Faces without area are left out. Faces with a normal that is zero or NaN get smooth \
+normals, as do faces without normals. Where more than two faces share an edge, each keeps its own normals. A face that is \
+there twice, once for each side, is two sheets. Points and lines are left out.
+
+glTF models are in the pose that they have at rest, with the weights of morph targets, the joints of skins and the \
+transforms of nodes; animations are not applied. Buffers must be files in the model's folder or below it.
+
+--displace maps the image by the model's texture coordinates, (0, 0) at the lower left. A face without texture coordinates \
+gets the whole image, as does each Bezier patch.
+
+Notes and statistics go to stderr.
 
 Examples:
   tess mesh -o teapot.png                          the teapot, 64 segments to the patch edge
@@ -53,8 +62,8 @@ pub(crate) struct MeshCommand {
     input: Option<PathBuf>,
     /// File to write: .obj, .gltf or .glb for a mesh, .png for a picture; - is stdout
     ///
-    /// A .gltf has its binary part beside it in a .bin of the same name. One that is there already is
-    /// replaced only if the .gltf that is there refers to it.
+    /// A .gltf has its binary part beside it in a .bin of the same name. An existing .bin is replaced only if the
+    /// existing .gltf refers to it.
     #[arg(short = 'o', long = "out", value_name = "OUT", required = true)]
     output: PathBuf,
     /// Form of the result [default: from the file's name]
@@ -63,6 +72,14 @@ pub(crate) struct MeshCommand {
     /// Surface of triangles and quads [default: pn]
     #[arg(long, value_name = "NAME", value_parser = choice(SURFACES))]
     surface: Option<Style>,
+    /// Close gaps between faces that are at most this wide, in the model's units
+    ///
+    /// Joins corners that are closer to each other, and splits edges at corners that are closer to them. Without a
+    /// length, only gaps that come from rounding are closed: up to 1e-6 of the model's diagonal. Only edges of one face
+    /// have gaps.
+    #[arg(long, value_name = "LENGTH", num_args = 0..=1, require_equals = true)]
+    #[arg(value_parser = ValueParser::new(positive))]
+    weld: Option<Option<f32>>,
     #[command(flatten)]
     rule: RuleArgs,
     /// Spacing of the cuts
@@ -76,6 +93,9 @@ pub(crate) struct MeshCommand {
     #[arg(long, value_name = "LENGTH", default_value = "0.1", allow_hyphen_values = true)]
     #[arg(value_parser = ValueParser::new(finite), requires = "displace")]
     height: f32,
+    /// Heights beyond the image [default: clamp if all texture coordinates are within 0 and 1, or else repeat]
+    #[arg(long, value_name = "NAME", value_parser = choice(WRAPS), requires = "displace")]
+    wrap: Option<Address>,
     /// Largest height image to read, in pixels
     #[arg(long, value_name = "N", default_value = "64000000")]
     max_pixels: u64,
@@ -97,6 +117,13 @@ const SURFACES: Choices<Style> = &[
         Style::PointNormal,
         "Point-normal triangles and quads, rounded by their corners' normals",
     ),
+];
+
+/// What is beyond a height image.
+const WRAPS: Choices<Address> = &[
+    ("repeat", Address::Repeat, "The image again"),
+    ("clamp", Address::Clamp, "The outermost pixels"),
+    ("mirror", Address::Mirror, "The image again, every second time reversed"),
 ];
 
 /// How finely edges are cut.
@@ -169,16 +196,11 @@ pub(crate) fn run(args: &MeshCommand) -> Result<Exit, Failure> {
     refuse_shared(&args.roles(&[], part.as_deref()))?;
     start_pool();
     let mut statistics = Statistics::default();
-    let (Input { model, up, notes, files }, displacement) =
-        statistics.time(MeshStage::Load, || {
-            let map = args.displace.as_deref();
-            let map = map.map(|path| height::load(path, args.max_pixels)).transpose()?;
-            let input = input::load(args.input.as_deref(), args.surface)?;
-            let displacement = map.map(|map| Displacement::new(map, args.height).map_err(too_high));
-            Ok::<_, Failure>((input, displacement.transpose()?))
-        })?;
+    let (input, displacement) = statistics.time(MeshStage::Load, || args.load())?;
+    let Input { model, up, notes, files, texcoords } = input;
     refuse_shared(&args.roles(&files, part.as_deref()))?;
-    notes.iter().for_each(|line| note(&format!("note: {line}")));
+    let missing = texcoords.missing.filter(|_| displacement.is_some());
+    notes.iter().chain(&missing).for_each(|line| note(&format!("note: {line}")));
     let displaced = statistics.time(MeshStage::Load, || {
         displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
     });
@@ -200,6 +222,26 @@ pub(crate) fn run(args: &MeshCommand) -> Result<Exit, Failure> {
 }
 
 impl MeshCommand {
+    /// The model and its displacement.
+    fn load(&self) -> Result<(Input, Option<Displacement>), Failure> {
+        let map = self.displace.as_deref();
+        let map = map.map(|path| height::load(path, self.max_pixels)).transpose()?;
+        let weld = self.weld.map_or(Weld::No, Weld::UpTo);
+        let options = InputOptions { style: self.surface, weld };
+        let input = input::load(self.input.as_deref(), options)?;
+        let displacement = map.map(|map| {
+            let map = map.with_address(self.address(&input.texcoords));
+            Displacement::new(map, self.height).map_err(too_high)
+        });
+        Ok((input, displacement.transpose()?))
+    }
+
+    /// The heights beyond the image.
+    fn address(&self, texcoords: &TexcoordRange) -> Address {
+        let fitting = if texcoords.is_unit { Address::Clamp } else { Address::Repeat };
+        self.wrap.unwrap_or(fitting)
+    }
+
     /// The files of the command: with the buffers beside the model that it reads, and the binary part
     /// beside the result that it writes.
     fn roles<'a>(&'a self, buffers: &'a [PathBuf], part: Option<&'a Path>) -> Vec<Role<'a>> {

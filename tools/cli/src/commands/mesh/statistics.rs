@@ -47,7 +47,7 @@ impl Statistics {
 impl fmt::Display for Statistics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { patches, vertices, triangles, times } = self;
-        let patches = if *patches == 1 { "1 patch".into() } else { format!("{patches} patches") };
+        let patches = counted(*patches as u64, "patch");
         let triangles_there = counted(*triangles, "triangle");
         writeln!(f, "{patches}, {vertices} vertices, {triangles_there}")?;
         let mut line = |name: &str, time: Duration| {

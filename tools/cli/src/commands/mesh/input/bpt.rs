@@ -2,10 +2,16 @@
 //! control points row by row, three numbers each.
 //!
 //! Points may have four numbers, x y z w: then they are rational with weight w, a form that the
-//! classic files do not know. The file is text; numbers are separated by blanks, one point a line.
+//! classic files do not know. Some files have the numbers of points, `4 4`, in the place of the degrees. The file is
+//! text, and `#` begins a comment.
+//!
+//! There are two layouts. With one point on each line, points of three and of four numbers may be mixed. In a free
+//! layout, with any white space between the numbers, all points must have the same number of numbers: the length of
+//! the file says which.
 
 use super::text::{number, quoted, without_mark, words};
 use glam::{Vec3, Vec4};
+use std::borrow::Cow;
 use tess_surface::BezierPatch;
 
 /// The content of a file.
@@ -17,26 +23,86 @@ pub(crate) struct Bpt {
     pub(crate) lines: Vec<usize>,
 }
 
-/// Lines that have anything on them, numbered from 1.
-struct BptLines<'a> {
-    lines: Box<dyn Iterator<Item = (usize, &'a [u8])> + 'a>,
-    /// The number of the last line that was read.
-    line: usize,
-}
+/// The number of a line, from 1, and its text without a comment.
+type Line<'a> = (usize, Cow<'a, [u8]>);
 
 /// Reads the patches. Errors: the first line that is malformed or missing.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Bpt, String> {
-    let split = without_mark(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
-    let lines = Box::new((1..).zip(split).filter(|(_, line)| !line.is_empty()));
-    let mut lines = BptLines { lines, line: 0 };
+    let with_lines = read(Box::new(lines(bytes).map(|(line, text)| (line, text.into()))));
+    with_lines.or_else(|error| match free_numbers(bytes)? {
+        Some(numbers) => read(Box::new(points_of_words(bytes, numbers))),
+        None => Err(error),
+    })
+}
+
+/// Reads lines of which each has one point.
+fn read<'a>(lines: Box<dyn Iterator<Item = Line<'a>> + 'a>) -> Result<Bpt, String> {
+    let mut reader = Reader { lines, line: 0 };
     let mut bpt = Bpt::default();
-    let read = lines.file(&mut bpt);
+    let read = reader.file(&mut bpt);
     // A file without any line is named by the one that it should begin with.
-    read.map_err(|what| format!("line {}: {what}", lines.line.max(1)))?;
+    read.map_err(|what| format!("line {}: {what}", reader.line.max(1)))?;
     Ok(bpt)
 }
 
-impl<'a> BptLines<'a> {
+/// The lines that have more than white space and a comment.
+fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let lines = without_mark(bytes).split(|&byte| byte == b'\n').map(without_comment);
+    (1..).zip(lines).filter(|(_, text)| !text.is_empty())
+}
+
+fn without_comment(line: &[u8]) -> &[u8] {
+    let end = line.iter().position(|&byte| byte == b'#');
+    line[..end.unwrap_or(line.len())].trim_ascii()
+}
+
+/// The number of numbers of each point in a free layout; `None` if the layout is not free. Errors: a file with several
+/// points on a line that has not as many numbers as its patches need.
+fn free_numbers(bytes: &[u8]) -> Result<Option<usize>, String> {
+    let Some((line, first)) = lines(bytes).next() else { return Ok(None) };
+    let Some(count) = words(first).next().and_then(count_of) else { return Ok(None) };
+    let lengths = || lines(bytes).map(|(_, text)| words(text).count());
+    let all = lengths().sum::<usize>() - 1;
+    // Two words of degrees and 16 points.
+    let fits = |numbers: &usize| count.checked_mul(2 + 16 * numbers) == Some(all);
+    let numbers = [3, 4].into_iter().find(fits);
+    let has_lines = words(first).count() == 1 && lengths().all(|length| length <= 4);
+    if numbers.is_none() && !has_lines {
+        return Err(format!(
+            "line {line}: the number of patches is {count}, and {all} words follow; each patch has 50, or 66 with \
+             weights"
+        ));
+    }
+    Ok(numbers)
+}
+
+/// The words of a free layout with one point, or the degrees of one patch, on each line.
+fn points_of_words(bytes: &[u8], numbers: usize) -> impl Iterator<Item = Line<'_>> {
+    let words = lines(bytes).flat_map(|(line, text)| words(text).map(move |word| (line, word)));
+    let mut words = words.peekable();
+    let mut lengths =
+        std::iter::once(1).chain((0..17).map(move |k| if k == 0 { 2 } else { numbers }).cycle());
+    std::iter::from_fn(move || {
+        let &(line, _) = words.peek()?;
+        let point: Vec<&[u8]> =
+            words.by_ref().map(|(_, word)| word).take(lengths.next()?).collect();
+        Some((line, point.join(&b' ').into()))
+    })
+}
+
+/// A number of patches, which is not 0.
+fn count_of(word: &[u8]) -> Option<usize> {
+    let count = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
+    count.filter(|&count: &usize| count > 0)
+}
+
+/// The lines that are left, and the number of the last one that was read.
+struct Reader<'a> {
+    lines: Box<dyn Iterator<Item = Line<'a>> + 'a>,
+    line: usize,
+}
+
+impl<'a> Reader<'a> {
     fn file(&mut self, bpt: &mut Bpt) -> Result<(), String> {
         let count = self.count()?;
         for number in 1..=count {
@@ -48,12 +114,12 @@ impl<'a> BptLines<'a> {
             None => Ok(()),
             Some((line, text)) => {
                 self.line = line;
-                Err(format!("{} follows the last of {count} patches", quoted(text)))
+                Err(format!("{} follows the last of {count} patches", quoted(&text)))
             }
         }
     }
 
-    fn next(&mut self, expected: impl Fn() -> String) -> Result<&'a [u8], String> {
+    fn next(&mut self, expected: impl Fn() -> String) -> Result<Cow<'a, [u8]>, String> {
         match self.lines.next() {
             Some((line, text)) => {
                 self.line = line;
@@ -66,22 +132,22 @@ impl<'a> BptLines<'a> {
 
     fn count(&mut self) -> Result<usize, String> {
         let text = self.next(|| "the number of patches".to_owned())?;
-        let count = std::str::from_utf8(text).ok().and_then(|text| text.parse().ok());
-        let count = count.filter(|&count: &usize| count > 0);
-        count.ok_or_else(|| format!("{} is no number of patches", quoted(text)))
+        count_of(&text).ok_or_else(|| format!("{} is not a number of patches", quoted(&text)))
     }
 
     fn patch(&mut self, number: usize, count: usize) -> Result<(BezierPatch, usize), String> {
         let degrees = self.next(|| format!("patch {number} of {count}"))?;
         let line = self.line;
-        if !words(degrees).eq([b"3", b"3"]) {
-            let degrees = quoted(degrees);
-            return Err(format!("the degrees of patch {number} are {degrees}; only `3 3` is read"));
+        if !words(&degrees).eq([b"3", b"3"]) && !words(&degrees).eq([b"4", b"4"]) {
+            let degrees = quoted(&degrees);
+            return Err(format!(
+                "the degrees of patch {number} are {degrees}; they must be `3 3`, or `4 4` for the numbers of points"
+            ));
         }
         let mut points = [[Vec4::ZERO; 4]; 4];
         for (index, place) in points.as_flattened_mut().iter_mut().enumerate() {
             let text = self.next(|| format!("point {} of patch {number} of {count}", index + 1))?;
-            *place = point(text)?;
+            *place = point(&text)?;
         }
         Ok((BezierPatch { points }, line))
     }
@@ -89,7 +155,7 @@ impl<'a> BptLines<'a> {
 
 /// A point in homogeneous coordinates.
 fn point(text: &[u8]) -> Result<Vec4, String> {
-    let wrong = || format!("{} is no point: three numbers, or four with a weight", quoted(text));
+    let wrong = || format!("{} is not a point: three numbers, or four with a weight", quoted(text));
     let mut numbers = Vec::new();
     for word in words(text) {
         numbers.push(number(word).map_err(|why| format!("{}: {why}", wrong()))?);

@@ -2,91 +2,69 @@
 //!
 //! A triangle with corners in the same place is an edge. Without it, the faces on its two sides meet
 //! at that edge, so it is dropped; a quad with one collapsed edge becomes a triangle. Faces whose
-//! distinct corners lie on one line are dropped too, but the edges around them are then open.
+//! distinct corners are on one line are dropped too, but the edges around them are then open.
 
+use super::draft::Draft;
+use super::tally::Tally;
 use glam::Vec3;
 use rayon::prelude::*;
-use tess_surface::{Face, MeshFault, PolygonMesh, Sides};
-
-/// The result of [`repair`].
-#[derive(Debug, Default)]
-pub(super) struct Collapsed {
-    /// Dropped faces with corners in the same place.
-    repeated: usize,
-    /// Dropped faces with corners on one line.
-    straight: usize,
-    /// Quads that became triangles.
-    narrowed: usize,
-    /// The number that each face had before; empty if none is gone.
-    originals: Vec<usize>,
-}
-
-impl Collapsed {
-    /// The number that a face had before.
-    pub(super) fn original(&self, face: usize) -> usize {
-        self.originals.get(face).copied().unwrap_or(face)
-    }
-
-    /// The repairs, a sentence each.
-    pub(super) fn notes(&self) -> Vec<String> {
-        let Self { repeated, straight, narrowed, .. } = self;
-        let mut notes = Vec::new();
-        if repeated + narrowed > 0 {
-            notes.push(format!(
-                "corners in the same place: {repeated} faces without area are left out, {narrowed} \
-                 quads become triangles"
-            ));
-        }
-        if *straight > 0 {
-            notes.push(format!(
-                "corners on one line: {straight} faces without area are left out; cracks may open \
-                 where they joined others"
-            ));
-        }
-        notes
-    }
-}
+use tess_surface::{Face, FaceError, PolygonMesh, Sides};
 
 /// Drops faces that have no area, and corners that coincide with the one before. Faces with another
 /// fault stay as they are.
-pub(super) fn repair(mesh: &mut PolygonMesh) -> Collapsed {
-    let mut collapsed = Collapsed::default();
-    let without_area = |face: &Face| {
-        matches!(mesh.check_face(face), Err(MeshFault::RepeatedCorner | MeshFault::NoArea))
-    };
-    if !mesh.faces.par_iter().any(without_area) {
-        return collapsed;
+pub(super) fn repair(draft: &mut Draft) {
+    let has_fault = |face: &Face| fault(&draft.mesh, face).is_some();
+    if !draft.mesh.faces.par_iter().any(has_fault) {
+        return;
     }
-    let mut kept = Vec::with_capacity(mesh.faces.len());
-    for (number, face) in mesh.faces.iter().enumerate() {
-        if let Some(face) = collapsed.repaired(mesh, *face) {
-            collapsed.originals.push(number);
-            kept.push(face);
-        }
-    }
-    mesh.faces = kept;
-    collapsed
+    let (mut repeated, mut straight, mut narrowed) =
+        (Tally::default(), Tally::default(), Tally::default());
+    draft.replace_faces(|mesh, face, place| {
+        let (kept, tally) = match repaired(mesh, *face) {
+            Repaired::Whole => return vec![*face],
+            Repaired::Narrowed(face) => (vec![face], &mut narrowed),
+            Repaired::Repeated => (Vec::new(), &mut repeated),
+            Repaired::Straight => (Vec::new(), &mut straight),
+        };
+        tally.add(place);
+        kept
+    });
+    let same = " with corners in the same place";
+    draft.note(repeated.note("face", same, "left out, as they have no area"));
+    draft.note(narrowed.note("quad", same, "made triangles"));
+    let open = "left out, as they have no area; cracks may open where they joined others";
+    draft.note(straight.note("face", " with all corners on one line", open));
 }
 
-impl Collapsed {
-    /// The face without repeated corners; `None`, and counted, if it has no area.
-    fn repaired(&mut self, mesh: &PolygonMesh, face: Face) -> Option<Face> {
-        match mesh.check_face(&face) {
-            Err(MeshFault::NoArea) => {
-                self.straight += 1;
-                None
-            }
-            Err(MeshFault::RepeatedCorner) => {
-                let Some(narrow) = without_repeats(&mesh.positions, &face) else {
-                    self.repeated += 1;
-                    return None;
-                };
-                let narrow = self.repaired(mesh, narrow);
-                self.narrowed += usize::from(narrow.is_some());
-                narrow
-            }
-            _ => Some(face),
-        }
+/// The result for one face.
+enum Repaired {
+    /// There is nothing to repair here.
+    Whole,
+    /// A quad that becomes this triangle.
+    Narrowed(Face),
+    /// It has no area, as corners are in the same place.
+    Repeated,
+    /// It has no area, as its corners are on one line.
+    Straight,
+}
+
+/// The fault of a face that is repaired here, whatever its normals are.
+fn fault(mesh: &PolygonMesh, face: &Face) -> Option<FaceError> {
+    let fault = mesh.check_face(&Face { normals: None, ..*face }).err();
+    fault.filter(|fault| matches!(fault, FaceError::RepeatedCorner | FaceError::NoArea))
+}
+
+fn repaired(mesh: &PolygonMesh, face: Face) -> Repaired {
+    match fault(mesh, &face) {
+        None => Repaired::Whole,
+        Some(FaceError::NoArea) => Repaired::Straight,
+        Some(_) => match without_repeats(&mesh.positions, &face) {
+            None => Repaired::Repeated,
+            Some(narrow) => match repaired(mesh, narrow) {
+                Repaired::Whole => Repaired::Narrowed(narrow),
+                gone => gone,
+            },
+        },
     }
 }
 

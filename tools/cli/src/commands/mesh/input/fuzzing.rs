@@ -1,5 +1,6 @@
 //! The readers as fuzz targets call them: bytes in, a mesh or a message out.
 
+use super::draft::{Draft, FacePlaces};
 use super::{bpt, collapsed, gltf, height, obj};
 use std::io::Cursor;
 use tess_surface::BezierPatch;
@@ -43,5 +44,8 @@ pub fn height_png(bytes: &[u8], most: u64) -> Result<Heights, String> {
 
 /// Drops faces whose corners coincide, as is done with every mesh that is read.
 pub fn without_collapsed(mesh: &mut PolygonMesh) {
-    collapsed::repair(mesh);
+    let places = FacePlaces::Lines((1..=mesh.faces.len()).collect());
+    let mut draft = Draft::new(std::mem::take(mesh), places);
+    collapsed::repair(&mut draft);
+    *mesh = draft.mesh;
 }

@@ -5,18 +5,25 @@
 
 mod bpt;
 mod collapsed;
+mod draft;
+mod faces;
 #[cfg(feature = "fuzzing")]
 pub mod fuzzing;
 mod gltf;
 pub(crate) mod height;
 mod obj;
+mod polygon;
+mod tally;
 mod text;
+mod weld;
 
 use crate::failure::Failure;
+use draft::{Draft, FacePlaces};
 use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
-use tess_surface::{MeshError, MeshFault, Model, PolygonMesh, Style, teapot};
+use tally::Tally;
+use tess_surface::{Face, HalfEdge, MeshError, Model, PolygonMesh, Style, teapot};
 
 /// Which way is up in a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -27,6 +34,25 @@ pub(crate) enum Up {
     Z,
 }
 
+/// How a model is read.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct InputOptions {
+    /// The surface of polygons, if it is chosen.
+    pub(crate) style: Option<Style>,
+    /// Whether gaps between faces are closed.
+    pub(crate) weld: Weld,
+}
+
+/// Closing of gaps between faces.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) enum Weld {
+    /// They stay open, with a note.
+    #[default]
+    No,
+    /// Those that are at most as wide as this, or as rounding makes them.
+    UpTo(Option<f32>),
+}
+
 /// A model and what its kind of file implies.
 #[derive(Debug)]
 pub(crate) struct Input {
@@ -34,46 +60,62 @@ pub(crate) struct Input {
     pub(crate) model: Model,
     /// Which way is up.
     pub(crate) up: Up,
-    /// Notes for the user on what was left out.
+    /// Notes for the user on what was changed or left out.
     pub(crate) notes: Vec<String>,
     /// The files beside the model's own that were read.
     pub(crate) files: Vec<PathBuf>,
+    /// Where the texture coordinates are.
+    pub(crate) texcoords: TexcoordRange,
 }
 
-/// Where each face of a mesh stands in its file.
-#[derive(Debug)]
-enum FacePlaces {
-    /// The line of each face.
-    Lines(Vec<usize>),
-    /// The first face of each run of triangles, and the run's name.
-    Runs(Vec<(usize, String)>),
+/// Where the texture coordinates of a model are.
+#[derive(Clone, Debug)]
+pub(crate) struct TexcoordRange {
+    /// Whether all are within 0 and 1, but for rounding.
+    pub(crate) is_unit: bool,
+    /// A note about the faces that have none; each gets the whole image.
+    pub(crate) missing: Option<String>,
 }
 
-impl FacePlaces {
-    /// The place of a face, such as `line 12`.
-    fn of(&self, face: usize) -> String {
-        match self {
-            Self::Lines(lines) => format!("line {}", lines[face]),
-            Self::Runs(runs) => {
-                let after = runs.partition_point(|&(first, _)| first <= face);
-                let (first, name) = &runs[after - 1];
-                format!("{name}, triangle {}", face - first)
-            }
+impl TexcoordRange {
+    fn of(mesh: &PolygonMesh, draft: &Draft) -> Self {
+        const ROUNDING: f32 = 1e-4;
+        let is_unit = |face: &Face| {
+            let indices = face.texcoords.as_ref().map_or(&[][..], |indices| indices.as_slice());
+            let texcoords = indices.iter().map(|&index| mesh.texcoords[index as usize]);
+            let inside = |x: f32| (-ROUNDING..=1.0 + ROUNDING).contains(&x);
+            texcoords.fold(true, |all, texcoord| all && inside(texcoord.x) && inside(texcoord.y))
+        };
+        let mut missing = Tally::default();
+        for (number, _) in mesh.faces.iter().enumerate().filter(|(_, f)| f.texcoords.is_none()) {
+            missing.add(|| draft.place(number));
         }
+        Self { is_unit: mesh.faces.iter().all(is_unit), missing: Self::note(&missing, "face") }
+    }
+
+    /// The texture coordinates of Bezier patches are their domain coordinates.
+    fn of_patches(count: usize, first: impl FnOnce() -> String) -> Self {
+        Self { is_unit: true, missing: Self::note(&Tally::of(count, first), "Bezier patch") }
+    }
+
+    fn note(missing: &Tally, noun: &str) -> Option<String> {
+        missing.note(noun, " without texture coordinates", "each gets the whole height image")
     }
 }
 
 /// Reads a model file, or makes the teapot if there is none. Errors: a file that cannot be read, is of no known kind
 /// or is malformed; a model that cannot be tessellated. The message has file and line, or file and face.
-pub(crate) fn load(path: Option<&Path>, style: Option<Style>) -> Result<Input, Failure> {
-    let Some(path) = path else { return embedded_teapot(style) };
+pub(crate) fn load(path: Option<&Path>, options: InputOptions) -> Result<Input, Failure> {
+    let Some(path) = path else { return embedded_teapot(options) };
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
     let in_file = |what: String| Failure::bad_input(format!("{}: {what}", path.display()));
     let loaded = match extension.to_ascii_lowercase().as_str() {
-        "obj" => load_obj(&read(path)?, style),
-        "gltf" | "glb" => load_gltf(&read(path)?, path, style),
-        "bpt" if style.is_some() => return Err(style_of_patches(&path.display().to_string())),
-        "bpt" => load_bpt(&read(path)?),
+        "obj" => load_obj(&read(path)?, options),
+        "gltf" | "glb" => load_gltf(&read(path)?, path, options),
+        "bpt" => {
+            options.refuse_for_patches(&path.display().to_string())?;
+            load_bpt(&read(path)?)
+        }
         _ => {
             return Err(Failure::bad_input(format!(
                 "cannot tell what {} is: models are .obj, .gltf, .glb or .bpt files",
@@ -84,40 +126,46 @@ pub(crate) fn load(path: Option<&Path>, style: Option<Style>) -> Result<Input, F
     loaded.map_err(in_file)
 }
 
-fn load_obj(bytes: &[u8], style: Option<Style>) -> Result<Input, String> {
-    let obj::Obj { mesh, lines, skipped } = obj::parse(bytes)?;
-    let mut input = polygons(mesh, &FacePlaces::Lines(lines), style)?;
-    if skipped > 0 {
-        input.notes.push(format!("points and lines have no surface: {skipped} are left out"));
-    }
-    Ok(input)
+fn load_obj(bytes: &[u8], options: InputOptions) -> Result<Input, String> {
+    let obj::Obj { mesh, lines, notes } = obj::parse(bytes)?;
+    polygons(Draft::new(mesh, FacePlaces::Lines(lines)), notes, options)
 }
 
-fn load_gltf(bytes: &[u8], path: &Path, style: Option<Style>) -> Result<Input, String> {
-    let gltf::Scene { mesh, runs, files } = gltf::parse(bytes, path.parent(), gltf::MOST)?;
-    Ok(Input { files, ..polygons(mesh, &FacePlaces::Runs(runs), style)? })
+fn load_gltf(bytes: &[u8], path: &Path, options: InputOptions) -> Result<Input, String> {
+    let gltf::Scene { mesh, runs, files, notes } = gltf::parse(bytes, path.parent(), gltf::MOST)?;
+    let input = polygons(Draft::new(mesh, FacePlaces::Runs(runs)), notes, options)?;
+    Ok(Input { files, ..input })
 }
 
 fn load_bpt(bytes: &[u8]) -> Result<Input, String> {
     let bpt::Bpt { patches, lines } = bpt::parse(bytes)?;
     let place = |patch: usize| format!("patch {} at line {}", patch + 1, lines[patch]);
     let model = Model::bezier(patches).map_err(|error| refused(error, place))?;
-    Ok(Input { model, up: Up::Z, notes: Vec::new(), files: Vec::new() })
+    let notes = notes_of_edges(&model, "patch", place);
+    let texcoords = TexcoordRange::of_patches(model.len(), || place(0));
+    Ok(Input { model, up: Up::Z, notes, files: Vec::new(), texcoords })
 }
 
-fn embedded_teapot(style: Option<Style>) -> Result<Input, Failure> {
-    if style.is_some() {
-        return Err(style_of_patches("the teapot"));
-    }
+fn embedded_teapot(options: InputOptions) -> Result<Input, Failure> {
+    options.refuse_for_patches("the teapot")?;
     let model = Model::bezier(teapot::patches());
     let model = model.map_err(|error| Failure::bad_input(format!("the teapot: {error}")))?;
-    Ok(Input { model, up: Up::Z, notes: Vec::new(), files: Vec::new() })
+    let texcoords = TexcoordRange::of_patches(model.len(), || "patch 1".to_owned());
+    Ok(Input { model, up: Up::Z, notes: Vec::new(), files: Vec::new(), texcoords })
 }
 
-fn style_of_patches(what: &str) -> Failure {
-    Failure::bad_input(format!(
-        "--surface is for triangles and quads; {what} is made of Bezier patches"
-    ))
+impl InputOptions {
+    /// Refuses options of polygons for a model of Bezier patches.
+    fn refuse_for_patches(self, what: &str) -> Result<(), Failure> {
+        let option = match self {
+            Self { style: Some(_), .. } => "--surface",
+            Self { weld: Weld::UpTo(_), .. } => "--weld",
+            _ => return Ok(()),
+        };
+        Err(Failure::bad_input(format!(
+            "{option} is for triangles and quads; {what} is made of Bezier patches"
+        )))
+    }
 }
 
 /// The most bytes of a model file: a GLB has no more.
@@ -141,40 +189,64 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// The model of a polygon mesh, without what has collapsed.
-fn polygons(
-    mut mesh: PolygonMesh,
-    places: &FacePlaces,
-    style: Option<Style>,
-) -> Result<Input, String> {
-    let count = mesh.faces.len();
-    let collapsed = collapsed::repair(&mut mesh);
-    if mesh.faces.is_empty() && count > 0 {
+/// The model of a polygon mesh, after repairs; `notes` are those of its reader.
+fn polygons(mut draft: Draft, notes: Vec<String>, options: InputOptions) -> Result<Input, String> {
+    let style = options.style.unwrap_or(Style::PointNormal);
+    let count = draft.mesh.faces.len();
+    draft.notes = notes;
+    repair(&mut draft, style);
+    if draft.mesh.faces.is_empty() && count > 0 {
         return Err(format!("all faces, {count}, have no area"));
     }
-    let place = |face| places.of(collapsed.original(face));
-    let model = Model::polygons(mesh, style.unwrap_or(Style::PointNormal));
-    let model = model.map_err(|error| refused(error, place))?;
-    let mut notes = collapsed.notes();
-    if model.crowded_edges() > 0 {
-        notes.push(format!(
-            "surfaces touch at edges: each of {} has more than two faces, which are neighbours in pairs",
-            model.crowded_edges()
-        ));
+    if let Weld::UpTo(reach) = options.weld {
+        let welded =
+            weld::weld(&mut draft, reach, |mesh| Model::polygons(mesh.clone(), Style::Flat));
+        welded.map_err(|error| refused(error, |face| draft.place(face)))?;
     }
-    Ok(Input { model, up: Up::Y, notes, files: Vec::new() })
+    let mesh = std::mem::take(&mut draft.mesh);
+    let model = Model::polygons(mesh, style);
+    let model = model.map_err(|error| refused(error, |face| draft.place(face)))?;
+    let mesh = model.mesh().expect("it was made of a mesh");
+    let notes = notes_of_edges(&model, "face", |face| draft.place(face));
+    draft.notes.extend(notes);
+    if matches!(options.weld, Weld::No) {
+        weld::Gaps::of(&model, mesh, None).warn(&mut draft);
+    }
+    let texcoords = TexcoordRange::of(mesh, &draft);
+    Ok(Input { model, up: Up::Y, notes: draft.notes, files: Vec::new(), texcoords })
+}
+
+/// Repairs each face for itself.
+fn repair(draft: &mut Draft, style: Style) {
+    if style == Style::Flat {
+        draft.mesh.faces.iter_mut().for_each(|face| face.normals = None);
+    }
+    faces::cut_concave_quads(draft);
+    collapsed::repair(draft);
+    faces::drop_bad_normals(draft);
+}
+
+/// Notes about edges of more than two faces, which are named by `noun` and `place`.
+fn notes_of_edges(model: &Model, noun: &str, place: impl Fn(usize) -> String) -> Vec<String> {
+    let at = |half: HalfEdge| place(half.patch);
+    let crowded = model.crowded_edges();
+    let paired = Tally::of(crowded.len(), || at(crowded[0]));
+    let seams = model.seams();
+    // The side that is one too many is the last in the file.
+    let alone =
+        Tally::of(seams.len(), || seams[0].last().map_or_else(String::new, |&side| at(side)));
+    let nouns = if noun == "patch" { "patches" } else { "faces" };
+    let rest = format!(" of more than two {nouns}");
+    let pairs =
+        format!("the {nouns} are neighbours in pairs, as where surfaces touch or have two sides");
+    let seam = format!("{nouns} there keep their own normals, as there is no single neighbour");
+    let notes = [paired.note("edge", &rest, &pairs), alone.note("edge", &rest, &seam)];
+    notes.into_iter().flatten().collect()
 }
 
 /// The message about a model whose faces are named by `place`, such as `line 12`.
 fn refused(error: MeshError, place: impl Fn(usize) -> String) -> String {
     match error {
-        MeshError::Face { face, fault: MeshFault::NonManifold { others: [a, b] } } => format!(
-            "{}: an edge of this face belongs to two other faces already ({} and {}); \
-             a mesh must be manifold, or as many faces must run one way along an edge as the other",
-            place(face),
-            place(a),
-            place(b)
-        ),
         MeshError::Face { face, fault } => format!("{}: {fault}", place(face)),
         error => error.to_string(),
     }

@@ -1,12 +1,16 @@
-//! OBJ files: triangles and quads with texture coordinates and normals.
+//! OBJ files: polygons with texture coordinates and normals.
 //!
-//! Read are `v`, `vt`, `vn` and `f` with all forms of indices. Comments, names, groups, materials
-//! and display attributes do not change a surface and are skipped. Points and lines have none; they
-//! are skipped and counted. Every other keyword is an error, so that no misspelt line is lost.
+//! The keywords are `v`, `vt`, `vn` and `f` with all forms of indices. Comments, names, groups, materials
+//! and display attributes do not change a surface and are skipped. Points and lines have no surface; they
+//! are skipped and counted. Every other keyword is an error, so that no misspelt line is lost. Polygons of more
+//! than four corners are cut into triangles.
 
-use super::text::{TextLines, integer, number, quoted, without_mark, words};
+use super::polygon::{self, Corner, triangles};
+use super::tally::Tally;
+use super::text::{TextLines, any_float, integer, number, quoted, without_mark, words};
+use crate::output::counted;
 use glam::{Vec2, Vec3};
-use tess_surface::{Face, PolygonMesh, Sides};
+use tess_surface::{Face, PolygonMesh};
 
 /// Keywords of lines that do not change the surface.
 const SKIPPED: &str = "o g s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj \
@@ -23,32 +27,65 @@ pub(crate) struct Obj {
     pub(crate) mesh: PolygonMesh,
     /// The line of each face, from 1.
     pub(crate) lines: Vec<usize>,
-    /// How many points and lines were skipped.
-    pub(crate) skipped: usize,
+    /// What was cut or left out.
+    pub(crate) notes: Vec<String>,
 }
 
-/// The indices of one corner, resolved from 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Corner {
-    position: u32,
-    texcoord: Option<u32>,
-    normal: Option<u32>,
+/// A file that is being read.
+#[derive(Debug, Default)]
+struct Reader {
+    mesh: PolygonMesh,
+    lines: Vec<usize>,
+    /// Polygons of more than four corners; `mesh` has a triangle of each in its place, with this number.
+    polygons: Vec<(usize, Vec<Corner>)>,
+    /// Points and lines.
+    skipped: Tally,
 }
 
 /// Reads a file. Errors: the first line that is malformed, or the first face with an index out of range.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
-    let mut obj = Obj::default();
+    let mut reader = Reader::default();
     for (number, line) in (1..).zip(TextLines(without_mark(bytes))) {
-        let read = obj.line(number, line);
+        let read = reader.line(number, line);
         read.map_err(|what| format!("line {number}: {}: {what}", quoted(line)))?;
     }
-    for (face, line) in obj.mesh.faces.iter().zip(&obj.lines) {
-        obj.check_range(face).map_err(|what| format!("line {line}: {what}"))?;
-    }
-    Ok(obj)
+    reader.check_ranges()?;
+    let done = "cut into triangles";
+    let lines = &reader.lines;
+    let first = || format!("line {}", lines[reader.polygons[0].0]);
+    let cut = Tally::of(reader.polygons.len(), first);
+    let notes = [
+        cut.note("polygon", " of more than four corners", done),
+        reader.skipped.note("`l` or `p` line", "", "left out, as points and lines have no surface"),
+    ];
+    let Reader { mesh, lines, polygons, .. } = reader;
+    let (mesh, lines) = with_polygons(mesh, lines, polygons);
+    Ok(Obj { mesh, lines, notes: notes.into_iter().flatten().collect() })
 }
 
-impl Obj {
+/// The faces and their lines, with the triangles of each polygon in the place of its first one.
+fn with_polygons(
+    mut mesh: PolygonMesh,
+    lines: Vec<usize>,
+    polygons: Vec<(usize, Vec<Corner>)>,
+) -> (PolygonMesh, Vec<usize>) {
+    if polygons.is_empty() {
+        return (mesh, lines);
+    }
+    let (mut faces, mut lines_of_faces) = (Vec::new(), Vec::new());
+    let mut polygons = polygons.into_iter().peekable();
+    for (number, (face, line)) in mesh.faces.iter().zip(lines).enumerate() {
+        match polygons.next_if(|&(first, _)| first == number) {
+            Some((_, corners)) => faces.extend(triangles(&corners, &mesh.positions)),
+            None => faces.push(*face),
+        }
+        lines_of_faces.resize(faces.len(), line);
+    }
+    mesh.faces = faces;
+    (mesh, lines_of_faces)
+}
+
+impl Reader {
     fn line(&mut self, number: usize, line: &[u8]) -> Result<(), String> {
         let mut words = words(line);
         let Some(keyword) = words.next() else { return Ok(()) };
@@ -58,70 +95,81 @@ impl Obj {
             b"vt" => self.mesh.texcoords.push(texcoord(words)?),
             b"vn" => self.mesh.normals.push(normal(words)?),
             b"f" => {
-                let face = self.face(words)?;
-                self.mesh.faces.push(face);
+                self.face(words)?;
                 self.lines.push(number);
             }
-            b"l" | b"p" => self.skipped += 1,
+            b"l" | b"p" => self.skipped.add(|| format!("line {number}")),
             _ => unread(keyword)?,
         }
         Ok(())
     }
 
-    fn face<'a>(&self, words: impl Iterator<Item = &'a [u8]>) -> Result<Face, String> {
-        let mut corners = [Corner::default(); 4];
+    fn face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Result<(), String> {
+        let mut few = [Corner::default(); 4];
+        let mut more = Vec::new();
         let mut count = 0;
         for word in words {
-            if let Some(corner) = corners.get_mut(count) {
-                *corner = self.corner(word)?;
+            let corner = self.corner(word)?;
+            match few.get_mut(count) {
+                Some(place) => *place = corner,
+                None if more.is_empty() => more.extend(few.into_iter().chain([corner])),
+                None => more.push(corner),
             }
             count += 1;
         }
-        if count != 3 && count != 4 {
-            return Err(format!(
-                "a face with {count} corners; only triangles and quads are read: triangulate the \
-                 mesh first"
-            ));
-        }
+        let corners = if more.is_empty() { &few[..count] } else { &more };
         let form = |corner: &Corner| (corner.texcoord.is_some(), corner.normal.is_some());
-        if corners[..count].iter().any(|corner| form(corner) != form(&corners[0])) {
+        if corners.iter().any(|corner| form(corner) != form(&corners[0])) {
             return Err("the corners of a face must all have the same kinds of indices".to_owned());
         }
-        let [a, b, c, d] = corners;
-        let sides = if count == 3 { Sides::Triangle([a, b, c]) } else { Sides::Quad([a, b, c, d]) };
-        let all = |index: fn(Corner) -> Option<u32>| {
-            index(a).is_some().then(|| sides.map(|corner| index(corner).unwrap_or_default()))
-        };
-        Ok(Face {
-            positions: sides.map(|corner| corner.position),
-            texcoords: all(|corner| corner.texcoord),
-            normals: all(|corner| corner.normal),
-        })
+        let whole = if count > 4 { &corners[..3] } else { corners };
+        let face = polygon::face(whole).ok_or_else(|| {
+            format!("a face with {}; it needs at least three", counted(count as u64, "corner"))
+        })?;
+        if count > 4 {
+            self.polygons.push((self.mesh.faces.len(), more));
+        }
+        self.mesh.faces.push(face);
+        Ok(())
     }
 
-    /// One of `v`, `v/vt`, `v//vn` and `v/vt/vn`.
+    /// One of `v`, `v/vt`, `v//vn` and `v/vt/vn`; what is empty is missing, as in `v/` and `v/vt/`.
     fn corner(&self, word: &[u8]) -> Result<Corner, String> {
         let PolygonMesh { positions, texcoords, normals, .. } = &self.mesh;
         let mut parts = word.split(|&byte| byte == b'/');
         let (v, vt, vn) = (parts.next().unwrap_or_default(), parts.next(), parts.next());
-        let no_texcoord = vn.is_some() && vt.is_some_and(<[u8]>::is_empty);
-        let vt = vt.filter(|_| !no_texcoord);
         let index = |part: &[u8], what, count| {
             resolve(part, what, count).map_err(|why| format!("corner {}: {why}", quoted(word)))
+        };
+        let optional = |part: Option<&[u8]>, what, count| {
+            let part = part.filter(|part| !part.is_empty());
+            part.map(|part| index(part, what, count)).transpose()
         };
         if parts.next().is_some() {
             return Err(format!("corner {}: it has more than three indices", quoted(word)));
         }
         Ok(Corner {
             position: index(v, "position", positions.len())?,
-            texcoord: vt
-                .map(|part| index(part, "texture coordinate", texcoords.len()))
-                .transpose()?,
-            normal: vn.map(|part| index(part, "normal", normals.len())).transpose()?,
+            texcoord: optional(vt, "texture coordinate", texcoords.len())?,
+            normal: optional(vn, "normal", normals.len())?,
         })
     }
 
     /// Positive indices may name what comes later in the file, so ranges are checked at its end.
+    fn check_ranges(&self) -> Result<(), String> {
+        let mut polygons = self.polygons.iter().peekable();
+        for (number, (face, line)) in self.mesh.faces.iter().zip(&self.lines).enumerate() {
+            let corners =
+                polygons.next_if(|(first, _)| *first == number).map(|(_, corners)| corners);
+            let mut parts =
+                corners.into_iter().flat_map(|c| c.windows(3)).filter_map(polygon::face);
+            let checked = self.check_range(face);
+            let checked = checked.and_then(|()| parts.try_for_each(|part| self.check_range(&part)));
+            checked.map_err(|what| format!("line {line}: {what}"))?;
+        }
+        Ok(())
+    }
+
     fn check_range(&self, face: &Face) -> Result<(), String> {
         let PolygonMesh { positions, texcoords, normals, .. } = &self.mesh;
         for (what, indices, count) in [
@@ -146,7 +194,7 @@ fn unread(keyword: &[u8]) -> Result<(), String> {
         return Ok(());
     }
     Err(if is_in(FREE_FORM) {
-        "free-form curves and surfaces are not read; convert them to triangles and quads".to_owned()
+        "free-form curves and surfaces are not read; convert them to polygons".to_owned()
     } else {
         format!("{} is not a keyword that is read, which are v, vt, vn and f", quoted(keyword))
     })
@@ -169,7 +217,7 @@ fn resolve(part: &[u8], what: &str, count: usize) -> Result<u32, String> {
 
 fn position<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, String> {
     let what = "a position is three numbers, perhaps with weight 1 or with a colour of three";
-    let (numbers, count) = numbers::<6>(words, what)?;
+    let (numbers, count) = numbers::<6>(words, number, what)?;
     let [x, y, z, w, ..] = numbers;
     match count {
         3 | 6 => Ok(Vec3::new(x, y, z)),
@@ -180,15 +228,16 @@ fn position<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, String> {
 
 fn texcoord<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec2, String> {
     let what = "texture coordinates are one to three numbers";
-    match numbers(words, what)? {
+    match numbers(words, number, what)? {
         (_, 0) => Err(what.to_owned()),
         ([u, v, _], _) => Ok(Vec2::new(u, v)),
     }
 }
 
+/// A normal, which may be zero, NaN or infinite: programs write such for faces without area.
 fn normal<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, String> {
     let what = "a normal is three numbers";
-    match numbers(words, what)? {
+    match numbers(words, any_float, what)? {
         (xyz, 3) => Ok(Vec3::from_array(xyz)),
         _ => Err(what.to_owned()),
     }
@@ -197,13 +246,14 @@ fn normal<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, String> {
 /// At most `N` numbers and how many there are; zeros fill the rest.
 fn numbers<'a, const N: usize>(
     words: impl Iterator<Item = &'a [u8]>,
+    read: fn(&[u8]) -> Result<f32, String>,
     what: &str,
 ) -> Result<([f32; N], usize), String> {
     let mut numbers = [0.0; N];
     let mut count = 0;
     for word in words {
         let place = numbers.get_mut(count).ok_or(what)?;
-        *place = number(word).map_err(|why| format!("{why}; {what}"))?;
+        *place = read(word).map_err(|why| format!("{why}; {what}"))?;
         count += 1;
     }
     Ok((numbers, count))

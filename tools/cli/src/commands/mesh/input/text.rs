@@ -53,7 +53,7 @@ pub(super) fn integer(word: &[u8]) -> Option<i64> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// A finite number. Errors: a word that is no number, or one beyond the range of 32 bits.
+/// A finite number. Errors: a word that is not a number, or one beyond the range of 32 bits.
 #[inline]
 pub(super) fn number(word: &[u8]) -> Result<f32, String> {
     decimal(word).map_or_else(|| any_number(word), Ok)
@@ -95,12 +95,16 @@ fn decimal(word: &[u8]) -> Option<f32> {
 }
 
 fn any_number(word: &[u8]) -> Result<f32, String> {
-    let number = std::str::from_utf8(word).ok().and_then(|text| text.parse::<f32>().ok());
-    match number {
-        Some(number) if number.is_finite() => Ok(number),
-        Some(_) => Err(format!("{} is NaN, infinite or too large for 32 bits", quoted(word))),
-        None => Err(format!("{} is not a number", quoted(word))),
-    }
+    let number = any_float(word)?;
+    let is_finite = number.is_finite();
+    let error = || format!("{} is NaN, infinite or too large for 32 bits", quoted(word));
+    is_finite.then_some(number).ok_or_else(error)
+}
+
+/// A number, which may be NaN or infinite. Errors: a word that is not a number.
+pub(super) fn any_float(word: &[u8]) -> Result<f32, String> {
+    let number = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
+    number.ok_or_else(|| format!("{} is not a number", quoted(word)))
 }
 
 #[cfg(test)]

@@ -3,6 +3,10 @@
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use tess_surface::Sample;
 
+/// How much nearer triangles seen from behind would have to be: where a sheet has a face for each side, the two are at one
+/// place but for rounding, and the one that looks here is seen.
+const BEHIND: f32 = 1.0 - 1.0 / 16384.0;
+
 /// The point of a surface that a pixel shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fragment {
@@ -20,7 +24,7 @@ pub(super) struct Fragment {
 pub(super) struct Raster {
     size: (usize, usize),
     clip: Mat4,
-    /// 1 / distance of what is seen; 0 is the background.
+    /// 1 / distance of the nearest point, times [`BEHIND`] if it is seen from behind; 0 is the background.
     depth: Vec<f32>,
     colour: Vec<[u8; 3]>,
 }
@@ -116,10 +120,11 @@ impl Raster {
         // 1 / w is linear on the screen; attributes over w are too.
         let [a, b, c] = [0, 1, 2].map(|k| corners[k].inverse * weights[k]);
         let inverse = a + b + c;
-        if inverse <= self.depth[pixel] {
+        let depth = if front { inverse } else { inverse * BEHIND };
+        if depth <= self.depth[pixel] {
             return;
         }
-        self.depth[pixel] = inverse;
+        self.depth[pixel] = depth;
         let mix = |of: fn(&Corner) -> Vec3| {
             (of(&corners[0].corner) * a + of(&corners[1].corner) * b + of(&corners[2].corner) * c)
                 / inverse

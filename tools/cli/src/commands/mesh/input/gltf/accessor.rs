@@ -52,13 +52,9 @@ fn check_accessor(document: &Document, accessor: &Accessor) -> Result<(), Broken
     if accessor.normalized && whole {
         return Err(("normalized", "only bytes and shorts can be normalized".to_owned()));
     }
-    match (accessor.buffer_view, &accessor.sparse) {
-        (Some(_), _) => {}
-        (None, None) => return Err(("bufferView", "it is missing, and so is sparse".to_owned())),
-        (None, Some(_)) if accessor.byte_offset.is_some() => {
-            return Err(("byteOffset", "it has no meaning without bufferView".to_owned()));
-        }
-        (None, Some(_)) => {}
+    // Without a buffer view all elements are zeros.
+    if accessor.buffer_view.is_none() && accessor.byte_offset.is_some() {
+        return Err(("byteOffset", "it has no meaning without bufferView".to_owned()));
     }
     if let Some(number) = accessor.buffer_view {
         let view = view(document, number).map_err(|what| ("bufferView", what))?;
@@ -186,6 +182,31 @@ impl Data<'_> {
         Ok(elements)
     }
 
+    /// The elements of an accessor of any component type; normalized integers as section 3.6.2.2 has it.
+    pub(super) fn numbers<const N: usize>(&self, number: usize) -> Result<Vec<[f32; N]>, String> {
+        let accessor = &self.document.accessors[number];
+        let most = match (accessor.normalized, accessor.component_type) {
+            (true, ComponentType::Byte) => 127.0,
+            (true, ComponentType::UnsignedByte) => 255.0,
+            (true, ComponentType::Short) => 32767.0,
+            (true, ComponentType::UnsignedShort) => 65535.0,
+            _ => 1.0,
+        };
+        match accessor.component_type {
+            ComponentType::Float => self.read(number, float),
+            ComponentType::Byte | ComponentType::Short if accessor.normalized => {
+                self.read(number, |bytes| (signed(bytes) / most).max(-1.0))
+            }
+            ComponentType::Byte | ComponentType::Short => self.read(number, signed),
+            _ => self.read(number, |bytes| unsigned(bytes) as f32 / most),
+        }
+    }
+
+    /// The elements of an accessor of unsigned integers.
+    pub(super) fn integers<const N: usize>(&self, number: usize) -> Result<Vec<[u32; N]>, String> {
+        self.read(number, unsigned)
+    }
+
     fn sparse_indices(&self, sparse: &Sparse, most: usize) -> Result<Vec<usize>, String> {
         let bytes = self.view(sparse.indices.buffer_view, sparse.indices.byte_offset);
         let unit = index(sparse.indices.component_type.size());
@@ -218,6 +239,14 @@ fn index(number: u64) -> usize {
 /// An unsigned integer of up to four bytes.
 pub(super) fn unsigned(bytes: &[u8]) -> u32 {
     bytes.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte))
+}
+
+/// A signed integer of one or two bytes.
+fn signed(bytes: &[u8]) -> f32 {
+    match *bytes {
+        [byte] => f32::from(byte.cast_signed()),
+        _ => f32::from(u16::try_from(unsigned(bytes)).unwrap_or(0).cast_signed()),
+    }
 }
 
 /// A float of four bytes.

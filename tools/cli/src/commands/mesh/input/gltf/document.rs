@@ -4,6 +4,7 @@
 //! 3.7 (geometry); 5 has the properties. Everything else in a document is left alone.
 
 use serde::{Deserialize, Deserializer};
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// A rule that a document breaks: the JSON path of the value and what is wrong with it.
@@ -15,13 +16,18 @@ pub(super) fn broken(path: impl std::fmt::Display, what: impl std::fmt::Display)
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {
-    asset: Asset,
     #[serde(default)]
     extensions_required: Vec<String>,
+    #[serde(default)]
+    extensions_used: Vec<String>,
     #[serde(default, deserialize_with = "present")]
     pub(super) scene: Option<usize>,
+    #[serde(default, deserialize_with = "present")]
+    pub(super) scenes: Option<Vec<SceneRoots>>,
     #[serde(default)]
-    pub(super) scenes: Vec<SceneRoots>,
+    pub(super) skins: Vec<Skin>,
+    #[serde(default)]
+    pub(super) animations: Vec<Value>,
     #[serde(default)]
     pub(super) nodes: Vec<Node>,
     #[serde(default)]
@@ -32,14 +38,6 @@ pub(super) struct Document {
     pub(super) buffer_views: Vec<BufferView>,
     #[serde(default)]
     pub(super) buffers: Vec<GltfBuffer>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Asset {
-    version: String,
-    #[serde(default, deserialize_with = "present")]
-    min_version: Option<String>,
 }
 
 /// Root nodes.
@@ -64,21 +62,50 @@ pub(super) struct Node {
     pub(super) rotation: Option<[f32; 4]>,
     #[serde(default, deserialize_with = "present")]
     pub(super) scale: Option<[f32; 3]>,
+    #[serde(default, deserialize_with = "present")]
+    pub(super) skin: Option<usize>,
+    /// The weights of morph targets, in the place of the mesh's.
+    #[serde(default, deserialize_with = "present")]
+    pub(super) weights: Option<Vec<f32>>,
+    #[serde(default)]
+    pub(super) extensions: BTreeMap<String, Value>,
+}
+
+/// Joints that move the vertices of a mesh.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Skin {
+    /// An accessor with a matrix for each joint.
+    #[serde(default, deserialize_with = "present")]
+    pub(super) inverse_bind_matrices: Option<usize>,
+    /// Nodes.
+    pub(super) joints: Vec<usize>,
 }
 
 #[derive(Debug, Deserialize)]
 pub(super) struct Mesh {
     pub(super) primitives: Vec<Primitive>,
+    /// The weights of morph targets.
+    #[serde(default, deserialize_with = "present")]
+    pub(super) weights: Option<Vec<f32>>,
 }
 
-/// Triangles, if the mode is 4.
+/// The accessors of attributes by their names.
+pub(super) type Attributes = BTreeMap<String, usize>;
+
+/// Triangles, lines or points.
 #[derive(Debug, Deserialize)]
 pub(super) struct Primitive {
-    pub(super) attributes: BTreeMap<String, usize>,
+    pub(super) attributes: Attributes,
     #[serde(default, deserialize_with = "present")]
     pub(super) indices: Option<usize>,
     #[serde(default = "triangles")]
     pub(super) mode: u32,
+    /// Morph targets: what their weights are multiplied with.
+    #[serde(default)]
+    pub(super) targets: Vec<Attributes>,
+    #[serde(default)]
+    pub(super) extensions: BTreeMap<String, Value>,
 }
 
 /// Elements in a buffer view, some of them replaced.
@@ -226,39 +253,115 @@ fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Op
     T::deserialize(from).map(Some)
 }
 
-/// Reads the JSON. Errors: text that is not JSON, a value of the wrong type, a document for other readers than this.
+/// Beginnings of the names of extensions that change no triangle: materials, textures and lights.
+const NO_GEOMETRY: &[&str] = &[
+    "KHR_materials_",
+    "KHR_texture_",
+    "KHR_lights_",
+    "KHR_techniques_",
+    "KHR_animation_pointer",
+    "KHR_xmp",
+    "EXT_materials_",
+    "EXT_texture_",
+    "EXT_lights_",
+    "MSFT_texture_",
+    "ADOBE_materials_",
+];
+
+/// The extension by which vertices have integers of 8 and 16 bits.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+impl Document {
+    /// Whether attributes may be integers of 8 and 16 bits.
+    pub(super) fn is_quantized(&self) -> bool {
+        self.extensions_used
+            .iter()
+            .chain(&self.extensions_required)
+            .any(|name| name == QUANTIZATION)
+    }
+
+    fn check_extensions(&self) -> Result<(), String> {
+        let is_read = |name: &str| {
+            name == QUANTIZATION || NO_GEOMETRY.iter().any(|start| name.starts_with(start))
+        };
+        match self.extensions_required.iter().enumerate().find(|(_, name)| !is_read(name)) {
+            None => Ok(()),
+            Some((number, name)) => {
+                let what = format!("`{name}` is not supported; export the model without it");
+                Err(broken(format!("extensionsRequired[{number}]"), what))
+            }
+        }
+    }
+}
+
+/// Reads the JSON. Errors: text that is not JSON, a document of another version, a value of the wrong type, an
+/// extension that would change triangles.
 pub(super) fn parse(json: &[u8]) -> Result<Document, String> {
-    // The parser would not look at strings that nobody asks for.
     let json = str::from_utf8(json).map_err(|error| {
         let lines = json[..error.valid_up_to()].split(|&byte| byte == b'\n').count();
         format!("the JSON is not UTF-8 at line {lines}")
     })?;
-    let mut text = serde_json::Deserializer::from_str(json);
-    let document: Document = serde_path_to_error::deserialize(&mut text)
+    let mut value: Value = serde_json::from_str(json).map_err(|error| error.to_string())?;
+    // Other versions have other types, whose names would mislead.
+    check_version(&value["asset"])?;
+    write_whole_numbers(&mut value);
+    let document: Document = serde_path_to_error::deserialize(value)
         .map_err(|error| broken(error.path(), error.inner()))?;
-    text.end().map_err(|error| error.to_string())?;
-    check_version(&document.asset)?;
-    if let Some(name) = document.extensions_required.first() {
-        let what = format!("`{name}` is not supported; export the model without it");
-        return Err(broken("extensionsRequired[0]", what));
-    }
+    document.check_extensions()?;
     Ok(document)
 }
 
-fn check_version(asset: &Asset) -> Result<(), String> {
-    let read = |path: &str, text: &str| {
+/// Writes numbers such as `36.0` as `36`: JSON has one kind of numbers.
+fn write_whole_numbers(value: &mut Value) {
+    match value {
+        Value::Number(number) => {
+            let float = number.as_f64().filter(|_| number.is_f64());
+            // Up to 2^53 every whole number is a float.
+            let is_whole = |float: &f64| float.fract() == 0.0 && (0.0..=9e15).contains(float);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "it is whole and small enough"
+            )]
+            if let Some(float) = float.filter(is_whole).filter(|float| float.is_sign_positive()) {
+                *number = (float as u64).into();
+            }
+        }
+        Value::Array(values) => values.iter_mut().for_each(write_whole_numbers),
+        Value::Object(members) => members.values_mut().for_each(write_whole_numbers),
+        Value::Null | Value::Bool(_) | Value::String(_) => {}
+    }
+}
+
+/// Refuses documents of other versions than 2.0. Files of version 1 may have no version.
+fn check_version(asset: &Value) -> Result<(), String> {
+    let read = |name: &str| {
+        let path = format!("asset.{name}");
+        let value = &asset[name];
+        let text = value.as_str();
+        let text =
+            text.ok_or_else(|| broken(&path, format!("{value} is not a version such as \"2.0\"")))?;
         let numbers = text.split_once('.');
         let numbers = numbers.and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
         let numbers: Option<(u32, u32)> = numbers;
-        numbers.ok_or_else(|| broken(path, format!("`{text}` is not a version such as 2.0")))
+        let numbers = numbers
+            .ok_or_else(|| broken(&path, format!("`{text}` is not a version such as 2.0")))?;
+        Ok::<_, String>((numbers, text.to_owned()))
     };
-    let version = read("asset.version", &asset.version)?;
-    if version.0 != 2 {
-        return Err(broken("asset.version", format!("{} is not read, only 2.x", asset.version)));
+    if asset["version"].is_null() {
+        return Err(broken("asset.version", "it is missing; only glTF 2.x is read"));
     }
-    let Some(text) = &asset.min_version else { return Ok(()) };
-    match read("asset.minVersion", text)? {
-        (2, 0) => Ok(()),
-        _ => Err(broken("asset.minVersion", format!("{text} is needed, but 2.0 is what is read"))),
+    let (version, text) = read("version")?;
+    if version.0 != 2 {
+        return Err(broken("asset.version", format!("{text} is not read, only 2.x")));
+    }
+    if asset["minVersion"].is_null() {
+        return Ok(());
+    }
+    match read("minVersion")? {
+        ((2, 0), _) => Ok(()),
+        (_, text) => {
+            Err(broken("asset.minVersion", format!("{text} is needed, but 2.0 is what is read")))
+        }
     }
 }

@@ -1,66 +1,134 @@
-//! Primitives: triangles of a mesh, moved by a node's transform.
+//! Primitives: triangles of a mesh in its pose.
 
-use super::accessor::{Data, float, is_index, unsigned};
-use super::document::{Accessor, ComponentType, ElementKind, Primitive, broken};
+use super::super::tally::Tally;
+use super::accessor::{Data, is_index};
+use super::document::{Accessor, Attributes, ComponentType, ElementKind, Primitive, broken};
+use super::pose::{Matrices, Pose, moved_normal};
 use super::scene::out_of_range;
-use glam::{Mat3, Mat4, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use tess_surface::{Face, PolygonMesh, Sides};
 
-/// The mode of separate triangles.
-const TRIANGLES: u32 = 4;
+/// The way in which vertices make triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Triangles {
+    List,
+    Strip,
+    Fan,
+}
 
-/// Where a primitive stands and how it is placed.
+/// Where a primitive is and how it is placed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlacedPrimitive<'a> {
     pub(super) data: &'a Data<'a>,
     pub(super) primitive: &'a Primitive,
     /// Its JSON path.
     pub(super) path: &'a str,
-    pub(super) transform: Mat4,
+    pub(super) pose: &'a Pose,
+}
+
+/// Primitives that are left out.
+#[derive(Debug, Default)]
+pub(super) struct Skipped {
+    /// Those of points or lines.
+    pub(super) lines: Tally,
+    /// Those without positions.
+    pub(super) unplaced: Tally,
+    /// Those with indices after the last whole triangle.
+    pub(super) rest: Tally,
 }
 
 impl PlacedPrimitive<'_> {
     /// Appends the triangles, unless vertices or faces then become more than `most`. Errors: a rule that is broken,
     /// with the JSON path.
-    pub(super) fn append(&self, mesh: &mut PolygonMesh, most: usize) -> Result<(), String> {
-        let Self { data, primitive, path, transform } = *self;
-        if primitive.mode != TRIANGLES {
-            let what = format!("mode {}; only triangles (4) are read", primitive.mode);
-            return Err(broken(format!("{path}.mode"), what));
+    pub(super) fn append(
+        &self,
+        mesh: &mut PolygonMesh,
+        skipped: &mut Skipped,
+        most: usize,
+    ) -> Result<(), String> {
+        let Self { data, primitive, path, pose } = *self;
+        let Some(triangles) = self.mode()? else {
+            skipped.lines.add(|| path.to_owned());
+            return Ok(());
+        };
+        if self.attribute("POSITION").is_none() {
+            skipped.unplaced.add(|| path.to_owned());
+            return Ok(());
         }
+        self.refuse_compressed()?;
         let count = self.check_attributes()?;
         room(mesh.positions.len(), count, most).map_err(|what| broken(path, what))?;
-        let indices = self.indices(count, mesh.faces.len(), most)?;
-        let linear = Mat3::from_mat4(transform);
+        let indices = self.indices(triangles, count, mesh.faces.len(), most, skipped)?;
+        let below = |what| format!("{path}.{what}");
+        let matrices = pose.matrices(data, &primitive.attributes).map_err(below)?;
         let first = [mesh.positions.len(), mesh.normals.len(), mesh.texcoords.len()];
-        if let Some(number) = self.attribute("POSITION") {
-            let positions = data.read(number, float)?.into_iter().map(Vec3::from_array);
-            mesh.positions.extend(positions.map(|p| transform.transform_point3(p)));
+        for (vertex, position) in self.vectors("POSITION")?.into_iter().enumerate() {
+            mesh.positions.push(matrices.of(vertex).transform_point3(position));
         }
-        if let Some(number) = self.attribute("NORMAL") {
-            let to_normal = linear.inverse().transpose();
-            let normals = data.read(number, float)?.into_iter().map(Vec3::from_array);
-            mesh.normals.extend(normals.map(|n| to_normal * n));
+        for (vertex, normal) in self.vectors("NORMAL")?.into_iter().enumerate() {
+            mesh.normals.push(moved_normal(matrices.of(vertex), normal));
         }
         if let Some(number) = self.attribute("TEXCOORD_0") {
-            let texcoords = self.texcoords(number)?.into_iter();
+            let texcoords = data.numbers::<2>(number)?.into_iter();
             // glTF has (0, 0) at the upper left of the image.
             mesh.texcoords.extend(texcoords.map(|[u, v]| Vec2::new(u, 1.0 - v)));
         }
-        let mirrored = linear.determinant() < 0.0;
-        mesh.faces.extend(indices.as_chunks::<3>().0.iter().map(|&[a, b, c]| {
-            let corners = if mirrored { [a, c, b] } else { [a, b, c] };
-            let numbers = |first: usize| {
-                let first = u32::try_from(first).unwrap_or(u32::MAX);
-                Sides::Triangle(corners.map(|index| index.saturating_add(first)))
-            };
-            Face {
-                positions: numbers(first[0]),
-                normals: self.attribute("NORMAL").map(|_| numbers(first[1])),
-                texcoords: self.attribute("TEXCOORD_0").map(|_| numbers(first[2])),
-            }
-        }));
+        mesh.faces.extend(indices.into_iter().map(|corners| self.face(corners, &matrices, first)));
         Ok(())
+    }
+
+    /// The way in which vertices make triangles; `None` for points and lines.
+    fn mode(&self) -> Result<Option<Triangles>, String> {
+        match self.primitive.mode {
+            0..=3 => Ok(None),
+            4 => Ok(Some(Triangles::List)),
+            5 => Ok(Some(Triangles::Strip)),
+            6 => Ok(Some(Triangles::Fan)),
+            mode => {
+                Err(broken(format!("{}.mode", self.path), format!("{mode} is not a mode: 0 to 6")))
+            }
+        }
+    }
+
+    /// Refuses a primitive whose data is only there in a compressed form.
+    fn refuse_compressed(&self) -> Result<(), String> {
+        const DRACO: &str = "KHR_draco_mesh_compression";
+        let accessors = &self.data.document.accessors;
+        let is_missing = |&number: &usize| {
+            accessors.get(number).is_some_and(|a| a.buffer_view.is_none() && a.sparse.is_none())
+        };
+        let numbers = self.primitive.attributes.values().chain(&self.primitive.indices);
+        if self.primitive.extensions.contains_key(DRACO) && numbers.copied().any(|n| is_missing(&n))
+        {
+            let what =
+                "it is compressed with Draco, which is not decoded; export the model without it";
+            return Err(broken(format!("{}.extensions.{DRACO}", self.path), what));
+        }
+        Ok(())
+    }
+
+    /// The vectors of an attribute with its morph targets; none if there is no such attribute.
+    fn vectors(&self, name: &str) -> Result<Vec<Vec3>, String> {
+        let Some(number) = self.attribute(name) else { return Ok(Vec::new()) };
+        let numbers = self.data.numbers::<3>(number)?;
+        let mut vectors: Vec<Vec3> = numbers.into_iter().map(Vec3::from_array).collect();
+        let morphed = self.pose.morph(self.data, &self.primitive.targets, name, &mut vectors);
+        morphed.map_err(|what| format!("{}.{what}", self.path))?;
+        Ok(vectors)
+    }
+
+    /// The face of a triangle whose vertices are numbered from `first` on: positions, normals, texture coordinates.
+    fn face(&self, [a, b, c]: [u32; 3], matrices: &Matrices<'_>, first: [usize; 3]) -> Face {
+        let corners = if matrices.is_mirrored(a as usize) { [a, c, b] } else { [a, b, c] };
+        let numbers = |first: usize| {
+            let first = u32::try_from(first).unwrap_or(u32::MAX);
+            Sides::Triangle(corners.map(|index| index.saturating_add(first)))
+        };
+        Face {
+            positions: numbers(first[0]),
+            normals: self.attribute("NORMAL").map(|_| numbers(first[1])),
+            texcoords: self.attribute("TEXCOORD_0").map(|_| numbers(first[2])),
+        }
     }
 
     fn attribute(&self, name: &str) -> Option<usize> {
@@ -71,45 +139,77 @@ impl PlacedPrimitive<'_> {
     fn check_attributes(&self) -> Result<usize, String> {
         let path = format!("{}.attributes", self.path);
         let accessors = &self.data.document.accessors;
-        for (name, &number) in &self.primitive.attributes {
-            let path = format!("{path}.{name}");
-            let Some(accessor) = accessors.get(number) else {
-                return Err(broken(path, out_of_range(number, accessors.len(), "accessors")));
-            };
-            self.check_attribute(name, accessor)
-                .map_err(|what| broken(path, format!("accessors[{number}] {what}")))?;
+        self.check_types(&self.primitive.attributes, &path, Role::Vertices)?;
+        for (number, target) in self.primitive.targets.iter().enumerate() {
+            self.check_types(target, &format!("{}.targets[{number}]", self.path), Role::Moves)?;
         }
         let position = self.attribute("POSITION").ok_or_else(|| broken(&path, "no POSITION"))?;
         let count = accessors[position].count;
-        if let Some((name, _)) =
-            self.primitive.attributes.iter().find(|(_, number)| accessors[**number].count != count)
-        {
+        let is_other = |(_, number): &(&String, &usize)| accessors[**number].count != count;
+        if let Some((name, _)) = self.primitive.attributes.iter().find(is_other) {
             let what = format!("its count is not that of POSITION, {count}");
             return Err(broken(format!("{path}.{name}"), what));
         }
         usize::try_from(count).map_err(|_| broken(path, "too many vertices"))
     }
 
-    fn check_attribute(&self, name: &str, accessor: &Accessor) -> Result<(), String> {
-        use ComponentType::{Float, UnsignedByte, UnsignedShort};
-        let (kind, component) = (accessor.kind, accessor.component_type);
-        let right = match (name, kind, component) {
-            ("POSITION" | "NORMAL", ElementKind::Vec3, Float)
-            | ("TEXCOORD_0", ElementKind::Vec2, Float) => true,
-            ("TEXCOORD_0", ElementKind::Vec2, UnsignedByte | UnsignedShort) => accessor.normalized,
-            ("POSITION" | "NORMAL" | "TEXCOORD_0", ..) => false,
-            _ => is_semantic(name).then_some(true).ok_or("has a name that is not known")?,
-        };
-        if !right {
-            let rule = match name {
-                "TEXCOORD_0" => "VEC2 of Float, or of normalized UnsignedByte or UnsignedShort",
-                _ => "VEC3 of Float",
+    fn check_types(&self, attributes: &Attributes, path: &str, role: Role) -> Result<(), String> {
+        let accessors = &self.data.document.accessors;
+        for (name, &number) in attributes {
+            let path = format!("{path}.{name}");
+            let Some(accessor) = accessors.get(number) else {
+                return Err(broken(path, out_of_range(number, accessors.len(), "accessors")));
             };
+            // Other attributes of morph targets are not read.
+            if role == Role::Moves && name != "POSITION" && name != "NORMAL" {
+                continue;
+            }
+            let checked = self.check_type(name, accessor, role);
+            checked.map_err(|what| broken(path, format!("accessors[{number}] {what}")))?;
+        }
+        Ok(())
+    }
+
+    fn check_type(&self, name: &str, accessor: &Accessor, role: Role) -> Result<(), String> {
+        use ComponentType::{Byte, Float, Short, UnsignedByte, UnsignedShort};
+        if !is_semantic(name) {
+            return Err("has a name that is not known".to_owned());
+        }
+        let (kind, component) = (accessor.kind, accessor.component_type);
+        let is_small = matches!(component, Byte | UnsignedByte | Short | UnsignedShort);
+        let is_quantized = is_small && self.data.document.is_quantized();
+        let is_fraction = matches!(component, UnsignedByte | UnsignedShort) && accessor.normalized;
+        let (wanted, is_component, rule) = match name {
+            "POSITION" | "NORMAL" => (ElementKind::Vec3, is_quantized, "VEC3 of Float"),
+            "TEXCOORD_0" => (
+                ElementKind::Vec2,
+                is_quantized || is_fraction,
+                "VEC2 of Float, or of normalized UnsignedByte or UnsignedShort",
+            ),
+            _ if name.starts_with("JOINTS_") => (
+                ElementKind::Vec4,
+                matches!(component, UnsignedByte | UnsignedShort) && !accessor.normalized,
+                "VEC4 of UnsignedByte or UnsignedShort",
+            ),
+            _ if name.starts_with("WEIGHTS_") => (
+                ElementKind::Vec4,
+                is_fraction,
+                "VEC4 of Float, or of normalized UnsignedByte or UnsignedShort",
+            ),
+            _ => return Ok(()),
+        };
+        let is_float = component == Float && !name.starts_with("JOINTS_");
+        if kind != wanted || !(is_float || is_component) {
             return Err(format!("is {kind:?} of {component:?}; it must be {rule}"));
         }
         let view = accessor.buffer_view.map(|view| &self.data.document.buffer_views[view]);
         let stride = view.and_then(|view| view.byte_stride).unwrap_or(kind.size(component));
-        if !accessor.byte_offset.unwrap_or(0).is_multiple_of(4) || !stride.is_multiple_of(4) {
+        let is_aligned =
+            accessor.byte_offset.unwrap_or(0).is_multiple_of(4) && stride.is_multiple_of(4);
+        if role == Role::Moves {
+            return Ok(());
+        }
+        if !is_aligned {
             return Err("has elements that do not begin at multiples of 4 bytes".to_owned());
         }
         let corners = [&accessor.min, &accessor.max];
@@ -120,58 +220,98 @@ impl PlacedPrimitive<'_> {
         Ok(())
     }
 
-    fn texcoords(&self, number: usize) -> Result<Vec<[f32; 2]>, String> {
-        // Normalized integers: section 3.6.2.2, the largest is 1.
-        match self.data.document.accessors[number].component_type {
-            ComponentType::UnsignedByte => self.data.read(number, |b| unsigned(b) as f32 / 255.0),
-            ComponentType::UnsignedShort => {
-                self.data.read(number, |b| unsigned(b) as f32 / 65535.0)
-            }
-            _ => self.data.read(number, float),
+    /// Three numbers of vertices, less than `count`, for each triangle.
+    fn indices(
+        &self,
+        triangles: Triangles,
+        count: usize,
+        faces: usize,
+        most: usize,
+        skipped: &mut Skipped,
+    ) -> Result<Vec<[u32; 3]>, String> {
+        let path = match self.primitive.indices {
+            Some(_) => format!("{}.indices", self.path),
+            None => self.path.to_owned(),
+        };
+        let length = match self.primitive.indices {
+            Some(number) => self.check_indices(number).map_err(|what| broken(&path, what))?,
+            None => count,
+        };
+        let whole = triangles.count(length);
+        room(faces, whole, most).map_err(|what| broken(&path, what))?;
+        if triangles == Triangles::List && !length.is_multiple_of(3) || whole == 0 {
+            skipped.rest.add(|| self.path.to_owned());
         }
+        let vertices = match self.primitive.indices {
+            Some(number) => self
+                .vertices(number, count)
+                .map_err(|what| broken(path, format!("accessors[{number}] {what}")))?,
+            None => (0..u32::try_from(count).unwrap_or(u32::MAX)).collect(),
+        };
+        Ok((0..whole).map(|k| triangles.corners(k).map(|at| vertices[at])).collect())
     }
 
-    /// Three numbers of vertices, less than `count`, for each triangle.
-    fn indices(&self, count: usize, faces: usize, most: usize) -> Result<Vec<u32>, String> {
-        let Some(number) = self.primitive.indices else {
-            whole_triangles(count).map_err(|what| broken(self.path, what))?;
-            room(faces, count / 3, most).map_err(|what| broken(self.path, what))?;
-            return Ok((0..u32::try_from(count).unwrap_or(u32::MAX)).collect());
-        };
-        let path = format!("{}.indices", self.path);
+    /// The number of indices. Errors: an accessor that cannot have any.
+    fn check_indices(&self, number: usize) -> Result<usize, String> {
         let accessors = &self.data.document.accessors;
-        let accessor = accessors
-            .get(number)
-            .ok_or_else(|| broken(&path, out_of_range(number, accessors.len(), "accessors")))?;
-        let wrong = |what| broken(&path, format!("accessors[{number}] {what}"));
+        let accessor = accessors.get(number);
+        let accessor =
+            accessor.ok_or_else(|| out_of_range(number, accessors.len(), "accessors"))?;
         let (kind, component) = (accessor.kind, accessor.component_type);
         if kind != ElementKind::Scalar || !is_index(component) || accessor.normalized {
-            let what = format!("is {kind:?} of {component:?}");
-            return Err(wrong(format!("{what}; it must be SCALAR of unsigned integers")));
+            return Err(format!(
+                "accessors[{number}] is {kind:?} of {component:?}; it must be SCALAR of unsigned integers"
+            ));
         }
         let view = accessor.buffer_view.map(|view| &self.data.document.buffer_views[view]);
         if view.is_some_and(|view| view.byte_stride.is_some()) {
-            return Err(wrong("is in a buffer view with byteStride".to_owned()));
+            return Err(format!("accessors[{number}] is in a buffer view with byteStride"));
         }
-        let length = usize::try_from(accessor.count).unwrap_or(usize::MAX);
-        whole_triangles(length).map_err(wrong)?;
-        room(faces, length / 3, most).map_err(wrong)?;
-        let indices = self.data.read::<_, 1>(number, unsigned)?.into_flattened();
+        Ok(usize::try_from(accessor.count).unwrap_or(usize::MAX))
+    }
+
+    /// The vertices that the indices number, less than `count`.
+    fn vertices(&self, number: usize, count: usize) -> Result<Vec<u32>, String> {
+        let component = self.data.document.accessors[number].component_type;
+        let indices = self.data.integers::<1>(number)?.into_flattened();
         // The largest value of a type restarts strips; it numbers no vertex.
         let restart = u32::MAX >> (32 - 8 * component.size());
         match indices.iter().position(|&index| index as usize >= count || index == restart) {
             None => Ok(indices),
             Some(at) => {
-                let what = format!("is out of range: there are {count} vertices");
-                Err(wrong(format!("index {} at {at} {what}", indices[at])))
+                let index = indices[at];
+                Err(format!("index {index} at {at} is out of range: there are {count} vertices"))
             }
         }
     }
 }
 
-fn whole_triangles(length: usize) -> Result<(), String> {
-    let whole = length.is_multiple_of(3);
-    whole.then_some(()).ok_or_else(|| format!("{length} indices are no whole triangles"))
+/// What attributes are of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Role {
+    Vertices,
+    /// Of a morph target.
+    Moves,
+}
+
+impl Triangles {
+    /// The number of triangles that so many vertices make.
+    const fn count(self, vertices: usize) -> usize {
+        match self {
+            Self::List => vertices / 3,
+            Self::Strip | Self::Fan => vertices.saturating_sub(2),
+        }
+    }
+
+    /// The places of a triangle's corners among the vertices. Every second triangle of a strip is turned round.
+    const fn corners(self, triangle: usize) -> [usize; 3] {
+        let k = triangle;
+        match self {
+            Self::List => [3 * k, 3 * k + 1, 3 * k + 2],
+            Self::Strip => [k, k + 1 + k % 2, k + 2 - k % 2],
+            Self::Fan => [k + 1, k + 2, 0],
+        }
+    }
 }
 
 /// Whether `count` more fit beside `already`.
@@ -185,5 +325,7 @@ fn room(already: usize, count: usize, most: usize) -> Result<(), String> {
 fn is_semantic(name: &str) -> bool {
     let numbered = ["TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"];
     let set = numbered.iter().find_map(|start| name.strip_prefix(start));
-    name == "TANGENT" || name.starts_with('_') || set.is_some_and(|set| set.parse::<u32>().is_ok())
+    matches!(name, "POSITION" | "NORMAL" | "TANGENT")
+        || name.starts_with('_')
+        || set.is_some_and(|set| set.parse::<u32>().is_ok())
 }

@@ -6,16 +6,56 @@
 use super::document::{Document, Node, broken};
 use glam::{Mat4, Quat, Vec3};
 
-/// The nodes of the default scene, or the first one, parents before children. Errors: no scene, a node that is out of
-/// range or has two parents, a transform that is none.
-pub(super) fn nodes(document: &Document) -> Result<Vec<(usize, Mat4)>, String> {
-    let parents = parents(document)?;
+/// The nodes of a document.
+#[derive(Debug)]
+pub(super) struct Nodes {
+    /// The transform of each node to the scene.
+    pub(super) transforms: Vec<Mat4>,
+    /// The nodes that are seen, parents before children.
+    pub(super) seen: Vec<usize>,
+}
+
+impl Nodes {
+    /// The nodes of the default scene, or of the first one, or all where there are no scenes. Errors: a scene or a node
+    /// that is out of range, a node with two parents, a transform that is none.
+    pub(super) fn of(document: &Document) -> Result<Self, String> {
+        let parents = parents(document)?;
+        let all_roots = || (0..parents.len()).filter(|&node| parents[node].is_none()).collect();
+        let all = walk(document, all_roots());
+        let mut transforms = vec![Mat4::IDENTITY; parents.len()];
+        let mut is_visited = vec![false; parents.len()];
+        for &number in &all {
+            is_visited[number] = true;
+            let own = transform(&document.nodes[number])
+                .map_err(|(name, what)| broken(format!("nodes[{number}].{name}"), what))?;
+            transforms[number] = match parents[number] {
+                Some(parent) => transforms[parent] * own,
+                None => own,
+            };
+        }
+        let roots = roots(document, &parents)?;
+        if let Some(lost) = (0..parents.len()).find(|node| !is_visited[*node]) {
+            return Err(broken(
+                "nodes",
+                format!("node {lost} is below itself; nodes must form trees"),
+            ));
+        }
+        let seen = roots.map_or(all, |roots| walk(document, roots));
+        Ok(Self { transforms, seen })
+    }
+}
+
+/// The roots of the scene that is shown; `None` where there are no scenes.
+fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Option<Vec<usize>>, String> {
+    let scenes = document.scenes.as_deref().unwrap_or_default();
     let number = document.scene.unwrap_or(0);
-    let scene = document.scenes.get(number).ok_or_else(|| match document.scene {
-        None => broken("scenes", "there is none"),
-        Some(_) => broken("scene", out_of_range(number, document.scenes.len(), "scenes")),
-    })?;
-    let mut is_root = vec![false; document.nodes.len()];
+    let Some(scene) = scenes.get(number) else {
+        return match document.scene {
+            None => Ok(None),
+            Some(_) => Err(broken("scene", out_of_range(number, scenes.len(), "scenes"))),
+        };
+    };
+    let mut is_root = vec![false; parents.len()];
     for (k, &node) in scene.nodes.iter().enumerate() {
         let path = format!("scenes[{number}].nodes[{k}]");
         match parents.get(node) {
@@ -30,18 +70,18 @@ pub(super) fn nodes(document: &Document) -> Result<Vec<(usize, Mat4)>, String> {
             Some(None) => is_root[node] = true,
         }
     }
-    let mut visited = Vec::new();
-    let mut waiting: Vec<(usize, Mat4)> =
-        scene.nodes.iter().rev().map(|&root| (root, Mat4::IDENTITY)).collect();
-    while let Some((number, parent)) = waiting.pop() {
-        let node = &document.nodes[number];
-        let transform = transform(node)
-            .map_err(|(name, what)| broken(format!("nodes[{number}].{name}"), what))?;
-        let transform = parent * transform;
-        visited.push((number, transform));
-        waiting.extend(node.children.iter().rev().map(|&child| (child, transform)));
+    Ok(Some(scene.nodes.clone()))
+}
+
+/// The nodes below these roots, parents before children.
+fn walk(document: &Document, roots: Vec<usize>) -> Vec<usize> {
+    let (mut visited, mut waiting) = (Vec::new(), roots);
+    waiting.reverse();
+    while let Some(number) = waiting.pop() {
+        visited.push(number);
+        waiting.extend(document.nodes[number].children.iter().rev());
     }
-    Ok(visited)
+    visited
 }
 
 /// The parent of each node, if it has one.

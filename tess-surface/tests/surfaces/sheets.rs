@@ -1,0 +1,155 @@
+//! Places and edges where more than one sheet meets.
+
+use crate::models::{bumps, face, fin, hills, leaf, mesh};
+use glam::Vec3;
+use tess_core::Partitioning;
+use tess_surface::{
+    DisplacedModel, FactorRule, HalfEdge, Model, PolygonMesh, Sample, Style, SurfacePatch,
+};
+
+const PLACES: [[f32; 2]; 6] = [[0., 0.], [1., 0.], [0., 1.], [0.5, 0.], [0., 0.25], [0.25, 0.5]];
+
+fn rounded(mesh: PolygonMesh) -> Model {
+    Model::polygons(mesh, Style::PointNormal).expect("a right mesh")
+}
+
+fn samples(patch: &SurfacePatch) -> [Sample; 6] {
+    PLACES.map(|at| patch.sample(at))
+}
+
+/// Four triangles around the middle of a square, counter-clockwise, then the same clockwise.
+fn square() -> PolygonMesh {
+    let points = [[0., 0., 0.], [2., 0., 0.], [2., 2., 0.], [0., 2., 0.], [1., 1., 0.]];
+    let fronts: [&[u32]; 4] = [&[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]];
+    let backs: [&[u32]; 4] = [&[1, 0, 4], &[2, 1, 4], &[3, 2, 4], &[0, 3, 4]];
+    mesh(&points, &[fronts, backs].concat())
+}
+
+#[test]
+fn each_side_of_a_sheet_has_its_own_normal() {
+    let model = rounded(square());
+    for number in 0..8 {
+        let normal = if number < 4 { Vec3::Z } else { -Vec3::Z };
+        for (at, sample) in PLACES.iter().zip(samples(&model.patch(number))) {
+            assert_eq!(sample.normal, normal, "patch {number} at {at:?}");
+            assert_eq!(sample.position.z, 0.0, "patch {number} at {at:?}: it stays flat");
+        }
+    }
+}
+
+/// The back may be cut along the other diagonal, so that front and back have no face in common.
+#[test]
+fn sides_that_are_cut_differently() {
+    let points = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+    let cut = mesh(&points, &[&[0, 1, 2], &[0, 2, 3], &[1, 0, 3], &[1, 3, 2]]);
+    let whole = mesh(&points, &[&[0, 1, 2, 3], &[1, 0, 3], &[1, 3, 2]]);
+    for (mesh, fronts) in [(cut, 2), (whole, 1)] {
+        let model = rounded(mesh);
+        for number in 0..model.len() {
+            let normal = if number < fronts { Vec3::Z } else { -Vec3::Z };
+            let found = samples(&model.patch(number)).map(|sample| sample.normal);
+            assert_eq!(found, [normal; 6], "patch {number} of {}", model.len());
+        }
+    }
+}
+
+/// Both sides of a curved sheet bend as the sheet does that has one side only.
+#[test]
+fn curved_sheets() {
+    let (one, both) = (rounded(hills()), rounded(leaf()));
+    let count = one.len();
+    for number in 0..count {
+        assert_eq!(samples(&one.patch(number)), samples(&both.patch(number)), "front {number}");
+        // The back's corners run the other way: its u is the front's v.
+        for [u, v] in PLACES {
+            let (front, back) = (one.patch(number), both.patch(count + number));
+            let (front, back) = (front.sample([u, v]), back.sample([v, u]));
+            assert!(front.position.distance(back.position) < 1e-5, "{number}: {front:?} {back:?}");
+            assert!(front.normal.distance(-back.normal) < 1e-5, "{number}: {front:?} {back:?}");
+        }
+    }
+}
+
+/// The faces of one that has the wrong order are a sheet of their own.
+#[test]
+fn a_face_in_the_wrong_order() {
+    let mut turned = hills();
+    turned.faces[12] = face(&[14, 20, 21, 15]);
+    let (right, model) = (rounded(hills()), rounded(turned));
+    assert!(samples(&model.patch(12)).iter().all(|sample| sample.normal.z < 0.0), "downwards");
+    for number in (0..25).filter(|&number| number != 12) {
+        let [found, expected] = [&model, &right].map(|model| samples(&model.patch(number)));
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(found.normal.dot(expected.normal) > 0.7, "{number}: {found:?} {expected:?}");
+        }
+    }
+}
+
+/// Displaced, the sides part, and stay together along the border.
+#[test]
+fn a_displaced_sheet_is_closed() {
+    let (mesh, bumps) = (square(), bumps());
+    let model = rounded(mesh);
+    let displaced = DisplacedModel::new(&model, &bumps);
+    let height = |number: usize, at: [f32; 2]| displaced.patch(number).sample(at).position.z;
+    for number in 0..4 {
+        assert!(height(number, [0.25, 0.25]) > 0.0, "the front rises");
+        assert!(height(number + 4, [0.25, 0.25]) < 0.0, "the back sinks");
+        let middles = [number, number + 4].map(|number| height(number, [0.0, 0.0]));
+        assert!(middles[0] > 0.0 && middles[1] < 0.0, "the middle parts: {middles:?}");
+        for border in [[1.0, 0.0], [0.5, 0.5], [0.0, 1.0]] {
+            assert_eq!(height(number, border), 0.0, "the border stays");
+        }
+    }
+}
+
+#[test]
+fn a_fin_is_a_seam() {
+    let model = rounded(fin());
+    // The fin's edge 1 (v = 0) stands on the quads below and above it.
+    let sides = |k: usize| {
+        vec![
+            HalfEdge { patch: 6 + k, edge: 3 },
+            HalfEdge { patch: 11 + k, edge: 1 },
+            HalfEdge { patch: 25 + k, edge: 1 },
+        ]
+    };
+    assert_eq!(model.seams(), [sides(0), sides(1)], "both edges of the fin");
+    assert!(model.crowded_edges().is_empty(), "no pairs");
+    let rule = FactorRule::Flatness { tolerance: 0.001 };
+    for half in model.seams().iter().flatten() {
+        assert_eq!(model.twin(*half), None, "no single neighbour");
+    }
+    for seam in model.seams() {
+        let at = |half: &HalfEdge| if half.edge == 3 { [0.3125, 1.0] } else { [0.3125, 0.0] };
+        let positions: Vec<Vec3> =
+            seam.iter().map(|half| model.patch(half.patch).position(at(half))).collect();
+        assert_eq!(positions, [positions[0]; 3], "one curve");
+        let factors: Vec<f32> = seam
+            .iter()
+            .map(|half| {
+                let factors = rule.factors(&model, half.patch, Partitioning::Integer);
+                factors.iter().nth(half.edge).expect("a factor")
+            })
+            .collect();
+        assert_eq!(factors, [factors[0]; 3], "one factor");
+    }
+    let upright = model.patch(25).normal([0.5, 0.0]);
+    assert!(upright.z.abs() < 0.7, "the fin keeps its own normal: {upright}");
+    for (patch, at) in [(6, [0.5, 1.0]), (11, [0.5, 0.0])] {
+        let normal = model.patch(patch).normal(at);
+        assert!(normal.z > 0.3, "the hills keep theirs: {normal}");
+    }
+}
+
+/// Three faces at one edge, each with its own normal.
+#[test]
+fn three_faces_at_an_edge() {
+    let points = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., -1., 0.], [0., 0., 1.]];
+    let model = rounded(mesh(&points, &[&[0, 1, 2], &[0, 1, 3], &[0, 1, 4]]));
+    assert_eq!(model.seams().len(), 1, "a seam");
+    for (number, normal) in [Vec3::Z, -Vec3::Z, -Vec3::Y].into_iter().enumerate() {
+        let found = samples(&model.patch(number)).map(|sample| sample.normal);
+        assert_eq!(found, [normal; 6], "face {number}");
+    }
+}
