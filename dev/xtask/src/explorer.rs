@@ -1,7 +1,7 @@
 //! The explorer: builds its page, serves it, tests it in a browser.
 
 use crate::command::{self, cargo, in_file, target, workspace};
-use crate::setup::{self, Need, has_program};
+use crate::setup::{self, NODE, Need, has_program};
 use crate::tally;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,11 +17,7 @@ const PLAYWRIGHT: &str = "playwright-core@1.65.1";
 
 /// Needs of the browser tests beyond what the build installs.
 const BROWSER: &[Need] = &[
-    Need {
-        what: "Node.js with npm (drives the browser)",
-        packages: &["nodejs", "npm"],
-        is_there: || has_program("node") && has_program("npm"),
-    },
+    NODE,
     Need {
         what: "Chromium (tests of the explorer)",
         packages: &["chromium"],

@@ -3,7 +3,7 @@
 //! ```text
 //! what a developer runs      test -> setup, suite (builds, selects, one job for each program), tally (runs, counts)
 //! what guards a change       ci -> features, fuzz, ports (a file for each system), publish, then test
-//! tests that are not Rust    python, explorer, integrations (Bevy), mesa
+//! tests that are not Rust    python, explorer, integrations (Bevy), mesa, models
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! scripts in Python          script (checks of texts; records of measurements, tables and charts)
 //! for users                  install (header, libraries, tess.pc), dist (a release's archives), examples (of tess-wgpu)
@@ -27,6 +27,7 @@ mod install;
 mod integrations;
 mod levels;
 mod mesa;
+mod models;
 mod mutants;
 mod packages;
 mod ports;
@@ -53,7 +54,7 @@ usage: cargo xtask <command>
   test all
           run every test: Python, the browser, OpenGL, a window, simulators, the explorer and benches too
   ci      what continuous integration runs: formatting, `traceability`, `public`, lints, documentation, `features`,
-          the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
+          the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU, `models`,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
   setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
           Icarus Verilog, Python
@@ -88,6 +89,9 @@ usage: cargo xtask <command>
           they are and with this library as their tessellator (in target/mesa, never installed), and compare them:
           docs/hosts/mesa.md. Runs on Debian 12 and 13, and takes 45 minutes on two cores. `test` runs the tests of
           Vulkan and OpenGL on the patched drivers
+  models [FOLDER...]
+          run `tess mesh` on the models in these folders, or on small ones of every kind that a script makes, and
+          judge the outputs by other programs: trimesh, pygltflib, Khronos' glTF validator
   public  name the public items of the published libraries that nothing outside uses
   traceability
           check that docs/traceability.md has each section of docs/specification.md and that the evidence it names exists
@@ -145,6 +149,8 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
         ["example", ref words @ ..] => examples::run(words),
+        ["models"] => models::of_every_kind(),
+        ["models", ref folders @ ..] => models::run(folders),
         ["public" | "traceability"] => script::run(script::CHECKS, words),
         ["features", ref names @ ..] => features::check(names),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),

@@ -5,7 +5,7 @@ mod needs;
 use crate::command;
 #[cfg(feature = "kit")]
 pub(crate) use needs::{CELLS, SYSTEMC, VERILATOR, YOSYS};
-pub(crate) use needs::{ICARUS, PYTHON};
+pub(crate) use needs::{ICARUS, NODE, PYTHON};
 use std::path::Path;
 use std::process::{Command, Stdio};
 

@@ -52,6 +52,13 @@ pub(crate) const PYTHON: Need = Need {
     is_there: has_python,
 };
 
+/// What runs programs in JavaScript.
+pub(crate) const NODE: Need = Need {
+    what: "Node.js with npm (drives the browser, runs the validator of glTF)",
+    packages: &["nodejs", "npm"],
+    is_there: || has_program("node") && has_program("npm"),
+};
+
 /// The simulator of the benches.
 pub(crate) const VERILATOR: Need = Need {
     what: "Verilator with a C++ compiler and make (benches of the SystemVerilog interface and of the circuit)",

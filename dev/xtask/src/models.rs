@@ -1,0 +1,67 @@
+//! `tess mesh` on model files, judged by programs that share nothing with it: tools/cli/tests/models.
+
+use crate::command::{self, in_file, target, workspace};
+use crate::explorer::npm;
+use crate::setup::{self, NODE, PYTHON};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Packages of the virtual environment.
+const PACKAGES: &[&str] =
+    &["numpy>=1.24", "pillow>=10", "pygltflib>=1.16,<2", "scipy>=1.10", "trimesh>=4.4,<6"];
+
+/// Khronos' validator of glTF files.
+const VALIDATOR: &str = "gltf-validator@2.0.0-dev.3.10";
+
+/// Judges the outputs for small models that a script makes, of every kind.
+///
+/// # Errors
+/// A file is not read, or an output is wrong; the judges cannot be installed.
+pub(crate) fn of_every_kind() -> Result<(), String> {
+    let made = folder().join("made");
+    if made.exists() {
+        fs::remove_dir_all(&made).map_err(|error| in_file(&made, &error))?;
+    }
+    let mut judge = judge()?;
+    command::run(command::python().arg(scripts().join("make.py")).arg(&made))?;
+    command::run(judge.arg(&made).arg("--made"))
+}
+
+/// Judges the outputs for all models in these folders.
+///
+/// # Errors
+/// An output is wrong; the judges cannot be installed.
+pub(crate) fn run(folders: &[&str]) -> Result<(), String> {
+    command::run(judge()?.args(folders))
+}
+
+/// The command that judges, without its folders.
+fn judge() -> Result<Command, String> {
+    setup::provide(&[PYTHON, NODE])?;
+    let program = command::program()?;
+    let environment = folder().join("venv");
+    let (python, done) = (environment.join("bin/python"), environment.join("done"));
+    if fs::read_to_string(&done).ok().as_deref() != Some(PACKAGES.join(" ").as_str()) {
+        command::run(command::python().args(["-m", "venv", "--clear"]).arg(&environment))?;
+        let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+        command::run(Command::new(&python).args(pip).args(PACKAGES))?;
+        fs::write(&done, PACKAGES.join(" ")).map_err(|error| in_file(&done, &error))?;
+    }
+    let modules = folder().join("validator");
+    fs::create_dir_all(&modules).map_err(|error| in_file(&modules, &error))?;
+    if !modules.join("node_modules/gltf-validator").exists() {
+        command::run(npm(&modules).arg(VALIDATOR))?;
+    }
+    let mut judge = Command::new(python);
+    judge.arg("-B").arg(scripts().join("judge.py")).arg(program).arg("--validator").arg(modules);
+    Ok(judge)
+}
+
+fn scripts() -> PathBuf {
+    workspace().join("tools/cli/tests/models")
+}
+
+fn folder() -> PathBuf {
+    Path::new(&target()).join("models")
+}
