@@ -326,7 +326,8 @@ mod tests {
             ", @location(0) a: vec2<u32,>, @location(1) @interpolate(flat, either) b: vec4<u32>",
             ", @location(0) a: vec2<Half>, @location(3) b: i32, @location(1) c: vec3u, @location(2) d: u32",
         ] {
-            for members in [position.to_owned() + rest, format!("{rest}, {position}")] {
+            let last = format!("{}, {position}", rest.trim_end_matches(','));
+            for members in [position.to_owned() + rest, last] {
                 let members = members.trim_start_matches([',', ' ']);
                 let found = layout(members).unwrap_or_else(|error| panic!("{members}: {error}"));
                 let offsets = found.attributes.iter().map(|one| one.offset);
