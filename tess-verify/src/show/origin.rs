@@ -1,0 +1,54 @@
+//! Where the model's side of a difference comes from.
+
+use super::{PointReport, PrimitiveReport};
+use crate::check::{Difference, Element};
+use tess_core::{Patch, Tessellation};
+
+impl Difference {
+    /// Where the model's element comes from, with the values that went into it; `None` if the model has no such
+    /// element. An element by its vertices is the first of the model's that has them, whichever vertex leads.
+    #[must_use]
+    pub fn origin(&self) -> Option<String> {
+        let patch = self.case?.patch();
+        match &self.mismatch.element {
+            Element::Point { index, .. } => point(&patch, *index),
+            Element::Index { primitive: t, .. } | Element::Third { primitive: t, .. } => {
+                primitive(&patch, *t)
+            }
+            Element::Vertices(places) => match &places[..] {
+                [place] => {
+                    let output = patch.tessellate();
+                    let mut points = 0..output.points.len();
+                    point(&patch, points.find(|i| place_of(&output, *i) == Some(*place))?)
+                }
+                _ => primitive(&patch, with_vertices(&patch.tessellate(), places)?),
+            },
+            _ => None,
+        }
+    }
+}
+
+fn point(patch: &Patch, i: usize) -> Option<String> {
+    Some(PointReport::new(patch, u32::try_from(i).ok()?)?.to_string())
+}
+
+fn primitive(patch: &Patch, t: usize) -> Option<String> {
+    Some(PrimitiveReport::new(patch, u32::try_from(t).ok()?)?.to_string())
+}
+
+fn place_of(output: &Tessellation, i: usize) -> Option<[u32; 2]> {
+    output.points.get(i).map(|point| [point.u.to_bits(), point.v.to_bits()])
+}
+
+/// The number of the first primitive with these vertices, whichever leads.
+fn with_vertices(output: &Tessellation, places: &[[u32; 2]]) -> Option<usize> {
+    let size = places.len();
+    let is_same = |primitive: &[u32]| {
+        (0..size).any(|lead| {
+            let turned = places.iter().cycle().skip(lead).take(size);
+            let vertices = primitive.iter().map(|&index| place_of(output, index as usize));
+            vertices.eq(turned.map(|place| Some(*place)))
+        })
+    };
+    output.indices.chunks(size.max(1)).position(is_same)
+}
