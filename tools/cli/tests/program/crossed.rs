@@ -250,7 +250,7 @@ fn backends_are_timed_whatever_the_options() {
     let refused =
         |words: &[&str], says: [&str; 2]| is_refused(&tess(&line(words)), &line(words), says);
     crossed.run(|_, words| taken(words), |_, words, says| refused(words, says));
-    taken(&["--backend gpu", "--no-copies --order cache --index-type u16 --json"]);
+    taken(&["--backend gpu", "--no-copies --index-order cache --index-type u16 --json"]);
     refused(&["--backend gpu", "--threads 2"], ["--backend", "--threads"]);
     refused(&["--backend gpu", "--frame 2"], ["--backend", "--frame"]);
     refused(&["--backend gpu", "--cpu-level baseline"], ["--backend", "--cpu-level"]);

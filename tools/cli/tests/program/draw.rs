@@ -91,7 +91,7 @@ fn png_is_chosen_by_name_and_has_the_size() {
 
 #[test]
 fn numbers_left_out_are_reported() {
-    let run = tess("draw quad --outer 64,64,64,64 --inner 64,64 --indices --size 400");
+    let run = tess("draw quad --outer 64,64,64,64 --inner 64,64 --number-points --size 400");
     run.exits(0).says("4225 numbers left out");
 }
 
