@@ -1,8 +1,9 @@
 //! The demands of each standard on a tessellator's output, checked without a driver.
 //!
-//! A device may differ from the model and be right. A rule is what one standard says of the output alone,
-//! such as "an outer edge's vertices depend on its own level and spacing". Some rules judge one patch, others
-//! compare patches that have a level in common; `tess gen --rules` makes patches that exercise all of them.
+//! A device may differ from the model and be right. A rule is what one standard says of the output
+//! alone, such as "an outer edge's vertices depend on its own level and spacing". Some rules judge
+//! one patch, others compare patches that have a level in common; `tess gen --rules` makes patches
+//! that exercise all of them.
 //!
 //! ```text
 //!  (case, output) ──► Answer: vertices by place ──► rules of one patch   (answer.rs, mesh.rs, edge.rs)
@@ -71,7 +72,8 @@ pub struct Checker {
 /// Patches that a backend is asked for at once.
 const BATCH: usize = 256;
 
-/// Judges a backend's outputs for cases. `done` is called with the number of patches after each batch.
+/// Judges a backend's outputs for cases. `done` is called with the number of patches after each
+/// batch.
 ///
 /// # Errors
 /// The backend could not run, or did not answer with a patch for each case.
@@ -97,7 +99,8 @@ pub fn check_rules(
 /// The judgement of a rule on one patch; `None` if it could show no fault.
 type Judged = Option<Result<(), String>>;
 
-/// The judgement of a rule on a patch, or on a patch and one before it: the earlier case, and what is wrong.
+/// The judgement of a rule on a patch, or on a patch and one before it: the earlier case, and what
+/// is wrong.
 type Judgement = (Option<Case>, Result<(), String>);
 
 impl Checker {

@@ -4,7 +4,6 @@
 mod circuit;
 mod drawing;
 mod explanation;
-mod origin;
 mod picture;
 
 pub use circuit::{Part, SignalDifference, SignalError, compare_signals};
@@ -12,4 +11,4 @@ pub use drawing::{
     Colours, Differences, DrawOptions, Drawing, differing, draw, has_rings, overlay,
 };
 pub use explanation::Explanation;
-use explanation::{PointReport, PrimitiveReport};
+pub(crate) use explanation::{PointReport, PrimitiveReport};

@@ -29,8 +29,9 @@ fn levels() -> Vec<f32> {
     levels
 }
 
-/// A family for each level of each domain and spacing, and patches beside the least that has an inside.
-pub(super) fn systematic() -> Vec<Case> {
+/// A family for each level of each domain and spacing, and patches beside the least that has an
+/// inside.
+pub(super) fn systematic(version: u8) -> Vec<Case> {
     let levels = levels();
     let mut cases = Vec::new();
     for domain in Domain::ALL {
@@ -58,12 +59,16 @@ pub(super) fn systematic() -> Vec<Case> {
             }
         }
     }
-    // Only where all other levels are 1 does one that is barely above 1 decide whether there is an inside.
-    let frames = super::thresholds().into_iter().filter(|(side, _)| side.starts_with("frame/"));
+    // Only where all other levels are 1 does one that is barely above 1 decide whether there is an
+    // inside.
+    let list = if version > 1 { super::thresholds() } else { Vec::new() };
+    let frames = list.into_iter().filter(|(side, _)| side.starts_with("frame/"));
     cases.extend(frames.map(|(_, case)| case));
-    powers_of_two(&mut cases);
-    unusual_levels(&mut cases);
-    changing_state(&mut cases);
+    if version > 2 {
+        powers_of_two(&mut cases);
+        unusual_levels(&mut cases);
+        changing_state(&mut cases);
+    }
     cases
 }
 
@@ -82,7 +87,8 @@ fn powers_of_two(cases: &mut Vec<Case>) {
     }
 }
 
-/// Each level alone among others, at the ends of what is a positive number, and beyond the spacing's range.
+/// Each level alone among others, at the ends of what is a positive number, and beyond the
+/// spacing's range.
 fn unusual_levels(cases: &mut Vec<Case>) {
     let (output, split) = (OutputPrimitive::TriangleCw, SplitOrder::Ruler);
     let smallest = f32::from_bits(1);
@@ -107,8 +113,8 @@ fn unusual_levels(cases: &mut Vec<Case>) {
     }
 }
 
-/// Patches of which each has another domain than the one before it, and every third and ninth another output and
-/// spacing.
+/// Patches of which each has another domain than the one before it, and every third and ninth
+/// another output and spacing.
 fn changing_state(cases: &mut Vec<Case>) {
     let outputs =
         [OutputPrimitive::TriangleCcw, OutputPrimitive::TriangleCw, OutputPrimitive::Point];
@@ -162,8 +168,9 @@ fn random_level(random: &mut SplitMix64) -> f32 {
     }
 }
 
-/// A patch with its relatives: the same again, the other winding, its points; one outer level changed, the
-/// outer levels exchanged, the inner levels changed or not above 1, and an outer level that discards.
+/// A patch with its relatives: the same again, the other winding, its points; one outer level
+/// changed, the outer levels exchanged, the inner levels changed or not above 1, and an outer level
+/// that discards.
 fn family(base: Case, turn: usize, cases: &mut Vec<Case>) {
     let with_output = |output| Case { config: Config { output, ..base.config }, ..base };
     let (outer, all) = (base.domain().outer_factors(), base.domain().factors());

@@ -81,7 +81,8 @@ impl Answer {
         })
     }
 
-    /// No primitive if an outer level is not above 0, and some if all are. A denormal may be either.
+    /// No primitive if an outer level is not above 0, and some if all are. A denormal may be
+    /// either.
     pub(super) fn discard(&self) -> Judged {
         let mut outer = self.case.factors.outer();
         let discards = outer.clone().any(|level| level.is_nan() || level <= 0.0);
@@ -116,8 +117,8 @@ impl Answer {
     }
 }
 
-/// The distance of a place along an outer edge from the edge's start in a clockwise walk; `None` if it is not on the
-/// edge. The only outer edge of isolines is u = 0.
+/// The distance of a place along an outer edge from the edge's start in a clockwise walk; `None` if
+/// it is not on the edge. The only outer edge of isolines is u = 0.
 pub(super) fn position(domain: Domain, edge: usize, [u, v]: Place) -> Option<u32> {
     match (domain, edge) {
         (_, 0) => (u == 0).then(|| ONE.checked_sub(v)).flatten(),

@@ -1,7 +1,8 @@
 //! Rules about the vertices inside the outline: a quad's columns and rows, and a triangle's rings.
 //!
-//! Vulkan (22.6, 22.7) and OpenGL divide the domain by the inner levels first: a quad into columns by the first and
-//! rows by the second, a triangle into rings. Every crossing of a column and a row is a vertex.
+//! Vulkan (22.6, 22.7) and OpenGL divide the domain by the inner levels first: a quad into columns
+//! by the first and rows by the second, a triangle into rings. Every crossing of a column and a row
+//! is a vertex.
 //!
 //! ```text
 //!  inner levels 4, 3          3 places between columns, 2 between rows: 6 vertices inside
@@ -21,7 +22,8 @@ use super::standard::Specification;
 use tess_core::Domain;
 use tess_core::fixed_point::ONE;
 
-/// The inside has the columns and rows, or rings, that the inner levels ask for, or that the specified answer has.
+/// The inside has the columns and rows, or rings, that the inner levels ask for, or that the
+/// specified answer has.
 pub(super) fn inner_levels(
     answer: &Answer,
     specified: Option<&Answer>,
@@ -91,7 +93,8 @@ fn vertices_of_rings(answer: &Answer, specified: Option<&Answer>, may_be_fewer: 
     Some(Err(format!("{asks}; there are {found}{like}")))
 }
 
-/// Columns, rows and rings are spaced as the inner levels ask, and vertices of rings are where these cross.
+/// Columns, rows and rings are spaced as the inner levels ask, and vertices of rings are where
+/// these cross.
 pub(super) fn inner_spacing(answer: &Answer, specification: Specification) -> Judged {
     if may_touch_outline(&answer.case, specification) {
         return None;
@@ -102,7 +105,7 @@ pub(super) fn inner_spacing(answer: &Answer, specification: Specification) -> Ju
     }
     let n = Level::inner(&answer.case, 0)?.segments();
     let rings = Rings::new(answer.inside(), n)?;
-    if rings.outermost().len() as u32 != n - 1 {
+    if rings.outermost().len() + 1 != n as usize {
         return Some(Err(not_perpendicular(rings.rings.first()?, 1)));
     }
     Some(spaced(&lines)?.and_then(|()| perpendicular(&rings, n)))
@@ -125,7 +128,7 @@ fn perpendicular(rings: &Rings, n: u32) -> Result<(), String> {
             ));
         }
         let is_right = |edge: &Vec<(u32, _)>| {
-            edge.len() as u32 == n - 2 * number + 1
+            edge.len() == (n - 2 * number + 1) as usize
                 && (number..).zip(edge).all(|(position, (t, _))| {
                     place(position).is_some_and(|place| place.abs_diff(*t) <= TOLERANCE)
                 })

@@ -39,8 +39,8 @@ impl Level {
         }
     }
 
-    /// The clamped level rounded up to an integer, of the spacing's parity if it has one. An inner level of 1 counts as
-    /// the next higher number, because the patch has an inside.
+    /// The clamped level rounded up to an integer, of the spacing's parity if it has one. An inner
+    /// level of 1 counts as the next higher number, because the patch has an inside.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -80,8 +80,9 @@ pub(super) fn is_minimum(case: &Case) -> bool {
         && case.factors.iter().all(|level| level <= 1.0 || level.is_nan())
 }
 
-/// Whether vertices of the inside may be on the outline: under fractional odd spacing, if an inner level is
-/// not above 1. In Direct3D the locations of levels up to 1 + 8/65536 round to the outline.
+/// Whether vertices of the inside may be on the outline: under fractional odd spacing, if an inner
+/// level is not above 1. In Direct3D the locations of levels up to 1 + 8/65536 round to the
+/// outline.
 pub(super) fn may_touch_outline(case: &Case, specification: Specification) -> bool {
     const ROUNDED: f32 = f32::from_bits(0x3F80_0400);
     let highest = if specification == Specification::D3d11 { ROUNDED } else { 1.0 };
@@ -89,8 +90,8 @@ pub(super) fn may_touch_outline(case: &Case, specification: Specification) -> bo
         && case.factors.inside().any(|level| level <= highest || level.is_nan())
 }
 
-/// Whether Direct3D leaves no choice of each level's 15.16 number (specification, section 13): the nearest one is the
-/// only one within 0.6 units.
+/// Whether Direct3D leaves no choice of each level's 15.16 number (specification, section 13): the
+/// nearest one is the only one within 0.6 units.
 pub(super) fn has_one_conversion(case: &Case) -> bool {
     let is_clear = |level: f32| {
         let bits = level.to_bits();

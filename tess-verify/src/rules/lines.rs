@@ -6,8 +6,9 @@
 //! inside:   a quad's columns and rows, a triangle's rings, by the inner levels
 //! ```
 //!
-//! A quad's inner levels divide the whole domain: its columns are those between u = 0 and u = 1, of which vertices
-//! inside show all places but the ends. A triangle's inner level divides each edge for the time being; see `rings.rs`.
+//! A quad's inner levels divide the whole domain: its columns are those between u = 0 and u = 1, of
+//! which vertices inside show all places but the ends. A triangle's inner level divides each edge
+//! for the time being; see `rings.rs`.
 
 use super::answer::Answer;
 use super::levels::{Level, is_minimum};
@@ -74,8 +75,8 @@ pub(super) fn outer_lines(answer: &Answer) -> Vec<Line> {
     [density].into_iter().chain(by_v.into_values().enumerate().map(line)).collect()
 }
 
-/// The lines that inner levels divide, if vertices inside show them: a quad's columns and rows, and a triangle's edges
-/// by its outermost ring.
+/// The lines that inner levels divide, if vertices inside show them: a quad's columns and rows, and
+/// a triangle's edges by its outermost ring.
 pub(super) fn inner_lines(answer: &Answer) -> Vec<Line> {
     let case = &answer.case;
     if is_minimum(case) || answer.is_empty() {

@@ -12,8 +12,8 @@ use std::collections::{BTreeMap, HashMap};
 use tess_core::fixed_point::ONE;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 
-/// How much shorter the shorter segments may become as the level grows, in units of 2^-16: each of their two
-/// ends is rounded.
+/// How much shorter the shorter segments may become as the level grows, in units of 2^-16: each of
+/// their two ends is rounded.
 const ROUNDING: u32 = 2;
 /// Levels this far apart, in units of 2^-16, have shorter segments of different lengths.
 const APART: u32 = 1 << 13;
@@ -41,7 +41,8 @@ enum Key {
 /// The edges of earlier patches that have one level, with the first patch of each.
 type Edges = BTreeMap<(Domain, usize), (Vec<u32>, Case)>;
 
-/// The shorter segments by level, in units of 2^-16, with the first patch of each; all levels round up to one number.
+/// The shorter segments by level, in units of 2^-16, with the first patch of each; all levels round
+/// up to one number.
 type Shorter = BTreeMap<u32, (u32, Case)>;
 
 /// The places of vertices on the first line of a level, with its name and its patch.
@@ -120,8 +121,8 @@ impl Memory {
         }
     }
 
-    /// Compares a digest with the first patch that has the same key; where outputs are free, with one of another
-    /// output.
+    /// Compares a digest with the first patch that has the same key; where outputs are free, with
+    /// one of another output.
     fn compare(&mut self, key: Key, digest: u64, answer: &Answer, what: &str) -> Vec<Judgement> {
         match self.known.get(&key) {
             None => {
@@ -151,8 +152,8 @@ impl Memory {
         outer_edges(answer).flat_map(each).collect()
     }
 
-    /// Each edge beside the other edges of the same level, in either direction. Direct3D's depend on no
-    /// domain either.
+    /// Each edge beside the other edges of the same level, in either direction. Direct3D's depend
+    /// on no domain either.
     fn every_edge(&mut self, answer: &Answer, specification: Specification) -> Vec<Judgement> {
         let (domain, partitioning, split) = state(answer);
         let own = (specification != Specification::D3d11).then_some(domain);
@@ -182,8 +183,8 @@ impl Memory {
         self.compare(key, digest, answer, "other triangles inside")
     }
 
-    /// Triangles with two vertices on an edge. Those with one are at a corner of two edges, or beside one
-    /// that has two.
+    /// Triangles with two vertices on an edge. Those with one are at a corner of two edges, or
+    /// beside one that has two.
     fn transition(&mut self, answer: &Answer) -> Vec<Judgement> {
         let domain = answer.case.domain();
         let each = |edge| {
@@ -197,8 +198,8 @@ impl Memory {
         outer_edges(answer).flat_map(each).collect()
     }
 
-    /// Lines of one level beside the first line of that level, of whatever patch: an edge, an isoline, or the columns,
-    /// rows or rings inside.
+    /// Lines of one level beside the first line of that level, of whatever patch: an edge, an
+    /// isoline, or the columns, rows or rings inside.
     fn equal_levels(&mut self, answer: &Answer) -> Vec<Judgement> {
         let (_, partitioning, split) = state(answer);
         let mut judgements = Vec::new();
@@ -225,7 +226,8 @@ impl Memory {
         judgements
     }
 
-    /// Lines whose levels round up to the same number, beside the next lower and the next higher level.
+    /// Lines whose levels round up to the same number, beside the next lower and the next higher
+    /// level.
     fn monotone(&mut self, answer: &Answer) -> Vec<Judgement> {
         let mut judgements = Vec::new();
         for line in fractional_lines(answer) {

@@ -32,8 +32,8 @@ pub(super) fn orientation(answer: &Answer) -> Judged {
     }))
 }
 
-/// The triangles cover the domain once, as far as their edges tell: what is left of their directed edges,
-/// after those that go both ways are taken out, is one walk round the outline.
+/// The triangles cover the domain once, as far as their edges tell: what is left of their directed
+/// edges, after those that go both ways are taken out, is one walk round the outline.
 pub(super) fn cover(answer: &Answer) -> Judged {
     let mut net: BTreeMap<[Place; 2], i32> = BTreeMap::new();
     for [a, b, c] in answer.triangles() {
@@ -70,8 +70,9 @@ pub(super) fn cover(answer: &Answer) -> Judged {
     }))
 }
 
-/// Segments of isolines keep their v and lead from u = 0 to u = 1, none is at v = 1, and the lines are equally
-/// spaced. Each line is walked once; in Direct3D a rounded location may go backwards on the way.
+/// Segments of isolines keep their v and lead from u = 0 to u = 1, none is at v = 1, and the lines
+/// are equally spaced. Each line is walked once; in Direct3D a rounded location may go backwards on
+/// the way.
 pub(super) fn isolines(answer: &Answer, specification: Specification) -> Judged {
     if answer.case.domain() != Domain::Isoline || answer.has_points() {
         return None;

@@ -1,8 +1,9 @@
 //! The rule about the triangles between two lines.
 //!
-//! Vulkan (22.6, 22.7) and OpenGL leave the triangles to the device, but two vertices of each are neighbours on one
-//! line, and the third is on the line beside it: on the same edge of the outline and of the rectangle or ring inside,
-//! or of two rings. A cell of a quad's columns and rows has two triangles. A triangle's innermost ring is a triangle.
+//! Vulkan (22.6, 22.7) and OpenGL leave the triangles to the device, but two vertices of each are
+//! neighbours on one line, and the third is on the line beside it: on the same edge of the outline
+//! and of the rectangle or ring inside, or of two rings. A cell of a quad's columns and rows has
+//! two triangles. A triangle's innermost ring is a triangle.
 
 use super::Judged;
 use super::answer::{Answer, Place, position, show};
@@ -26,8 +27,8 @@ struct Spot {
 /// The spots of each place. A corner has two, a centre one for each edge.
 type Spots = HashMap<Place, Vec<Spot>>;
 
-/// Each triangle joins two neighbours of one line with a vertex of the next one. Patches whose lines have other numbers
-/// of segments than their levels ask for are not judged.
+/// Each triangle joins two neighbours of one line with a vertex of the next one. Patches whose
+/// lines have other numbers of segments than their levels ask for are not judged.
 pub(super) fn neighbours(answer: &Answer, specification: Specification) -> Judged {
     let case = &answer.case;
     let is_right = |judged: Judged| judged.is_some_and(|result| result.is_ok());
@@ -87,8 +88,8 @@ fn rectangle(answer: &Answer, grid: &Grid, spots: &mut Spots) {
     let ([first_u, last_u], [first_v, last_v]) = (ends(&grid.columns), ends(&grid.rows));
     for place in answer.inside() {
         let [u, v] = place.map(Some);
-        let at = |edge: usize| if edge % 2 == 0 { place[1] } else { place[0] };
-        let along = |edge: usize| if edge % 2 == 0 { &grid.rows } else { &grid.columns };
+        let at = |edge: usize| if edge.is_multiple_of(2) { place[1] } else { place[0] };
+        let along = |edge: usize| if edge.is_multiple_of(2) { &grid.rows } else { &grid.columns };
         for (edge, is_on) in
             [u == first_u, v == first_v, u == last_u, v == last_v].into_iter().enumerate()
         {
@@ -119,7 +120,8 @@ fn in_cell(grid: &Grid, triangle: &[Place; 3]) -> bool {
     spans_one(&grid.columns, 0) && spans_one(&grid.rows, 1)
 }
 
-/// Whether two vertices of a triangle are neighbours on a line, and the third one is on the line before or after it.
+/// Whether two vertices of a triangle are neighbours on a line, and the third one is on the line
+/// before or after it.
 fn between(spots: &Spots, triangle: &[Place; 3]) -> bool {
     let of = |k: usize| spots.get(&triangle[k]).map_or(&[][..], Vec::as_slice);
     (0..3).any(|first| {

@@ -1,8 +1,9 @@
 //! The concentric triangles of a triangle patch, found in its vertices.
 //!
-//! Vulkan (22.6) and OpenGL make them from the inner level's division of an edge, at places t from 0 to 1. The corner
-//! of ring r is where two lines meet that are perpendicular to its edges at the r-th place; the ring's edge is divided
-//! by the perpendiculars at the other places. In coordinates:
+//! Vulkan (22.6) and OpenGL make them from the inner level's division of an edge, at places t from
+//! 0 to 1. The corner of ring r is where two lines meet that are perpendicular to its edges at the
+//! r-th place; the ring's edge is divided by the perpendiculars at the other places. In
+//! coordinates:
 //!
 //! ```text
 //!         depth of ring r = 2/3 t(r)            n = 5: t = 0, 1/5, 2/5, 3/5, 4/5, 1
@@ -15,8 +16,8 @@
 //!            v=0
 //! ```
 //!
-//! A vertex is on the ring that its distance from the outline says. Where two rings are so close that rounding may mix
-//! them, there are no [`Rings`], and no rule about them judges the patch.
+//! A vertex is on the ring that its distance from the outline says. Where two rings are so close
+//! that rounding may mix them, there are no [`Rings`], and no rule about them judges the patch.
 
 use super::answer::Place;
 use super::edge::TOLERANCE;
@@ -27,9 +28,11 @@ use tess_core::fixed_point::ONE;
 pub(super) struct Ring {
     /// Its number, from 1.
     pub(super) number: u32,
-    /// The least and the largest distance of its vertices from the outline, as the least of u, v and w.
+    /// The least and the largest distance of its vertices from the outline, as the least of u, v
+    /// and w.
     pub(super) depths: [u32; 2],
-    /// Vertices of each edge in the order of a clockwise walk, both corners included, each with its place t.
+    /// Vertices of each edge in the order of a clockwise walk, both corners included, each with its
+    /// place t.
     pub(super) edges: [Vec<(u32, Place)>; 3],
 }
 
@@ -59,8 +62,8 @@ fn depth(place: Place) -> u32 {
 }
 
 impl Rings {
-    /// The rings of n segments that vertices inside make; `None` if there are fewer or more vertices than these have, or
-    /// rings are too close to tell apart.
+    /// The rings of n segments that vertices inside make; `None` if there are fewer or more
+    /// vertices than these have, or rings are too close to tell apart.
     pub(super) fn new(mut inside: Vec<Place>, n: u32) -> Option<Self> {
         if inside.len() != vertices_inside(n) {
             return None;

@@ -1,7 +1,9 @@
-//! Rules of Direct3D, which says where each vertex is and which primitives there are (specification, sections 5 to 7).
+//! Rules of Direct3D, which says where each vertex is and which primitives there are
+//! (specification, sections 5 to 7).
 //!
-//! The order of primitives is free, and so is the vertex that leads a triangle (section 13). The specified answer is
-//! the model's; there is none where a level has two legal conversions, or the patch may be culled.
+//! The order of primitives is free, and so is the vertex that leads a triangle (section 13). The
+//! specified answer is the model's; there is none where a level has two legal conversions, or the
+//! patch may be culled.
 
 use super::Judged;
 use super::answer::{Answer, Place, show};
@@ -64,8 +66,8 @@ fn primitives_of(answer: &Answer) -> BTreeMap<Vec<Place>, usize> {
     times
 }
 
-/// Primitives are the specified ones, in any order; coinciding points may be merged. Lines of triangles and quads join
-/// the points in their order, which is free, so they are not compared.
+/// Primitives are the specified ones, in any order; coinciding points may be merged. Lines of
+/// triangles and quads join the points in their order, which is free, so they are not compared.
 pub(super) fn primitives(answer: &Answer, specified: Option<&Answer>) -> Judged {
     let is_view = answer.case.primitive_size() == 2 && answer.case.domain() != Domain::Isoline;
     let specified = specified?;

@@ -41,9 +41,11 @@ named! {
         Discard = "discard",
         /// An edge has as many segments as its level asks for.
         Segments = "segments",
-        /// Segments are equally long except two, which are symmetric and vanish just above the integer below.
+        /// Segments are equally long except two, which are symmetric and vanish just above the
+        /// integer below.
         Spacing = "spacing",
-        /// The inner levels give the numbers of columns and rows of a quad, and of rings of a triangle.
+        /// The inner levels give the numbers of columns and rows of a quad, and of rings of a
+        /// triangle.
         InnerLevels = "inner-levels",
         /// The columns, rows and rings of the inside are spaced as edges of their levels are.
         InnerSpacing = "inner-spacing",
@@ -51,7 +53,8 @@ named! {
         EqualLevels = "equal-levels",
         /// The two shorter segments grow with the level.
         Monotone = "monotone",
-        /// Triangles cover the domain once: every edge within is shared, and the outline is walked once.
+        /// Triangles cover the domain once: every edge within is shared, and the outline is walked
+        /// once.
         Cover = "cover",
         /// Each triangle joins two neighbouring vertices of one line with one of the next line.
         Neighbours = "neighbours",
@@ -99,10 +102,11 @@ impl Specification {
         all.filter(move |rule| self.source(*rule).is_some())
     }
 
-    /// The section of the standard that states a rule, by number and title; `None` if the standard has no such rule.
+    /// The section of the standard that states a rule, by number and title; `None` if the standard
+    /// has no such rule.
     ///
-    /// Direct3D's rules are sections of `docs/specification.md`, which refines chapter 11 of the D3D11.3 functional
-    /// specification.
+    /// Direct3D's rules are sections of `docs/specification.md`, which refines chapter 11 of the
+    /// D3D11.3 functional specification.
     #[must_use]
     pub const fn source(self, rule: Rule) -> Option<&'static str> {
         match self {
@@ -153,8 +157,8 @@ const fn opengl_source(rule: Rule) -> Option<&'static str> {
     }
 }
 
-/// Direct3D's locations are exact, so `Places` and `Primitives` include what other standards say of spacing, winding and
-/// the inside.
+/// Direct3D's locations are exact, so `Places` and `Primitives` include what other standards say of
+/// spacing, winding and the inside.
 const fn d3d11_source(rule: Rule) -> Option<&'static str> {
     match rule {
         Rule::Same => Some("13 What the public specification leaves open: order"),

@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// Judges what a device gives for patches, of which the last has a fault: the rule is the only one to find it,
-/// names the patches, and holds without it.
+/// Judges what a device gives for patches, of which the last has a fault: the rule is the only one
+/// to find it, names the patches, and holds without it.
 fn found_by_alone(specification: Specification, rule: Rule, lines: &[&str], fault: Fault) {
     let mut answers: Vec<_> = lines.iter().map(|line| model(case(line))).collect();
     let report = judge(specification, answers.iter().cloned());
@@ -29,8 +29,8 @@ fn squeeze(output: &mut Tessellation, axis: usize, by: u32) {
     move_point(output, at(0xC000), at(0xC000 - by));
 }
 
-/// Exchanges the diagonal of the first convex pair of triangles that is wanted by the numbers of its
-/// vertices with u = 0 and of those on the outline.
+/// Exchanges the diagonal of the first convex pair of triangles that is wanted by the numbers of
+/// its vertices with u = 0 and of those on the outline.
 fn flip(output: &mut Tessellation, wanted: [usize; 2]) {
     let triangles = output.indices.as_chunks::<3>().0.to_vec();
     for (i, one) in triangles.iter().enumerate() {
@@ -140,11 +140,13 @@ fn faults_of_the_inside() {
     // A row of vertices, and a vertex of a ring, at another place.
     found_by_alone(VULKAN, Rule::InnerSpacing, &[QUAD], |output| move_row(output, 40));
     found_by_alone(VULKAN, Rule::InnerSpacing, &[TRI], |output| {
-        // After 12 vertices of the outline and 4 of the ring: the first one beside v = 0 that is not a corner.
+        // After 12 vertices of the outline and 4 of the ring: the first one beside v = 0 that is
+        // not a corner.
         let vertex = &mut output.points[16];
         *vertex = DomainPoint::from_bits(vertex.u.to_bits() + 40, vertex.v.to_bits());
     });
-    // The shorter segments of one level at two places: split off beside the ends, or beside the middle.
+    // The shorter segments of one level at two places: split off beside the ends, or beside the
+    // middle.
     let line = "case isoline fractional_even line ruler 3f800000 40a80000";
     found_by_alone(VULKAN, Rule::EqualLevels, &[line, &line.replace(" 3f8", " 400")], |output| {
         let center = "case isoline fractional_even line center 40000000 40a80000";
@@ -175,7 +177,8 @@ fn faults_of_primitives() {
     let touching = "case quad fractional_odd triangle_cw ruler 40a00000 40a00000 40a00000 40a00000 \
                     3f800000 3f800000";
     found_by_alone(VULKAN, Rule::Orientation, &[touching], |output| {
-        // The corner of the rectangle inside that is near (0, 0), beyond the diagonal of its two triangles.
+        // The corner of the rectangle inside that is near (0, 0), beyond the diagonal of its two
+        // triangles.
         let corner = output.points.len() - 3;
         output.points[corner] = DomainPoint::from_bits(0xF000, 0xF000);
     });

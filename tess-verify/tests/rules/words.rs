@@ -112,7 +112,8 @@ fn faults_of_primitives_in_words() {
     assert_eq!(repeated, "(10000, 10000) is a point twice");
 }
 
-/// The words on an edge whose vertices are not where its level puts them: equal lengths, and two shorter ones.
+/// The words on an edge whose vertices are not where its level puts them: equal lengths, and two
+/// shorter ones.
 #[test]
 fn faults_of_edges_in_words() {
     // The points from the second on are at these places.
@@ -147,7 +148,8 @@ fn faults_of_edges_in_words() {
     }
 }
 
-/// Each end alone, and a vertex without its mirror image, on every edge of a quad; of isolines on that of the lines.
+/// Each end alone, and a vertex without its mirror image, on every edge of a quad; of isolines on
+/// that of the lines.
 #[test]
 fn edges_are_symmetric_about_their_middles() {
     let ends = [[0, ONE], [0, 0], [ONE, 0], [ONE, ONE]];
@@ -184,7 +186,8 @@ fn edges_may_be_mirrored() {
         }
         row(&judge(VULKAN, [(case, output)]), Rule::EveryEdge).verdict()
     };
-    // A clockwise walk goes along two edges the way their coordinate grows, and along two the other way.
+    // A clockwise walk goes along two edges the way their coordinate grows, and along two the other
+    // way.
     assert_eq!(verdict(&[[0, 0], [0, ONE], [1, 0], [1, ONE]]), Verdict::Held, "mirrored");
     assert_eq!(verdict(&[[0, 0], [0, ONE], [1, 0]]), Verdict::Broken, "one is another");
 }

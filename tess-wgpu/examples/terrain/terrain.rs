@@ -70,8 +70,7 @@ impl Show for Terrain {
                 self.points = match self.points {
                     Points::Stored => Points::Pull,
                     Points::Pull => Points::PullWithoutIndices,
-                    Points::PullWithoutIndices => Points::Evaluated,
-                    Points::Evaluated => Points::Stored,
+                    Points::PullWithoutIndices => Points::Stored,
                 }
             }
             _ => return Ok(()),
@@ -105,8 +104,7 @@ pub(crate) fn points(word: &str) -> Result<Points, String> {
         "stored" => Ok(Points::Stored),
         "pull" => Ok(Points::Pull),
         "none" => Ok(Points::PullWithoutIndices),
-        "evaluated" => Ok(Points::Evaluated),
-        _ => Err(format!("--points {word} is none of stored, pull, none and evaluated")),
+        _ => Err(format!("--points {word} is none of stored, pull and none")),
     }
 }
 

@@ -5,7 +5,9 @@ use crate::Batch;
 use crate::device::pipelines::{Edit, Pipelines};
 use crate::error::Error;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use tess_gpu::{Limits, Setup, Stage};
+#[cfg(feature = "measure")]
+use tess_gpu::Stage;
+use tess_gpu::{Limits, Setup};
 
 /// Makes batches for one device, and keeps the pipelines and tables that they share.
 ///
@@ -48,12 +50,6 @@ impl Tessellator {
 
     pub(crate) const fn device(&self) -> &wgpu::Device {
         &self.device
-    }
-
-    /// Makes the pipelines of these stages that are missing.
-    pub(crate) fn compile(&self, setup: Setup, stages: &[Stage]) -> Result<(), Error> {
-        let mut pipelines = self.pipelines();
-        stages.iter().try_for_each(|&stage| pipelines.pipeline(stage, setup).map(drop))
     }
 
     /// The pipelines that clones share.

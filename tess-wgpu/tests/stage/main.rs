@@ -11,9 +11,7 @@ mod camera;
 mod common;
 mod cracks;
 mod drawing;
-mod draws;
 mod errors;
-mod evaluated;
 mod frames;
 #[path = "../common/sequences.rs"]
 mod hold;

@@ -1,9 +1,8 @@
 //! One whole patch at a time, held for a test bench that reads all of its elements.
 //!
-//! `tess_dpi_point` and `tess_dpi_primitive` compute one element of any patch. A bench that compares
-//! whole patches opens a configuration once, passes it one patch after another, and reads points and
-//! indices from memory. The patches are tessellated as by
-//! [`tess_batch_patch`](crate::batch::tess_batch_patch).
+//! `tess_dpi_point` and `tess_dpi_primitive` work out one element of any patch. Whoever compares whole
+//! patches opens a configuration once, gives it one patch after another, and reads points and indices
+//! from memory. The patches go the way of [`tess_batch_patch`](crate::batch::tess_batch_patch).
 
 use super::{factors_of, sizes, write_each};
 use crate::boundary;
@@ -12,7 +11,8 @@ use crate::types::{TessConfig, TessPoint};
 use tess_core::{Counts, Domain, DomainPoint, MAX_INDICES, MAX_POINTS};
 use tess_simd::{CountedPatch, Tessellator};
 
-/// A configuration and its last tessellated patch. `tess_dpi_open` makes it, `tess_dpi_close` frees it.
+/// A configuration and the patch that was tessellated last. Made by `tess_dpi_open`, given back to
+/// `tess_dpi_close`.
 #[derive(Debug)]
 pub struct TessHeldPatch {
     tessellator: Tessellator,
@@ -23,7 +23,7 @@ pub struct TessHeldPatch {
     indices: Vec<u32>,
 }
 
-/// Makes a holder of one patch at a time of a configuration; before the first patch it has no elements.
+/// Makes what holds one patch at a time of a configuration; it has no elements before the first one.
 ///
 /// # Safety
 /// - `held`, if not null and aligned, must be valid for writing one pointer.
@@ -64,8 +64,7 @@ pub unsafe extern "C" fn tess_dpi_close(held: *mut TessHeldPatch) {
     }
 }
 
-/// Tessellates a patch, holds it in place of the one before, and gives its sizes. A refused call leaves
-/// the patch before.
+/// Tessellates a patch, which is held from then on instead of the one before, and gives its sizes.
 ///
 /// # Safety
 /// - `held` is null or came from `tess_dpi_open`, and is in no other call at the same time.
@@ -87,9 +86,6 @@ pub unsafe extern "C" fn tess_dpi_patch(
         boundary::check(held)?;
         // SAFETY: not null, made by `tess_dpi_open` and in no other call, as the caller promises.
         let held = unsafe { &mut *held };
-        for pointer in [points, primitives, indices] {
-            boundary::check(pointer)?;
-        }
         let factors = factors_of(held.domain, [f0, f1, f2, f3, f4, f5]);
         let written = held.tessellator.patch(factors, &mut held.points, &mut held.indices);
         held.counts = written.map_err(|_| TESS_INTERNAL)?; // no patch is larger than the room
@@ -98,7 +94,7 @@ pub unsafe extern "C" fn tess_dpi_patch(
     })
 }
 
-/// Point `i` of the held patch.
+/// Point `i` of the patch that is held.
 ///
 /// # Safety
 /// - `held` is null or came from `tess_dpi_open`.
@@ -121,7 +117,7 @@ pub unsafe extern "C" fn tess_dpi_held_point(
     })
 }
 
-/// Index `i` of the held patch.
+/// Index `i` of the patch that is held.
 ///
 /// # Safety
 /// - `held` is null or came from `tess_dpi_open`.

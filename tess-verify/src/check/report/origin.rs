@@ -1,7 +1,8 @@
 //! Where the model's side of a difference comes from.
 
-use super::{PointReport, PrimitiveReport};
-use crate::check::{Difference, Element};
+use super::Difference;
+use crate::check::compare::Element;
+use crate::show::{PointReport, PrimitiveReport};
 use tess_core::{Patch, Tessellation};
 
 impl Difference {

@@ -1,0 +1,173 @@
+//! Levels that are ignored, exchanged, shared, or another patch's.
+
+use super::places::*;
+use super::*;
+
+pub(super) fn all() -> Vec<Mistake> {
+    [ignored(), exchanged(), shared(), of_other_patches()].into_iter().flatten().collect()
+}
+
+/// A device that mixes levels up, and discards the patches that it should.
+pub(super) fn mixes(
+    mistake: Mistake,
+    name: impl Into<String>,
+    other: impl Fn(&Case) -> Case + Sync + 'static,
+) -> Mistake {
+    mistake.asks(name, move |case| {
+        let mixed = other(case);
+        if is_discarded(case) || is_discarded(&mixed) { *case } else { mixed }
+    })
+}
+
+/// A variant for each of some numbers.
+pub(super) fn for_each<T: Copy + std::fmt::Debug + Sync + 'static>(
+    mistake: Mistake,
+    values: impl IntoIterator<Item = T>,
+    other: impl Fn(&Case, T) -> Case + Copy + Sync + 'static,
+) -> Mistake {
+    values.into_iter().fold(mistake, |mistake, value| {
+        mixes(mistake, format!("{value:?}"), move |case| other(case, value))
+    })
+}
+
+/// The position of an inner level, if there is one.
+pub(super) fn inner(case: &Case, number: usize) -> Option<usize> {
+    let position = outer(case) + number;
+    (position < case.domain().factors()).then_some(position)
+}
+
+fn pairs(count: usize) -> Vec<[usize; 2]> {
+    (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b])).collect()
+}
+
+fn ignored() -> Vec<Mistake> {
+    let is_outer = |case: &Case, p: usize| p < outer(case);
+    vec![
+        for_each(Mistake::new("an outer level is ignored"), 0..4, move |case, p| {
+            if is_outer(case, p) { one(case, p, |_| 1.0) } else { *case }
+        }),
+        for_each(Mistake::new("an inner level is ignored"), 0..2, |case, number| {
+            inner(case, number).map_or(*case, |p| one(case, p, |_| 1.0))
+        }),
+        mixes(Mistake::new("both inner levels are ignored"), "both", |case| {
+            each(case, |p, level| if p < outer(case) { level } else { 1.0 })
+        }),
+    ]
+}
+
+fn exchange(case: &Case, [a, b]: [usize; 2]) -> Case {
+    if b >= case.domain().factors() {
+        return *case;
+    }
+    taken(case, |p| match p {
+        _ if p == a => b,
+        _ if p == b => a,
+        _ => p,
+    })
+}
+
+fn exchanged() -> Vec<Mistake> {
+    vec![
+        for_each(Mistake::new("two outer levels are exchanged"), pairs(4), |case, [a, b]| {
+            if b < outer(case) { exchange(case, [a, b]) } else { *case }
+        }),
+        mixes(Mistake::new("the inner levels are exchanged"), "both", |case| {
+            if inner(case, 1).is_some() { exchange(case, [4, 5]) } else { *case }
+        }),
+        for_each(
+            Mistake::new("an outer and an inner level are exchanged"),
+            pairs(6).into_iter().filter(|[a, b]| *a < 4 && *b >= 3 && *b != *a),
+            |case, [a, b]| {
+                let crosses = a < outer(case) && b >= outer(case);
+                if crosses { exchange(case, [a, b]) } else { *case }
+            },
+        ),
+        for_each(Mistake::new("the outer levels are rotated by some edges"), 1..4, |case, by| {
+            let n = outer(case);
+            if by < n { taken(case, |p| if p < n { (p + by) % n } else { p }) } else { *case }
+        }),
+    ]
+}
+
+/// A level in the place of others: of the outer or inner ones, as some function of them.
+fn shared() -> Vec<Mistake> {
+    let largest = |levels: &[f32]| levels.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let least = |levels: &[f32]| levels.iter().copied().fold(f32::INFINITY, f32::min);
+    let of_inner = move |case: &Case, of: &dyn Fn(&[f32]) -> f32| {
+        let inner = &levels(case)[outer(case)..];
+        if inner.len() < 2 {
+            return *case;
+        }
+        let shared = of(inner);
+        each(case, |p, level| if p < outer(case) { level } else { shared })
+    };
+    let of_outer = move |case: &Case, of: &dyn Fn(&[f32]) -> f32| {
+        let shared = of(&levels(case)[..outer(case)]);
+        each(case, |p, level| if p < outer(case) { shared } else { level })
+    };
+    let for_inner = Mistake::new("one inner level is used for both");
+    let for_inner = for_each(for_inner, 0..2, |case, number| {
+        inner(case, number)
+            .map_or(*case, |from| taken(case, |p| if p < outer(case) { p } else { from }))
+    });
+    let for_inner = mixes(for_inner, "the larger", move |case| of_inner(case, &largest));
+    let for_inner = mixes(for_inner, "the smaller", move |case| of_inner(case, &least));
+    #[expect(clippy::float_arithmetic, reason = "a mistake in binary32")]
+    let mean =
+        |levels: &[f32]| levels.iter().sum::<f32>() / if levels.len() > 1 { 2.0 } else { 1.0 };
+    let for_inner = mixes(for_inner, "the mean", move |case| of_inner(case, &mean));
+    let for_outer = Mistake::new("one outer level is used for all edges");
+    let for_outer = for_each(for_outer, 0..4, |case, from| {
+        if from < outer(case) {
+            taken(case, |p| if p < outer(case) { from } else { p })
+        } else {
+            *case
+        }
+    });
+    let for_outer = mixes(for_outer, "the largest", move |case| of_outer(case, &largest));
+    let for_outer = mixes(for_outer, "the smallest", move |case| of_outer(case, &least));
+    let from_outer = Mistake::new("an inner level is taken from an outer one");
+    let crossing: Vec<_> = pairs(6).into_iter().filter(|[a, b]| *a < 4 && *b >= 3).collect();
+    let from_outer = for_each(from_outer, crossing.clone(), |case, [a, b]| {
+        let crosses = a < outer(case) && b >= outer(case) && b < case.domain().factors();
+        if crosses { taken(case, |p| if p == b { a } else { p }) } else { *case }
+    });
+    let from_outer = mixes(from_outer, "the largest", move |case| {
+        let level = largest(&levels(case)[..outer(case)]);
+        each(case, |p, own| if p < outer(case) { own } else { level })
+    });
+    let from_inner = Mistake::new("an outer level is taken from an inner one");
+    let from_inner = for_each(from_inner, crossing, |case, [a, b]| {
+        let crosses = a < outer(case) && b >= outer(case) && b < case.domain().factors();
+        if crosses { taken(case, |p| if p == a { b } else { p }) } else { *case }
+    });
+    vec![for_inner, for_outer, from_outer, from_inner]
+}
+
+/// Levels of the patches around a patch.
+fn of_other_patches() -> Vec<Mistake> {
+    fn other(
+        mistake: Mistake,
+        name: &'static str,
+        number: impl Fn(usize) -> usize + Copy + Sync + 'static,
+    ) -> Mistake {
+        (0..6).chain([usize::MAX]).fold(mistake, |mistake, position| {
+            let is_all = position == usize::MAX;
+            let name = if is_all { format!("{name}, all") } else { format!("{name}, {position}") };
+            mistake.remembers(name, move |cases, i| {
+                let own = cases[i];
+                let there = cases.get(number(i)).map_or(own, |case| *case);
+                let others = levels(&there);
+                let mixed =
+                    each(&own, |p, level| if is_all || p == position { others[p] } else { level });
+                let keeps = is_discarded(&own) || is_discarded(&mixed);
+                if keeps { own } else { mixed }
+            })
+        })
+    }
+    let neighbours = Mistake::new("levels are those of the patch before or after");
+    let neighbours = other(neighbours, "before", |i| i.saturating_sub(1));
+    let neighbours = other(neighbours, "after", |i| i + 1);
+    let first = other(Mistake::new("levels are those of the first patch"), "first", |_| 0);
+    vec![neighbours, first]
+}

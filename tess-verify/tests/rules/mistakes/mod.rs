@@ -1,0 +1,479 @@
+//! Every kind of mistake, planted in the model's output, beside what each standard's rules make of
+//! it.
+//!
+//! ```text
+//!  cases of `tess gen --rules` ──► a device with one mistake ──► Checker ──► rules that it breaks
+//!                                                                              │
+//!      docs/rules.md, "Mistakes" ◄── a row for each mistake ◄──────────────────┘
+//! ```
+//!
+//! The model itself breaks some rules of Vulkan on some patches. A mistake counts as broken where a
+//! rule judges a patch wrong more often than it does with the model. Every variant of a mistake is
+//! planted under every domain and spacing that it can show in, and each of these must be broken, or
+//! the row says which sentence of the standard allows it.
+//!
+//! - Vulkan has no pow2, so only Direct3D judges it.
+//! - Where a standard allows a mistake, 100 patches are judged.
+//! - Patches are judged until the first broken rule, so a row has the rules that see a mistake first.
+//! - A variant that changes no answer of a domain and spacing is not planted there. Each is planted somewhere.
+//! - OpenGL has Vulkan's rules, which [`opengl_has_the_rules_of_vulkan`] shows, so both are one column.
+
+mod geometry;
+mod levels;
+mod places;
+mod primitives;
+mod rounding;
+mod spacing;
+mod state;
+
+use super::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Mutex;
+use tess_core::{Domain, OutputPrimitive, Partitioning};
+
+/// The case that a device answers instead of a case of a list.
+type Other = dyn Fn(&[Case], usize) -> Case + Sync;
+/// Changes a right answer to a case of a list.
+type Spoil = dyn Fn(&[Case], usize, &mut Tessellation) + Sync;
+
+/// How a device answers a case of the list that it is asked.
+enum Device {
+    /// As if it were asked another case.
+    Asks(Box<Other>),
+    /// With a right answer that it spoils.
+    Spoils(Box<Spoil>),
+}
+
+/// A mistake with its variants.
+struct Mistake {
+    /// The words for it in the table.
+    name: &'static str,
+    variants: Vec<Variant>,
+    /// The domains and spacings in which a standard allows it, with the reason.
+    allowed: Vec<Allowed>,
+}
+
+/// One device that makes the mistake.
+struct Variant {
+    name: String,
+    device: Device,
+    /// Whether it needs all domains and spacings in one sequence.
+    is_of_sequence: bool,
+}
+
+/// A sentence by which a standard allows a mistake.
+struct Allowed {
+    standard: Specification,
+    /// Words that the domain and spacing must all be among; without words, everywhere.
+    only: &'static str,
+    because: &'static str,
+}
+
+/// The standards that have a column.
+const STANDARDS: [Specification; 2] = [VULKAN, Specification::D3d11];
+
+impl Mistake {
+    fn new(name: &'static str) -> Self {
+        Self { name, variants: Vec::new(), allowed: Vec::new() }
+    }
+
+    fn with(mut self, name: impl Into<String>, device: Device) -> Self {
+        self.variants.push(Variant { name: name.into(), device, is_of_sequence: false });
+        self
+    }
+
+    /// A device that answers as if it were asked other cases.
+    fn asks(self, name: impl Into<String>, other: impl Fn(&Case) -> Case + Sync + 'static) -> Self {
+        self.with(name, Device::Asks(Box::new(move |cases, i| other(&cases[i]))))
+    }
+
+    /// A device that answers by the cases before or after it too.
+    fn remembers(
+        self,
+        name: impl Into<String>,
+        other: impl Fn(&[Case], usize) -> Case + Sync + 'static,
+    ) -> Self {
+        self.with(name, Device::Asks(Box::new(other)))
+    }
+
+    /// A device that spoils right answers.
+    fn answers(
+        self,
+        name: impl Into<String>,
+        spoil: impl Fn(&Case, &mut Tessellation) + Sync + 'static,
+    ) -> Self {
+        self.with(name, Device::Spoils(Box::new(move |cases, i, out| spoil(&cases[i], out))))
+    }
+
+    /// A device that spoils answers depending on their number.
+    fn spoils(
+        self,
+        name: impl Into<String>,
+        spoil: impl Fn(&[Case], usize, &mut Tessellation) + Sync + 'static,
+    ) -> Self {
+        self.with(name, Device::Spoils(Box::new(spoil)))
+    }
+
+    /// Plants the variants in the whole sequence of patches.
+    fn in_sequence(mut self) -> Self {
+        self.variants.iter_mut().for_each(|variant| variant.is_of_sequence = true);
+        self
+    }
+
+    fn is_allowed(&self, standard: Specification, group: &str) -> bool {
+        self.allowed.iter().any(|own| own.standard == standard && own.is_for(group))
+    }
+
+    fn vulkan_allows(self, only: &'static str, because: &'static str) -> Self {
+        self.allows(VULKAN, only, because)
+    }
+
+    fn d3d11_allows(self, only: &'static str, because: &'static str) -> Self {
+        self.allows(Specification::D3d11, only, because)
+    }
+
+    fn allows(
+        mut self,
+        standard: Specification,
+        only: &'static str,
+        because: &'static str,
+    ) -> Self {
+        self.allowed.push(Allowed { standard, only, because });
+        self
+    }
+}
+
+fn all() -> Vec<Mistake> {
+    [
+        levels::all(),
+        rounding::all(),
+        spacing::all(),
+        state::all(),
+        geometry::all(),
+        primitives::all(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// A group of patches, with the model's answers and how often they break each rule.
+struct Group {
+    /// Domain and spacing, such as `quad fractional_odd`; `all` for the whole sequence.
+    name: String,
+    cases: Vec<Case>,
+    answers: Vec<Tessellation>,
+    /// For each standard, what its rules say of the model's answers to the first patches, as far as
+    /// was asked.
+    model: [Mutex<(Judge, Vec<Vec<u64>>)>; 2],
+}
+
+impl Group {
+    fn new(name: &str, cases: Vec<Case>) -> Self {
+        let answers = cases.iter().map(|case| case.patch().tessellate()).collect();
+        let model = STANDARDS.map(|standard| Mutex::new((Judge::new(standard), Vec::new())));
+        Self { name: name.to_owned(), cases, answers, model }
+    }
+
+    /// The patches of `tess gen --rules` by domain and spacing, and all of them.
+    fn all() -> Vec<Self> {
+        let split = Some(tess_core::SplitOrder::Ruler);
+        let selection = Selection { split, ..Selection::level(GenLevel::Rules, 1) };
+        let cases: Vec<Case> = selection.cases().collect();
+        let mut groups: BTreeMap<String, Vec<Case>> = BTreeMap::new();
+        for case in &cases {
+            let name = format!("{} {}", case.domain().name(), case.config.partitioning.name());
+            groups.entry(name).or_default().push(*case);
+        }
+        groups.insert("all".to_owned(), cases);
+        groups.into_iter().map(|(name, cases)| Self::new(&name, cases)).collect()
+    }
+
+    /// The answer of a device, if it is another one than the model's.
+    fn other_answer(&self, device: &Device, i: usize) -> Option<Tessellation> {
+        let answer = match device {
+            Device::Asks(other) => {
+                let case = other(&self.cases, i);
+                if case == self.cases[i] {
+                    return None;
+                }
+                case.patch().tessellate()
+            }
+            Device::Spoils(spoil) => {
+                let mut answer = self.answers[i].clone();
+                spoil(&self.cases, i, &mut answer);
+                answer
+            }
+        };
+        (answer != self.answers[i]).then_some(answer)
+    }
+
+    /// The first patch for which a device has another answer than the model.
+    fn first_other(&self, device: &Device) -> Option<usize> {
+        (0..self.cases.len()).find(|&i| self.other_answer(device, i).is_some())
+    }
+
+    /// The rules that a device breaks first, and more often than the model does; empty if it breaks
+    /// none among `patches`.
+    fn first_broken(
+        &self,
+        device: &Device,
+        standard: usize,
+        patches: std::ops::Range<usize>,
+    ) -> BTreeSet<&'static str> {
+        let mut judge = Judge::new(STANDARDS[standard]);
+        let mut of_part = (patches.start > 0).then(|| Judge::new(STANDARDS[standard]));
+        for i in patches {
+            let other = self.other_answer(device, i);
+            let found = judge.add(&self.cases[i], other.as_ref().unwrap_or(&self.answers[i]));
+            let model = match &mut of_part {
+                Some(model) => model.add(&self.cases[i], &self.answers[i]),
+                None => self.of_model(standard, i),
+            };
+            let more = found.iter().zip(&model).map(|(own, model)| own > model);
+            let rules: BTreeSet<_> =
+                more.zip(&judge.rules).filter(|(more, _)| *more).map(|(_, rule)| *rule).collect();
+            if !rules.is_empty() {
+                return rules;
+            }
+        }
+        BTreeSet::new()
+    }
+
+    /// How often the model's answer to a patch breaks each rule, after all patches before it.
+    fn of_model(&self, standard: usize, patch: usize) -> Vec<u64> {
+        let mut model = self.model[standard].lock().expect("no panic");
+        let (judge, found) = &mut *model;
+        while found.len() <= patch {
+            let next = found.len();
+            found.push(judge.add(&self.cases[next], &self.answers[next]));
+        }
+        found[patch].clone()
+    }
+
+    /// The rules of a standard that a device breaks first, if any.
+    fn judge(
+        &self,
+        device: &Device,
+        standard: usize,
+        first: usize,
+        is_allowed: bool,
+    ) -> BTreeSet<&'static str> {
+        let all = self.cases.len();
+        if is_allowed {
+            return self.first_broken(device, standard, first..all.min(first + OF_ALLOWED));
+        }
+        // Patches just before the first other answer are the likeliest to be compared with it.
+        let near =
+            self.first_broken(device, standard, first.saturating_sub(NEAR)..all.min(first + NEAR));
+        if near.is_empty() { self.first_broken(device, standard, 0..all) } else { near }
+    }
+}
+
+/// How many patches after the first other answer are judged if a standard allows it.
+const OF_ALLOWED: usize = 100;
+
+/// How many patches before a device's first other answer are judged with it, unless no rule is
+/// broken then.
+const NEAR: usize = 25;
+
+/// A checker that tells how often each patch breaks each rule.
+struct Judge {
+    checker: Checker,
+    rules: Vec<&'static str>,
+    /// How often all patches so far break each rule.
+    sums: Vec<u64>,
+}
+
+impl Judge {
+    fn new(standard: Specification) -> Self {
+        let checker = Checker::new(standard);
+        let rows = checker.report().rows;
+        let rules: Vec<_> = rows.iter().map(|row| row.rule.name()).collect();
+        Self { checker, sums: vec![0; rules.len()], rules }
+    }
+
+    fn add(&mut self, case: &Case, output: &Tessellation) -> Vec<u64> {
+        self.checker.add(case, output);
+        let sums: Vec<u64> = self.checker.report().rows.iter().map(|row| row.broken).collect();
+        let more: Vec<u64> =
+            sums.iter().zip(&self.sums).map(|(now, before)| now - before).collect();
+        self.sums = sums;
+        more
+    }
+}
+
+/// What became of a mistake under one standard.
+#[derive(Default)]
+struct Outcome {
+    /// The rules that each variant breaks first in each group.
+    broken: Vec<BTreeSet<&'static str>>,
+    /// The groups in which a variant breaks none, with the variant.
+    held: Vec<(String, String)>,
+}
+
+impl Outcome {
+    /// A small set of rules of which each variant breaks one in each group: the most frequent ones
+    /// first.
+    fn rules(&self) -> Vec<&'static str> {
+        let mut left: Vec<_> = self.broken.iter().collect();
+        let mut chosen = Vec::new();
+        while let Some(rule) = most_frequent(&left) {
+            left.retain(|rules| !rules.contains(rule));
+            chosen.push(rule);
+        }
+        chosen
+    }
+}
+
+/// Rules whose messages name a mistake, of which the first one is taken if several see it equally
+/// often.
+const TELLING: [&str; 10] = [
+    "inner-levels",
+    "segments",
+    "discard",
+    "isolines",
+    "orientation",
+    "spacing",
+    "inner-spacing",
+    "equal-levels",
+    "points-once",
+    "places",
+];
+
+fn most_frequent(sets: &[&BTreeSet<&'static str>]) -> Option<&'static str> {
+    let mut times: BTreeMap<&'static str, usize> = BTreeMap::new();
+    for rule in sets.iter().flat_map(|set| set.iter()) {
+        *times.entry(rule).or_default() += 1;
+    }
+    let weight = |rule: &str| TELLING.iter().position(|own| *own == rule).unwrap_or(TELLING.len());
+    let best = times.into_iter().max_by_key(|(rule, n)| (*n, std::cmp::Reverse(weight(rule))));
+    best.map(|(rule, _)| rule)
+}
+
+/// Plants every variant of a mistake; the outcome for each standard.
+fn plant(mistake: &Mistake, groups: &[Group]) -> [Outcome; 2] {
+    let mut outcomes = [Outcome::default(), Outcome::default()];
+    for variant in &mistake.variants {
+        let mut planted = 0;
+        for group in groups.iter().filter(|group| (group.name == "all") == variant.is_of_sequence) {
+            let Some(first) = group.first_other(&variant.device) else { continue };
+            planted += 1;
+            for (standard, outcome) in outcomes.iter_mut().enumerate() {
+                if STANDARDS[standard] == VULKAN && group.name.ends_with("pow2") {
+                    continue;
+                }
+                let is_allowed = mistake.is_allowed(STANDARDS[standard], &group.name);
+                let rules = group.judge(&variant.device, standard, first, is_allowed);
+                if rules.is_empty() {
+                    outcome.held.push((group.name.clone(), variant.name.clone()));
+                } else {
+                    outcome.broken.push(rules);
+                }
+            }
+        }
+        let name = &variant.name;
+        assert!(planted > 0, "{}, {name}: changes no answer", mistake.name);
+    }
+    outcomes
+}
+
+impl Allowed {
+    fn is_for(&self, group: &str) -> bool {
+        self.only.split_whitespace().all(|word| group.split(' ').any(|own| own == word))
+    }
+}
+
+/// The cell of a mistake, and the combinations that pass though no sentence allows them.
+fn cell(mistake: &Mistake, standard: Specification, outcome: &Outcome) -> (String, Vec<String>) {
+    let allowed: Vec<_> =
+        mistake.allowed.iter().filter(|allowed| allowed.standard == standard).collect();
+    let is_allowed = |group: &str| allowed.iter().any(|allowed| allowed.is_for(group));
+    let held = outcome.held.iter().filter(|(group, _)| !is_allowed(group));
+    let mut faults: Vec<String> = held
+        .map(|(group, variant)| {
+            format!("{}: {}, {variant}, {group}: no rule", standard.name(), mistake.name)
+        })
+        .collect();
+    let mut parts = Vec::new();
+    let rules: Vec<_> = outcome.rules().iter().map(|rule| format!("`{rule}`")).collect();
+    parts.extend((!rules.is_empty()).then(|| rules.join(", ")));
+    for Allowed { only, because, .. } in allowed.iter().copied() {
+        let is_met = allowed
+            .iter()
+            .filter(|own| own.only == *only)
+            .any(|own| outcome.held.iter().any(|(group, _)| own.is_for(group)));
+        if !is_met && !outcome.broken.is_empty() {
+            faults.push(format!(
+                "{}: {}: broken everywhere, though allowed: {only}",
+                standard.name(),
+                mistake.name
+            ));
+        }
+        let place = if only.is_empty() { String::new() } else { format!(" ({only})") };
+        parts.push(format!("*allowed{place}*: {because}"));
+    }
+    (parts.join("; "), faults)
+}
+
+/// The table of docs/rules.md, line by line, and what is wrong with it.
+fn table() -> (Vec<String>, Vec<String>) {
+    let (mistakes, groups) = (all(), Group::all());
+    let found: Mutex<BTreeMap<usize, [Outcome; 2]>> = Mutex::default();
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let work = || {
+        while let number = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed)
+            && let Some(mistake) = mistakes.get(number)
+        {
+            let outcomes = plant(mistake, &groups);
+            found.lock().expect("no panic").insert(number, outcomes);
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(work);
+        work();
+    });
+    let mut lines = Vec::new();
+    let mut faults = Vec::new();
+    for (number, outcomes) in found.into_inner().expect("no panic") {
+        let mistake = &mistakes[number];
+        let cells = STANDARDS.iter().zip(&outcomes).map(|(standard, outcome)| {
+            let (text, wrong) = cell(mistake, *standard, outcome);
+            faults.extend(wrong);
+            text
+        });
+        lines.push(format!("| {} | {} |", mistake.name, cells.collect::<Vec<_>>().join(" | ")));
+    }
+    (lines, faults)
+}
+
+/// Each mistake is broken by the rules that docs/rules.md names, or allowed by the sentence that it
+/// has.
+#[test]
+fn mistakes_are_broken_or_allowed() {
+    let (lines, faults) = table();
+    let page = include_str!("../../../../docs/rules.md");
+    let (_, section) = page.split_once("\n## Mistakes\n").expect("the section of the table");
+    let documented: Vec<_> = section
+        .lines()
+        .skip_while(|line| !line.starts_with("| ---"))
+        .skip(1)
+        .take_while(|line| line.starts_with("| "))
+        .collect();
+    assert!(faults.is_empty(), "{}\n{}", lines.join("\n"), faults.join("\n"));
+    assert_eq!(documented, lines, "the table should be:\n{}", lines.join("\n"));
+}
+
+/// The column of Vulkan is OpenGL's too.
+#[test]
+fn opengl_has_the_rules_of_vulkan() {
+    let rows = |standard| Checker::new(standard).report().rows;
+    let rules = |standard| rows(standard).iter().map(|row| row.rule).collect::<Vec<_>>();
+    assert_eq!(rules(VULKAN), rules(Specification::OpenGl));
+    let answers: Vec<_> = population().take(3000).map(model).collect();
+    let broken = |standard| {
+        let report = judge(standard, answers.iter().cloned());
+        report.rows.iter().map(|row| (row.judged, row.broken)).collect::<Vec<_>>()
+    };
+    assert_eq!(broken(VULKAN), broken(Specification::OpenGl), "the same verdicts");
+}

@@ -1,0 +1,126 @@
+//! Lines that are divided as another spacing, or another split order, divides them.
+
+#![expect(clippy::float_arithmetic, clippy::float_cmp, reason = "a mistake in binary32")]
+
+use super::places::*;
+use super::*;
+use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder, place};
+
+pub(super) fn all() -> Vec<Mistake> {
+    vec![whole_patch(), density(), edge(), inside(), split(), split_of_edge()]
+}
+
+const SPACINGS: [Partitioning; 3] =
+    [Partitioning::Integer, Partitioning::FractionalOdd, Partitioning::FractionalEven];
+
+fn whole_patch() -> Mistake {
+    SPACINGS.into_iter().fold(Mistake::new("another spacing is used"), |mistake, spacing| {
+        mistake.asks(format!("{spacing:?}"), move |case| {
+            with_config(case, |config| tess_core::Config { partitioning: spacing, ..config })
+        })
+    })
+}
+
+/// The number of isolines by the spacing of their segments.
+fn density() -> Mistake {
+    Mistake::new("the number of isolines follows the spacing").asks("density", |case| {
+        let odd = case.config.partitioning == Partitioning::FractionalOdd;
+        let even = case.config.partitioning == Partitioning::FractionalEven;
+        if case.domain() != Domain::Isoline || !(odd || even) {
+            return *case;
+        }
+        one(case, 0, |level| {
+            let up = level.ceil();
+            let is_odd = up % 2.0 == 1.0;
+            if level > 0.0 && is_odd != odd { up + 1.0 } else { level }
+        })
+    })
+}
+
+/// Places along a line of n segments by another spacing of as many: equal, or with two shorter
+/// ones.
+fn other_places(case: &Case, n: usize) -> Vec<u32> {
+    let number = u32::try_from(n).expect("at most 64");
+    let parity = if n.is_multiple_of(2) { Parity::Even } else { Parity::Odd };
+    // Under fractional spacing, equal segments; under equal spacing, two that are shorter.
+    let less = if case.config.partitioning.has_integer_factors() { 0x8000 } else { 0 };
+    let fixed = FixedFactor::from_bits((number << 16) - less);
+    let context = FactorContext::new(fixed, parity, SplitOrder::Ruler);
+    (0..=number).map(|p| place(&context, p).to_bits()).collect()
+}
+
+fn edge() -> Mistake {
+    let name = "an edge is spaced by another mode, with as many segments";
+    (0..4).fold(Mistake::new(name), |mistake, edge| {
+        mistake.answers(format!("edge {edge}"), move |case, output| {
+            if case.domain() == Domain::Isoline || edge >= outer(case) || output.points.is_empty() {
+                return;
+            }
+            let n = edge_points(case, output, edge).len() - 1;
+            let places = other_places(case, n);
+            // Of 3 segments with fractional spacing, all lengths are those of a level.
+            place_along(case, output, edge, |k, _| places[k]);
+        })
+    })
+}
+
+/// The columns, rows or rings of the inside by another spacing.
+fn inside() -> Mistake {
+    let name = "the inside is spaced by another mode, with as many segments";
+    (0..2).fold(Mistake::new(name), |mistake, axis| {
+        mistake.answers(format!("axis {axis}"), move |case, output| {
+            if case.domain() != Domain::Quad {
+                return;
+            }
+            let is_inside = |[u, v]: [u32; 2]| u != 0 && v != 0 && u != ONE && v != ONE;
+            let own = |point: &DomainPoint| [point.u.to_bits(), point.v.to_bits()];
+            let inside = output.points.iter().map(own).filter(|place| is_inside(*place));
+            let along: BTreeSet<u32> = inside.map(|place| place[axis]).collect();
+            let along: Vec<u32> = along.into_iter().collect();
+            let places = other_places(case, along.len() + 1);
+            move_all(output, |mut place| {
+                if let (true, Ok(k)) = (is_inside(place), along.binary_search(&place[axis])) {
+                    place[axis] = places[k + 1];
+                }
+                place
+            });
+        })
+    })
+}
+
+fn split() -> Mistake {
+    Mistake::new("new vertices are split off from the centre outwards (section 10)")
+        .asks("center", |case| {
+            with_config(case, |config| tess_core::Config { split: SplitOrder::Center, ..config })
+        })
+        .vulkan_allows(
+            "",
+            "the location of the shorter segments is implementation-dependent (22.3), and so are the \
+             triangles (22.6, 22.7)",
+        )
+}
+
+/// One line's shorter segments at the other split order's place.
+fn split_of_edge() -> Mistake {
+    let name = "the shorter segments of one edge are at another place";
+    (0..4).fold(Mistake::new(name), |mistake, edge| {
+        mistake.answers(format!("edge {edge}"), move |case, output| {
+            if case.domain() == Domain::Isoline || edge >= outer(case) || output.points.is_empty() {
+                return;
+            }
+            let other = with_config(case, |config| tess_core::Config {
+                split: SplitOrder::Center,
+                ..config
+            });
+            let center = other.patch().tessellate();
+            let there = edge_points(&other, &center, edge);
+            let along = |i: &usize| {
+                let [u, v] = [center.points[*i].u.to_bits(), center.points[*i].v.to_bits()];
+                let is_across = edge == 0 || edge == 2 && case.domain() == Domain::Quad;
+                if is_across { v } else { u }
+            };
+            let places: Vec<u32> = there.iter().map(along).collect();
+            place_along(case, output, edge, |k, own| places.get(k).copied().unwrap_or(own));
+        })
+    })
+}
