@@ -106,6 +106,20 @@ pub fn edge_by_screen_size(ends: [Vec3; 2], eye: Vec3, pixels_per_unit: f32, seg
     quotient(pixels, eye.distance(middle(ends)) * segment)
 }
 
+/// A factor for segments of `segment` pixels on the straight edge between these ends, under a camera without
+/// perspective: a length of 1 covers `pixels_per_unit` pixels at any distance.
+#[must_use]
+pub fn edge_by_length(ends: [Vec3; 2], pixels_per_unit: f32, segment: f32) -> f32 {
+    quotient(ends[0].distance(ends[1]) * pixels_per_unit, segment)
+}
+
+/// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative or NaN, still does
+/// if `most` is positive.
+#[must_use]
+pub const fn at_most(factor: f32, most: f32) -> f32 {
+    if factor > most { most } else { factor }
+}
+
 /// `scale` divided by the distance from the eye to the middle of the straight edge between these ends, as
 /// [`FactorRule::Distance`].
 #[must_use]

@@ -20,7 +20,7 @@ mod workers;
 
 pub use asked::Asked;
 pub use compare::{Element, Mismatch, SpecStage};
-pub use known::Known;
+pub use known::{Known, KnownOutcome};
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, MismatchGroup, Report};
 pub use second::SecondFormulation;
 pub use strength::{Conversion, Denormals, Elements, ListOrder, Strength, flushed, vertices};
@@ -71,8 +71,8 @@ pub struct Checked<'a> {
 /// records that were checked since its last call; each comes once.
 ///
 /// # Errors
-/// A file that is malformed, truncated or too long, which is known at its end: the report of a
-/// file that is not whole is never given. [`Tested::Listings`] for a file that has none. A backend
+/// A file that is malformed, truncated or too long: the error has the report of the records before that, which
+/// is no verdict. [`Tested::Listings`] for a file that has none. A backend
 /// that could not run, or no backend at all.
 pub fn check<R: BufRead + Send>(
     file: VectorFile<R>,
@@ -108,20 +108,31 @@ pub fn check_asked<R: BufRead + Send>(
     }
     let how = How { header, tested };
     let expected = asked.map(|asked| Expected::new(asked, known));
-    let source = Mutex::new(Source { file, expected, taken: 0, last: None, stopped: None });
+    let source = Source { file, expected, taken: 0, last: None, stopped: false, malformed: None };
+    let source = Mutex::new(source);
     let run = |backend: &mut Box<dyn Backend>| {
         let result = run(&how, &source, known, backend.as_mut(), checked);
         if result.is_err() {
-            lock(&source).stopped.get_or_insert(Ok(()));
+            lock(&source).stopped = true;
         }
         result
     };
     let results = workers::run(backends, run);
-    // A malformed file is reported as such, whatever a backend answered meanwhile.
-    if let Some(Err(error)) = lock(&source).stopped.take() {
-        return Err(error.into());
+    let source = source.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let (findings, malformed) = source.finish()?;
+    let report = sum(findings, results);
+    match malformed {
+        None => Ok(report?),
+        // It is reported as such, whatever a backend answered meanwhile.
+        Some(error) => Err(CheckError::malformed(error, report.unwrap_or_default())),
     }
-    let mut findings = source.into_inner().unwrap_or_else(PoisonError::into_inner).finish()?;
+}
+
+/// The report of what all workers found; `None` stands for one that panicked.
+fn sum(
+    mut findings: Findings,
+    results: Vec<Option<Result<Findings, BackendError>>>,
+) -> Result<Report, BackendError> {
     for result in results {
         findings.join(result.ok_or_else(|| BackendError::new("the backend panicked"))??);
     }
@@ -170,8 +181,9 @@ struct Source<'a, R> {
     taken: u64,
     /// The case of the record that was taken last.
     last: Option<Case>,
-    /// Set when no more records are to be taken before the end, with the reason.
-    stopped: Option<Result<(), VectorError>>,
+    /// Set when no more records are to be taken: a backend failed, or the next one is malformed.
+    stopped: bool,
+    malformed: Option<VectorError>,
 }
 
 /// Records that one worker checks together.
@@ -188,14 +200,14 @@ struct Work {
 impl<R: BufRead> Source<'_, R> {
     fn next_unit(&mut self, how: &How) -> Option<Work> {
         let mut unit = Work { first: self.taken + 1, before: self.last, ..Work::default() };
-        while self.stopped.is_none() && unit.records.len() < unit_size(how.header.kind) {
+        while !self.stopped && unit.records.len() < unit_size(how.header.kind) {
             match self.next_record(how.tested) {
                 Ok(Some((record, astray))) => {
                     unit.astray.push(astray);
                     unit.records.push(record);
                 }
                 Ok(None) => break,
-                Err(error) => self.stopped = Some(Err(error)),
+                Err(error) => (self.stopped, self.malformed) = (true, Some(error)),
             }
         }
         (!unit.records.is_empty()).then_some(unit)
@@ -223,9 +235,16 @@ impl<R: BufRead> Source<'_, R> {
         Ok(Some((record, astray)))
     }
 
-    /// The cases that no record answers.
-    fn finish(self) -> Result<Findings, VectorError> {
-        self.expected.map_or_else(|| Ok(Findings::default()), Expected::finish)
+    /// The cases that no record answers, and what is malformed, if the records end there.
+    fn finish(self) -> Result<(Findings, Option<VectorError>), VectorError> {
+        let Some(expected) = self.expected else {
+            return Ok((Findings::default(), self.malformed));
+        };
+        let findings = match self.malformed {
+            None => expected.finish()?,
+            Some(_) => expected.so_far(),
+        };
+        Ok((findings, self.malformed))
     }
 }
 

@@ -7,18 +7,17 @@
 mod bins;
 mod boundary;
 mod exclusions;
-mod html;
 mod observe;
 mod report;
 mod ucis;
 
 use crate::case::Case;
-pub use exclusions::{Exclusions, UnknownBin};
+pub use exclusions::{Exclusions, UnknownBinError};
 use std::collections::BTreeMap;
 use std::fmt;
 use tess_core::{FactorContext, SplitOrder};
 
-/// How often each bin was hit. A bin is a path such as `middle/oddxeven`; the part before the
+/// How often each bin was hit. A bin is a path such as `middle/ruler/oddxeven`; the part before the
 /// first `/` is its group.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coverage {
@@ -72,13 +71,15 @@ impl Coverage {
     /// Counts the bins that the patches of a stream hit, those of sequences too: each patch follows the one before it,
     /// and the first follows `before`. Part of a stream, such as a shard, has other sequences than the whole.
     pub fn record_stream(&mut self, before: Option<Case>, cases: impl IntoIterator<Item = Case>) {
-        let mut before = before.map(|case| observe::kind(&case));
+        let mut before = before.map(|case| observe::sequence_values_of(&case));
         for case in cases {
             self.record(&case);
-            let kind = observe::kind(&case);
-            if let Some(before) = before.replace(kind.clone()) {
-                self.add(&format!("sequence/{before}/{kind}"), 1);
+            let values = observe::sequence_values_of(&case);
+            let pairs = before.iter().flatten().zip(&values);
+            for ((field, before), (_, value)) in pairs {
+                self.add(&format!("sequence/{field}/{before}/{value}"), 1);
             }
+            before = Some(values);
         }
     }
 
@@ -192,7 +193,7 @@ mod tests {
             assert!(by_number.add(bins[number], 2), "bin {number}");
         }
         assert_eq!(by_number, coverage, "by number");
-        assert_eq!(coverage.hits("middle/oddxodd"), Some(8), "four edges, twice");
+        assert_eq!(coverage.hits("middle/ruler/oddxodd"), Some(8), "four edges, twice");
         let read = Coverage::read_ucis(coverage.to_ucis().as_bytes()).expect("its own file");
         assert_eq!(read, coverage, "by file");
         assert_eq!(coverage.to_string(), coverage.report(&Exclusions::default()));

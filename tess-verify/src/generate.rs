@@ -3,19 +3,19 @@
 //! - Level 1 has every boundary once. It hits every coverage bin and is small enough to simulate.
 //! - Level 2 has every boundary in every position, and every pair of counts.
 //! - Level 3 is random.
-//! - `Rules` has families of patches that the rules of the standards compare ([`crate::rules`]).
+//! - `Rules` has families of patches that the rules of the standards compare.
 //!
 //! Each level ends with random cases.
 
 #[cfg(feature = "arbitrary")]
 mod arbitrary;
 mod boundaries;
+mod choices;
 mod levels;
 mod patches;
 mod random;
 mod related;
 mod thresholds;
-mod workloads;
 
 pub use boundaries::boundary_factors;
 use boundaries::{exceptional_factors, ordinary_factors, special_factors};
@@ -26,9 +26,9 @@ pub(crate) use patches::{factor_up_to, patch_of};
 pub use random::SplitMix64;
 pub use thresholds::thresholds;
 pub(crate) use thresholds::{FIRST_NAN, FRAME, SIGN};
-pub use workloads::{Calls, IndexWidth, Totals, Workload};
 
 use crate::case::Case;
+use choices::Choices;
 use random::Draw;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
@@ -46,8 +46,8 @@ pub enum GenLevel {
     Rules,
 }
 
-/// The newest version of the levels. 2 added [`thresholds`] to levels 1 and 2 and to `Rules`; 3 added pow2, unusual levels
-/// and changes of state to `Rules`. Level 3 never changed.
+/// The version of the levels. It grows when a level or `Rules` gets other cases, so that a file says which it has;
+/// level 3 never changed.
 pub const LEVEL_VERSION: u8 = 3;
 
 /// One of `of` disjoint parts that together are everything.
@@ -92,8 +92,6 @@ impl Shard {
 pub struct Selection {
     /// How much.
     pub level: GenLevel,
-    /// In which version, from 1 to [`LEVEL_VERSION`]: an older one has the cases that it had.
-    pub version: u8,
     /// Seed of everything random.
     pub seed: u64,
     /// Number of random cases; `None` for the level's own number.
@@ -109,12 +107,11 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// The newest version of a level with its own number of random cases, of every domain and partitioning.
+    /// A level with its own number of random cases, of every domain and partitioning.
     #[must_use]
     pub const fn level(level: GenLevel, seed: u64) -> Self {
         Self {
             level,
-            version: LEVEL_VERSION,
             seed,
             random: None,
             domain: None,
@@ -145,17 +142,27 @@ impl Selection {
     /// The cases, in order.
     pub fn cases(self) -> impl Iterator<Item = Case> {
         let systematic = match self.level {
-            GenLevel::One => levels::one(self.version),
-            GenLevel::Two => levels::two(self.version),
+            GenLevel::One => levels::one(&self.choices()),
+            GenLevel::Two => levels::two(&self.choices()),
             GenLevel::Three => Vec::new(),
-            GenLevel::Rules => related::systematic(self.version),
+            GenLevel::Rules => related::systematic(),
         };
+        // Of levels 1 and 2 that is every case: they are made of what is selected.
         let systematic = systematic.into_iter().filter(move |case| self.selects(case));
         let random: Box<dyn Iterator<Item = Case> + Send> = match self.level {
             GenLevel::Rules => Box::new(self.random_families()),
             _ => Box::new(self.random_cases()),
         };
         systematic.chain(random)
+    }
+
+    fn choices(self) -> Choices {
+        Choices {
+            domains: one_or(self.domain, &Domain::ALL),
+            partitionings: one_or(self.partitioning, &Partitioning::ALL),
+            outputs: one_or(self.output, &OutputPrimitive::ALL),
+            splits: one_or(self.split, &SplitOrder::ALL),
+        }
     }
 
     /// How many random cases there are: as many as asked for, or the level's own number.
@@ -174,9 +181,7 @@ impl Selection {
     fn random_families(self) -> impl Iterator<Item = Case> {
         let random = SplitMix64::new(self.seed);
         let count = usize::try_from(self.random_count()).unwrap_or(usize::MAX);
-        let domains = one_or(self.domain, &Domain::ALL);
-        let partitionings = one_or(self.partitioning, &Partitioning::ALL);
-        let splits = one_or(self.split, &SplitOrder::ALL);
+        let Choices { domains, partitionings, splits, .. } = self.choices();
         let families = related::random(random, domains, partitionings, splits);
         // Every family has each output, so the filter leaves some of each.
         families.filter(move |case| self.selects(case)).take(count)
@@ -185,10 +190,7 @@ impl Selection {
     fn random_cases(self) -> impl Iterator<Item = Case> {
         let count = self.random_count();
         let mut random = SplitMix64::new(self.seed);
-        let domains = one_or(self.domain, &Domain::ALL);
-        let partitionings = one_or(self.partitioning, &Partitioning::ALL);
-        let outputs = one_or(self.output, &OutputPrimitive::ALL);
-        let splits = one_or(self.split, &SplitOrder::ALL);
+        let Choices { domains, partitionings, outputs, splits } = self.choices();
         (0..count).map(move |_| {
             let config = Config {
                 partitioning: pick(&mut random, &partitionings),

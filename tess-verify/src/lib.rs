@@ -9,10 +9,13 @@ pub mod generate;
 mod names;
 mod quote;
 pub mod rules;
+#[cfg(feature = "show")]
 pub mod show;
 pub mod vectors;
+#[cfg(feature = "workloads")]
+pub mod workloads;
 
 pub use backend::{Answers, Backend, BackendError};
 pub use case::{Case, CaseError, factor};
 pub use core_backend::CoreBackend;
-pub use names::{Named, UnknownName};
+pub use names::{Named, UnknownNameError};

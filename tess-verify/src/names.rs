@@ -20,10 +20,10 @@ pub trait Named: Copy + PartialEq + 'static {
     /// The value of a name.
     ///
     /// # Errors
-    /// [`UnknownName`], which lists the names there are.
-    fn from_name(name: &str) -> Result<Self, UnknownName> {
+    /// [`UnknownNameError`], which lists the names there are.
+    fn from_name(name: &str) -> Result<Self, UnknownNameError> {
         let found = Self::NAMES.iter().find(|(known, _)| *known == name);
-        found.map(|(_, value)| *value).ok_or_else(|| UnknownName {
+        found.map(|(_, value)| *value).ok_or_else(|| UnknownNameError {
             what: Self::WHAT,
             name: name.into(),
             known: Self::NAMES.iter().map(|(known, _)| *known).collect(),
@@ -35,7 +35,7 @@ pub trait Named: Copy + PartialEq + 'static {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("unknown {what} {}, expected one of: {}", quoted(name), known.join(", "))]
 #[non_exhaustive]
-pub struct UnknownName {
+pub struct UnknownNameError {
     /// The name of the choice.
     pub what: &'static str,
     /// The name.

@@ -1,4 +1,4 @@
-//! Foreign text in messages, bounded and without anything that a terminal would obey, and in documents.
+//! Foreign text in messages, bounded and without anything that a terminal would obey.
 
 /// The most characters of foreign text that a message repeats.
 const MOST: usize = 60;
@@ -10,11 +10,6 @@ pub(crate) fn quoted(text: &str) -> String {
         None => format!("`{shown}`"),
         Some(_) => format!("`{shown}...` ({} bytes)", text.len()),
     }
-}
-
-/// Text between the tags of XML or HTML.
-pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 mod circuit;
 mod drawing;
 mod explanation;
+mod origin;
 mod picture;
 
 pub use circuit::{Part, SignalDifference, SignalError, compare_signals};
@@ -11,4 +12,4 @@ pub use drawing::{
     Colours, Differences, DrawOptions, Drawing, differing, draw, has_rings, overlay,
 };
 pub use explanation::Explanation;
-pub(crate) use explanation::{PointReport, PrimitiveReport};
+use explanation::{PointReport, PrimitiveReport};

@@ -143,7 +143,7 @@ impl<R: BufRead> VectorFile<R> {
         }
         self.records += 1;
         match self.header.kind.columns() {
-            None => record::read_listing(&mut self.lines).map(Some),
+            None => record::read_listing(&mut self.lines, self.records).map(Some),
             Some(columns) => {
                 let row = Row::new(self.lines.last(), columns)?;
                 record::read_row(self.header.kind, &row).map(Some)

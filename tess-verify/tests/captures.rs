@@ -325,6 +325,34 @@ fn what_was_asked_must_be_answered() {
     assert!(error("case tri\n").starts_with("asked:1: case: a case is"), "{}", error("case tri\n"));
 }
 
+/// An answer with more indices than a patch can have does not hide what differs before it, in step or out of it.
+#[test]
+fn what_differs_before_a_malformed_answer_is_reported() {
+    let [tri, quad] = [TRI, QUAD].map(|line| record(line, "hex", hex));
+    let wrong = tri.replacen("\n10000 00000", "\n10000 00001", 1);
+    let overlong = format!("{QUAD}\npoints 3\n{}indices 24579\n", "00000 00000\n".repeat(3));
+    let before = |error: CheckError| match error {
+        CheckError::Malformed { error, before } => {
+            let error = error.to_string();
+            assert!(
+                error.contains(", from line ") && error.ends_with(&format!(": {QUAD})")),
+                "{error}"
+            );
+            (before.cases, before.mismatches)
+        }
+        other => panic!("{other}"),
+    };
+    let alone = run(&file(&format!("{tri}{wrong}{overlong}{wrong}")), ANY).expect_err("malformed");
+    assert_eq!(before(alone), (2, 1), "what follows is not read");
+    let first = run(&file(&overlong), ANY).expect_err("malformed");
+    assert!(matches!(first, CheckError::Vectors(_)), "nothing was checked");
+    let cases = format!("{TRI}\n{QUAD}\n{TRI}\n{QUAD}\n{TRI}\n{QUAD}\n");
+    let answers = |records: &str| before(asked(&cases, records).expect_err("malformed"));
+    assert_eq!(answers(&format!("{tri}{quad}{overlong}")), (2, 0), "in step");
+    assert_eq!(answers(&format!("{tri}{quad}{wrong}{overlong}")), (3, 1), "in step, and wrong");
+    assert_eq!(answers(&format!("{tri}{tri}{quad}{overlong}")), (4, 1), "the second is missing");
+}
+
 /// Outputs of many cases, each changed by `change`.
 fn turned(strength: Strength, change: impl Fn(&Case) -> Tessellation) -> Report {
     let cases: Vec<Case> = Selection { random: Some(300), ..Selection::level(GenLevel::Three, 1) }

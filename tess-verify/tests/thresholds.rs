@@ -6,7 +6,7 @@ use tess_core::{Domain, Partitioning, Tessellation};
 use tess_verify::Case;
 use tess_verify::cover::Coverage;
 use tess_verify::generate::{GenLevel, Selection, thresholds};
-use tess_verify::rules::{Checker, Rule, Specification, Verdict};
+use tess_verify::rules::{Checker, Specification, Verdict};
 use tess_verify::vectors::Fnv1a;
 
 #[test]
@@ -46,12 +46,12 @@ const ANSWERS: [(&str, &str); 14] = [
     ("frame", "166b58aa0535bbb4"),
     ("location", "1ccf68454f941e16"),
     ("minimum", "4e1614c0d362984d"),
-    ("number", "90040ce259944b78"),
-    ("one", "64cdf4e424cad62d"),
+    ("number", "02df4a5bbdae560c"),
+    ("one", "a0bf4b4f78370a54"),
     ("ring", "f2bc6930b4d4906c"),
-    ("round", "90e018b4e686b397"),
+    ("round", "dc9f02b6708941a5"),
     ("sign", "19548317764904f6"),
-    ("whole", "10b59b1f80ee6f11"),
+    ("whole", "5c56ea447ccfbfd9"),
     ("wider", "96e7d106ea11289e"),
 ];
 
@@ -84,18 +84,18 @@ fn late(case: &Case, highest: u32) -> Option<Tessellation> {
     })
 }
 
-/// A pattern late, and at 1.25: version 1 of level 1 has no case that shows either.
+/// A pattern late, and at 1.25: only the thresholds show either.
 #[test]
 fn level_1_sees_late_picture_frames() {
+    let only: HashSet<_> = thresholds().into_iter().map(|(_, case)| case).collect();
     for highest in [0x3F80_0041, 1.25f32.to_bits()] {
-        let differences = |version| {
-            let level = Selection { version, ..Selection::level(GenLevel::One, 1) };
-            let differs = |case: &Case| {
-                late(case, highest).is_some_and(|output| output != case.patch().tessellate())
-            };
-            level.cases().filter(differs).count()
+        let differs = |case: &Case| {
+            late(case, highest).is_some_and(|output| output != case.patch().tessellate())
         };
-        assert_eq!((differences(1), differences(2)), (0, 9), "{highest:#x}");
+        let different: Vec<Case> =
+            Selection::level(GenLevel::One, 1).cases().filter(differs).collect();
+        assert_eq!(different.len(), 9, "{highest:#x}");
+        assert!(different.iter().all(|case| only.contains(case)), "{highest:#x}");
     }
 }
 
@@ -113,5 +113,5 @@ fn rules_see_late_picture_frames() {
         rows.filter(|row| row.verdict() == Verdict::Broken).map(|row| row.rule).collect::<Vec<_>>()
     };
     assert_eq!(broken(0x3F80_0040), [], "right");
-    assert!(broken(0x3F80_0041).contains(&Rule::Counts), "a pattern late");
+    assert_ne!(broken(0x3F80_0041), [], "a pattern late");
 }

@@ -20,8 +20,12 @@ mod gltf;
 mod meshes;
 #[path = "passes/show.rs"]
 mod passes;
+#[path = "pick/show.rs"]
+mod pick;
 #[path = "quickstart/show.rs"]
 mod quickstart;
+#[path = "rays/show.rs"]
+mod rays;
 #[path = "shared/scene.rs"]
 mod scene;
 #[path = "teapot/show.rs"]
@@ -48,14 +52,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         "compute_only" => compute_only::run(),
         "meshes" => run::<meshes::Meshes>(args),
         "passes" => run::<passes::Passes>(args),
+        "pick" => run::<pick::Pick>(args),
         "pull" => run::<terrain::Terrain>(args.or("points", "none")),
         "quickstart" => run::<quickstart::Quickstart>(args),
+        "rays" => rays::run(&args),
         "teapot" => run::<show::Teapot>(args),
         "terrain" if args.text("bench").is_some() => bench::run(&args),
         "terrain" => run::<terrain::Terrain>(args),
-        _ => Err("cargo example NAME: batch, character, compute_only, meshes, passes, pull, \
-                  quickstart, teapot or terrain"
-            .into()),
+        _ => {
+            Err("cargo example NAME: batch, character, compute_only, meshes, passes, pick, pull, \
+                  quickstart, rays, teapot or terrain"
+                .into())
+        }
     }
 }
 
@@ -68,9 +76,14 @@ fn run<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
     let width = args.number("width", 960_u32)?.next_multiple_of(64);
     let size = [width, width * 3 / 4];
     let pixels = app::picture::<S>(&gpu, &args, size)?;
+    save(path, size, &pixels)
+}
+
+/// Writes a picture into a file.
+fn save(path: &str, size: [u32; 2], pixels: &[u8]) -> Result<(), Box<dyn Error>> {
     let mut encoder = png::Encoder::new(File::create(path)?, size[0], size[1]);
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.write_header()?.write_image_data(&pixels)?;
+    encoder.write_header()?.write_image_data(pixels)?;
     Ok(())
 }

@@ -5,7 +5,7 @@ struct TessFrame {
     patches: u32,
 }
 
-@group(GROUP) @binding(0) var<storage, read_write> tess_factors: array<f32>;
+@group(GROUP) @binding(0) var<storage, read_write> tess_written_factors: array<f32>;
 @group(GROUP) @binding(1) var<storage, read> tess_frame: TessFrame;
 
 @compute @workgroup_size(64)
@@ -16,7 +16,7 @@ fn tess_hull(
 ) {
     let number = (tess_workgroup.x + tess_workgroup.y * tess_workgroups.x) * 64u + tess_thread;
     let at = number * TESS_FACTORS;
-    if at < arrayLength(&tess_factors) {
+    if at < arrayLength(&tess_written_factors) {
         tess_write_factors(number, at, number < tess_frame.patches);
     }
 }

@@ -5,6 +5,6 @@ fn tess_write_factors(number: u32, at: u32, is_drawn: bool) {
     if is_drawn {
         factors = hull(number);
     }
-    tess_factors[at] = factors.density;
-    tess_factors[at + 1u] = factors.detail;
+    tess_written_factors[at] = factors.density;
+    tess_written_factors[at + 1u] = factors.detail;
 }

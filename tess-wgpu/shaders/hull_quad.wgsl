@@ -6,8 +6,8 @@ fn tess_write_factors(number: u32, at: u32, is_drawn: bool) {
         factors = hull(number);
     }
     for (var edge = 0u; edge < 4u; edge++) {
-        tess_factors[at + edge] = factors.edges[edge];
+        tess_written_factors[at + edge] = factors.edges[edge];
     }
-    tess_factors[at + 4u] = factors.inside.x;
-    tess_factors[at + 5u] = factors.inside.y;
+    tess_written_factors[at + 4u] = factors.inside.x;
+    tess_written_factors[at + 5u] = factors.inside.y;
 }

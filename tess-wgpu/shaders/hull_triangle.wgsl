@@ -6,7 +6,7 @@ fn tess_write_factors(number: u32, at: u32, is_drawn: bool) {
         factors = hull(number);
     }
     for (var edge = 0u; edge < 3u; edge++) {
-        tess_factors[at + edge] = factors.edges[edge];
+        tess_written_factors[at + edge] = factors.edges[edge];
     }
-    tess_factors[at + 3u] = factors.inside;
+    tess_written_factors[at + 3u] = factors.inside;
 }

@@ -3,27 +3,33 @@
 mod build;
 mod builder;
 mod choices;
+mod evaluation;
 mod factor_pass;
 mod feedback;
 mod fit;
 mod frames;
 mod gl;
+mod mistakes;
 mod modules;
 mod output;
+mod own_group;
 mod passes;
 mod room;
 pub(crate) mod source;
+mod vertex;
 mod wgsl;
 
 pub use crate::error::StageError;
 pub use builder::StageBuilder;
 pub use choices::{Factors, Overflow, PatchCount, Points, Room};
 pub use feedback::Feedback;
+pub use vertex::VertexLayout;
 
 use crate::Tessellator;
 use crate::batch::check_groups;
 use crate::device::gpu;
 use crate::error::Error;
+use evaluation::Evaluation;
 use factor_pass::FactorPass;
 use feedback::Feedbacks;
 use fit::Fit;
@@ -71,41 +77,33 @@ pub struct TessellationStage {
     factors: wgpu::Buffer,
     /// The number of patches of the frame.
     count: wgpu::Buffer,
-    factor_pass: FactorPass,
+    /// None if the stage draws another's output.
+    factor_pass: Option<FactorPass>,
     fit: Option<Fit>,
-    pulled: Option<wgpu::BindGroupLayout>,
+    evaluation: Option<Evaluation>,
+    /// The vertex buffer of draws.
+    vertices: VertexLayout,
+    /// Whether draws read the factors.
+    has_factors: bool,
+    /// The number of instances that draws have, if it is not 1.
+    instances: Option<wgpu::Buffer>,
     /// None if the caller draws with its own.
     pipeline: Option<Arc<wgpu::RenderPipeline>>,
-    output: StageOutput,
+    /// Shared by the stages that draw it.
+    output: Arc<Mutex<StageOutput>>,
     /// Other groups and their output, from the next frame on.
     next: Option<(Vec<u32>, StageOutput)>,
-    feedback: Mutex<Feedbacks>,
+    feedback: Arc<Mutex<Feedbacks>>,
     frame: u64,
 }
 
 /// A bind group of the user's, and its dynamic offsets.
 type UserGroup = (wgpu::BindGroup, Vec<wgpu::DynamicOffset>);
 
-/// The buffers of a frame, for an engine that records its own draws. Draws are indexed, with indices of 32 bits.
-/// Primitives are triangles unless the configuration's output says otherwise.
-#[derive(Clone, Copy, Debug)]
-pub struct DrawBuffers<'a> {
-    /// The vertex buffer, as [`StageBuilder::vertex_shader`] reads it.
-    pub points: &'a wgpu::Buffer,
-    /// The index buffer.
-    pub indices: &'a wgpu::Buffer,
-    /// The arguments of `draw_indexed_indirect` for all patches, at offset 0.
-    pub arguments: &'a wgpu::Buffer,
-    /// The arguments for each group, [`DrawBuffers::GROUP_BYTES`] apart.
-    pub group_arguments: &'a wgpu::Buffer,
-}
-
-impl DrawBuffers<'_> {
-    /// Bytes of the arguments of one group.
-    pub const GROUP_BYTES: u64 = size_of::<tess_gpu::layout::DrawIndexed>() as u64;
-}
-
 impl TessellationStage {
+    /// Bytes of a group's arguments in [`Self::group_indirect`].
+    pub const GROUP_BYTES: u64 = size_of::<tess_gpu::layout::DrawIndexed>() as u64;
+
     /// Begins a stage of up to `patches` patches of one domain, with the user's WGSL.
     pub const fn builder(
         source: &str,
@@ -120,7 +118,8 @@ impl TessellationStage {
     /// and bind groups, which must be set.
     ///
     /// A render bundle would keep buffers that [`Self::prepare`] may replace, so there is no call that draws in one.
-    /// Record your own with [`Self::buffers`], anew whenever [`Self::capacity`] changes.
+    /// Record your own with [`Self::vertices`], [`Self::indices`] and [`Self::indirect`], anew whenever
+    /// [`Self::capacity`] changes.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.draw_as(pass, None);
     }
@@ -130,8 +129,9 @@ impl TessellationStage {
     /// # Errors
     /// [`StageError::NoSuchGroup`].
     pub fn draw_group(&self, pass: &mut wgpu::RenderPass<'_>, group: u32) -> Result<(), Error> {
-        if group as usize >= self.groups.len() {
-            return Err(StageError::NoSuchGroup { group, groups: self.groups.len() }.into());
+        let groups = self.output().batch.plan().groups();
+        if group >= groups {
+            return Err(StageError::NoSuchGroup { group, groups: groups as usize }.into());
         }
         self.draw_as(pass, Some(group));
         Ok(())
@@ -139,31 +139,87 @@ impl TessellationStage {
 
     fn draw_as(&self, pass: &mut wgpu::RenderPass<'_>, group: Option<u32>) {
         let mut number = 0;
+        let output = self.output();
+        let mut own = None;
         if let Some(pipeline) = &self.pipeline {
             pass.set_pipeline(pipeline);
-            for (own, offsets) in &self.bind_groups {
-                pass.set_bind_group(number, own, offsets);
+            for (group, offsets) in &self.bind_groups {
+                pass.set_bind_group(number, group, offsets);
                 number += 1;
             }
+            own = output.own.of(self.has_factors).map(|group| (number, group));
         }
-        self.output.draw(pass, number, group);
+        output.draw(pass, own, group);
     }
 
-    /// The buffers of the last frame that was prepared, for an engine that records the draws itself. A call of
-    /// [`Self::prepare`] replaces them if it makes more room or if [`Self::set_groups`] gave another number of groups.
+    /// The vertices of the last frame that was prepared, or `None` if the vertex shader computes them. They are laid out
+    /// as [`Self::vertex_layout`] says: with [`Points::Evaluated`] the user's `Vertex` structs, with [`Points::Stored`]
+    /// packed points. The buffer has the usages `VERTEX`, `STORAGE` and `COPY_SRC`; evaluated vertices also have
+    /// `BLAS_INPUT` where the device was opened with `EXPERIMENTAL_RAY_QUERY`.
+    ///
+    /// - **Your own render pass:** set this vertex buffer and [`Self::indices`], and draw with [`Self::indirect`].
+    /// - **A compute pass:** declare your `struct Vertex` there and bind the buffer as `array<Vertex>`, read-only; the
+    ///   first word of [`Self::status`] is the number of vertices. Patches, and the points of a patch, follow each other
+    ///   in the model's order.
+    /// - **Reading back:** copy a part of it, once [`Self::feedback`] or [`Self::make_room`] says how much there is.
+    /// - **Ray tracing:** a bottom-level structure reads `Float32x3` at the beginning of each vertex, so the position in
+    ///   the world is the struct's first member. The buffers can be longer than the frame's output; see the example
+    ///   `rays`.
+    ///
+    /// A call of [`Self::prepare`] replaces the buffers if it makes more room, which [`Self::capacity`] shows. So ask
+    /// for them in each frame.
+    #[must_use]
+    pub fn vertices(&self) -> Option<wgpu::Buffer> {
+        self.output().stored.loaded().cloned()
+    }
+
+    /// The index buffer, 32 bits an index, or `None` with [`Points::PullWithoutIndices`]. An index is the number of a
+    /// vertex of the frame. Primitives are triangles unless the configuration's output says otherwise. The usages are
+    /// `INDEX` and those of [`Self::vertices`] but `VERTEX`.
+    #[must_use]
+    pub fn indices(&self) -> Option<wgpu::Buffer> {
+        self.output().stored.indices
+    }
+
+    /// The arguments of `draw_indexed_indirect` for all patches, at offset 0, with the usages `INDIRECT`, `STORAGE` and
+    /// `COPY_SRC`. Their first word is the number of indices. Without indices the first four words are those of
+    /// `draw_indirect`.
+    #[must_use]
+    pub fn indirect(&self) -> wgpu::Buffer {
+        self.output().batch.draw_arguments().clone()
+    }
+
+    /// The same arguments for each group, [`Self::GROUP_BYTES`] apart.
+    #[must_use]
+    pub fn group_indirect(&self) -> wgpu::Buffer {
+        self.output().batch.group_arguments().clone()
+    }
+
+    /// A [`Status`](tess_gpu::layout::Status) after the frame has run: the numbers of points and primitives, and whether
+    /// they fitted. The usages are `STORAGE` and `COPY_SRC`.
+    #[must_use]
+    pub fn status(&self) -> wgpu::Buffer {
+        self.output().batch.status().clone()
+    }
+
+    /// The layout of [`Self::vertices`].
+    #[must_use]
+    pub const fn vertex_layout(&self) -> &VertexLayout {
+        &self.vertices
+    }
+
+    /// Draws this many instances of everything, from the next call of [`Self::prepare`] on; 1 at first. The WGSL asks
+    /// `tess_instance()` for the number of the instance that is drawn.
     ///
     /// # Errors
-    /// [`StageError::NothingStored`] unless points and indices are stored.
-    pub fn buffers(&self) -> Result<DrawBuffers<'_>, Error> {
-        match (&self.output.stored.points, &self.output.stored.indices) {
-            (Some(points), Some(indices)) => Ok(DrawBuffers {
-                points,
-                indices,
-                arguments: self.output.batch.draw_arguments(),
-                group_arguments: self.output.batch.group_arguments(),
-            }),
-            _ => Err(Error::Stage(StageError::NothingStored)),
+    /// [`StageError::DrawsAnother`] for a stage that draws another's output; [`Error::OutOfMemory`].
+    pub fn set_instances(&mut self, instances: u32) -> Result<(), Error> {
+        if self.factor_pass.is_none() {
+            return Err(StageError::DrawsAnother.into());
         }
+        let bytes = instances.to_le_bytes();
+        self.instances = Some(gpu::filled(&self.device, "instances", &bytes, Usage::COPY_SRC)?);
+        Ok(())
     }
 
     /// Replaces the groups that [`StageBuilder::groups`] gave, from the next call of [`Self::prepare`] on. Until then
@@ -171,8 +227,12 @@ impl TessellationStage {
     /// of their numbers.
     ///
     /// # Errors
-    /// [`Error::MisplacedGroup`]; [`Error::OutOfMemory`]. The groups are then what they were.
+    /// [`Error::MisplacedGroup`]; [`StageError::DrawsAnother`] for a stage that draws another's output;
+    /// [`Error::OutOfMemory`]. The groups are then what they were.
     pub fn set_groups(&mut self, first_patches: &[u32]) -> Result<(), Error> {
+        if self.factor_pass.is_none() {
+            return Err(StageError::DrawsAnother.into());
+        }
         if self.next.is_none() && first_patches.len() == self.groups.len() {
             check_groups(self.form.patches, first_patches)?;
             let bytes = bytemuck::cast_slice(first_patches);
@@ -180,7 +240,8 @@ impl TessellationStage {
             self.groups = first_patches.to_vec();
             return Ok(());
         }
-        let output = self.output_of(self.output.room, first_patches, self.output.stored.clone())?;
+        let StageOutput { room, stored, .. } = self.output();
+        let output = self.new_output(room, first_patches, stored)?;
         self.next = Some((first_patches.to_vec(), output));
         Ok(())
     }
@@ -225,7 +286,8 @@ impl TessellationStage {
         encoder: &mut wgpu::CommandEncoder,
         patches: &[PatchFactors],
     ) -> Result<(), Error> {
-        let host = self.factor_pass.host.as_ref().ok_or(StageError::NotHostFactors)?;
+        let host = self.factor_pass.as_ref().and_then(|pass| pass.host.as_ref());
+        let host = host.ok_or(StageError::NotHostFactors)?;
         let (got, most) = (u32::try_from(patches.len()).unwrap_or(u32::MAX), self.form.patches);
         if got > most {
             return Err(StageError::TooManyPatches { got, most }.into());
@@ -262,16 +324,20 @@ impl TessellationStage {
 
     /// The room for points and primitives that the stage has now.
     #[must_use]
-    pub const fn capacity(&self) -> Capacity {
-        self.output.room
+    pub fn capacity(&self) -> Capacity {
+        self.output().room
+    }
+
+    fn output(&self) -> StageOutput {
+        locked(&self.output).clone()
     }
 
     /// The batch that the frames run, and the buffers of its points and indices, where there are any.
     #[cfg(feature = "measure")]
     #[must_use]
-    pub const fn inside(&self) -> (&crate::Batch, [Option<&wgpu::Buffer>; 2]) {
-        let StageOutput { batch, stored, .. } = &self.output;
-        (batch, [stored.points.as_ref(), stored.indices.as_ref()])
+    pub fn inside(&self) -> (Arc<crate::Batch>, [Option<wgpu::Buffer>; 2]) {
+        let StageOutput { batch, stored, .. } = self.output();
+        (batch, [stored.points, stored.indices])
     }
 
     /// Gives room back after so many frames that use little of it.
@@ -288,6 +354,6 @@ impl TessellationStage {
     }
 }
 
-fn locked(feedback: &Mutex<Feedbacks>) -> MutexGuard<'_, Feedbacks> {
-    feedback.lock().unwrap_or_else(PoisonError::into_inner)
+fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1279,6 +1279,21 @@ float tess_edge_by_screen_size(struct TessVec3 a,
                                float segment);
 
 /**
+ * A factor for segments of `segment` pixels on the straight edge from `a` to `b`, under a camera without perspective: a
+ * length of 1 covers `pixels_per_unit` pixels at any distance.
+ */
+float tess_edge_by_length(struct TessVec3 a,
+                          struct TessVec3 b,
+                          float pixels_per_unit,
+                          float segment);
+
+/**
+ * A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative or NaN, still does
+ * if `most` is positive.
+ */
+float tess_at_most(float factor, float most);
+
+/**
  * `scale` divided by the distance from the eye to the middle of the straight edge from `a` to `b`.
  */
 float tess_edge_by_distance(struct TessVec3 a, struct TessVec3 b, struct TessVec3 eye, float scale);

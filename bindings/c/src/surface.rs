@@ -62,6 +62,25 @@ pub extern "C" fn tess_edge_by_screen_size(
     factors::edge_by_screen_size([a.into(), b.into()], eye.into(), pixels_per_unit, segment)
 }
 
+/// A factor for segments of `segment` pixels on the straight edge from `a` to `b`, under a camera without perspective: a
+/// length of 1 covers `pixels_per_unit` pixels at any distance.
+#[unsafe(no_mangle)]
+pub extern "C" fn tess_edge_by_length(
+    a: TessVec3,
+    b: TessVec3,
+    pixels_per_unit: f32,
+    segment: f32,
+) -> f32 {
+    factors::edge_by_length([a.into(), b.into()], pixels_per_unit, segment)
+}
+
+/// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative or NaN, still does
+/// if `most` is positive.
+#[unsafe(no_mangle)]
+pub extern "C" fn tess_at_most(factor: f32, most: f32) -> f32 {
+    factors::at_most(factor, most)
+}
+
 /// `scale` divided by the distance from the eye to the middle of the straight edge from `a` to `b`.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_edge_by_distance(

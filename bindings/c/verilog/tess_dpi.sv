@@ -1,12 +1,13 @@
 // The golden tessellator in SystemVerilog: DPI-C imports and typed wrappers.
 //
 // Link the simulation with the library of tess-capi (libtess_capi.a or .so). All numbers cross as
-// `int unsigned`: factors as the bits of binary32 or 15.16 numbers, coordinates as 16.16 bits. So
-// the calls are the same in every simulator; only what holds a whole patch is a chandle. Each import returns a status: 0 (TESS_OK) or the reason
-// why its outputs were not written, which tess_status_message() puts in words.
+// `int unsigned`, so that the calls are the same in every simulator: factors as the bits of binary32 or
+// 15.16 numbers, coordinates as 16.16 bits. Only the handle of a held patch is a chandle. Each import
+// returns a status: 0 (TESS_OK), or the reason why its outputs were not written, which
+// tess_status_message() puts in words.
 //
-// The wrappers below take enumerations and return structures; where the model refuses the arguments
-// they end the simulation with $fatal and the reason, so that nothing is compared with rubbish.
+// The wrappers below take enumerations and return structures. If the model refuses the arguments, they
+// end the simulation with $fatal and the reason, so that nothing is compared with undefined values.
 package tess_dpi;
 
     typedef enum int unsigned { ISOLINE = 0, TRIANGLE = 1, QUAD = 2 } domain_e;
@@ -29,7 +30,7 @@ package tess_dpi;
     } config_t;
 
     // The bits of a patch's binary32 factors, [0] first, in the order of the domain: density, detail;
-    // outer U=0, V=0, W=0, inside; or outer U=0, V=0, U=1, V=1, inside U, V. The rest is not looked at.
+    // outer U=0, V=0, W=0, inside; or outer U=0, V=0, U=1, V=1, inside U, V. The rest is ignored.
     typedef bit [5:0][31:0] factors_t;
 
     // The context of a factor (specification, section 4).
@@ -117,7 +118,7 @@ package tess_dpi;
         output int unsigned size,
         output int unsigned i0, output int unsigned i1, output int unsigned i2);
 
-    // The number of the i-th coverage bin that a patch hits; TESS_OUT_OF_RANGE behind the last.
+    // The number of the i-th coverage bin that a patch hits; TESS_OUT_OF_RANGE past the last one.
     import "DPI-C" function int unsigned tess_dpi_coverage(
         input int unsigned domain, input int unsigned partitioning,
         input int unsigned out, input int unsigned split_order,
@@ -125,7 +126,7 @@ package tess_dpi;
         input int unsigned f3, input int unsigned f4, input int unsigned f5,
         input int unsigned i, output int unsigned bin);
 
-    // A whole patch at a time, held until the next one: for benches that read all of its elements.
+    // One whole patch at a time, held until the next one: for benches that read all of its elements.
     import "DPI-C" function int unsigned tess_dpi_open(
         input int unsigned domain, input int unsigned partitioning,
         input int unsigned out, input int unsigned split_order, output chandle held);
@@ -150,7 +151,7 @@ package tess_dpi;
         if (status != 0) $fatal(1, "tess_dpi: %s: %s", call, tess_status_message(status));
     endfunction
 
-    // The context of a 15.16 factor; one out of range counts as the nearest end.
+    // The context of a 15.16 factor; a factor out of range counts as the nearest end of the range.
     function automatic context_t model_context(
             input int unsigned factor, input parity_e parity, input split_order_e split_order);
         context_t c;
@@ -169,7 +170,7 @@ package tess_dpi;
         return s;
     endfunction
 
-    // Factor `number` of a patch after factor processing, which does not look at cfg.out.
+    // Factor `number` of a patch after factor processing; cfg.out has no effect.
     function automatic processed_t model_process(
             input config_t cfg, input factors_t x, input int unsigned number);
         processed_t r;
@@ -209,14 +210,14 @@ package tess_dpi;
         return r;
     endfunction
 
-    // Handle that holds a patch of a configuration. Give it to tess_dpi_close in the end.
+    // A handle that holds a patch of a configuration. Free it with tess_dpi_close.
     function automatic chandle model_open(input config_t cfg);
         chandle held;
         require_ok(tess_dpi_open(cfg.domain, cfg.partitioning, cfg.out, cfg.split_order, held), "open");
         return held;
     endfunction
 
-    // Tessellates a patch, which is held from then on; returns its sizes.
+    // Tessellates a patch and holds it; returns its sizes.
     function automatic counts_t model_patch(input chandle held, input factors_t x);
         counts_t c;
         require_ok(tess_dpi_patch(held, x[0], x[1], x[2], x[3], x[4], x[5],
@@ -224,21 +225,21 @@ package tess_dpi;
         return c;
     endfunction
 
-    // Point i of the patch that is held, i below its count.
+    // Point i of the held patch, i below its count.
     function automatic point_t model_held_point(input chandle held, input int unsigned i);
         point_t r;
         require_ok(tess_dpi_held_point(held, i, r.u, r.v), "held point");
         return r;
     endfunction
 
-    // Index i of the patch that is held, i below its count.
+    // Index i of the held patch, i below its count.
     function automatic int unsigned model_held_index(input chandle held, input int unsigned i);
         int unsigned index;
         require_ok(tess_dpi_held_index(held, i, index), "held index");
         return index;
     endfunction
 
-    // The i-th coverage bin that a patch hits, numbered as tess_covergroups.svh of tess_uvm; 0 if there
+    // The i-th coverage bin that a patch hits, numbered as in tess_covergroups.svh of tess_uvm; 0 if there
     // is none.
     function automatic bit model_coverage(
             input config_t cfg, input factors_t x, input int unsigned i, output int unsigned bin);

@@ -20,15 +20,15 @@ const RECORDED_TOGETHER: usize = 4096;
 
 /// Which of the specification's cases were hit, and how often.
 ///
-/// A bin is a path such as ``middle/oddxeven``; its first part is its group. All bins are declared, so
+/// A bin is a path such as ``middle/ruler/oddxeven``; its first part is its group. All bins are declared, so
 /// that each missed one has a name. Any number of threads may count. It can be pickled and copied.
 ///
 /// >>> from tess_model import Coverage, Patch
 /// >>> coverage = Coverage()
 /// >>> coverage.record(Patch("quad", [3, 4, 5, 6], [4, 7]))  # bins hit for the first time
 /// 23
-/// >>> coverage.bins["middle/oddxodd"], coverage.groups["middle"]
-/// (2, Group(hit=2, bins=4))
+/// >>> coverage.bins["middle/ruler/oddxodd"], coverage.groups["middle"]
+/// (2, Group(hit=2, bins=8))
 #[pyclass(frozen, module = "tess_model")]
 #[derive(Default)]
 pub(crate) struct Coverage(Arc<Mutex<tess_verify::cover::Coverage>>, Arc<Mutex<Option<Case>>>);
@@ -135,13 +135,6 @@ impl Coverage {
         Ok(self.lock().report(&exclusions))
     }
 
-    /// The report as one page of HTML. ``exclude`` is as in :meth:`holes`.
-    #[pyo3(signature = (exclude = None))]
-    fn html(&self, exclude: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
-        let exclusions = patterns(exclude)?;
-        Ok(self.lock().to_html(&exclusions, &[]))
-    }
-
     /// The coverage as UCIS XML. Equal coverage gives equal text.
     fn to_ucis(&self) -> String {
         self.lock().to_ucis()
@@ -213,7 +206,7 @@ impl Coverage {
 ///
 /// >>> import tess_model
 /// >>> bins = tess_model.exclusions(domain=["tri", "quad"], partitioning="integer")
-/// >>> "configuration/isoline/pow2/line/ruler" in bins, "middle/oddxeven" in bins
+/// >>> "configuration/isoline/pow2/line/ruler" in bins, "middle/ruler/oddxeven" in bins
 /// (True, False)
 #[pyfunction]
 #[pyo3(signature = (*, domain = None, partitioning = None, output = None, split = None))]

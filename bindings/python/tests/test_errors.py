@@ -54,7 +54,7 @@ HUGE = np.broadcast_to(np.float32(3), (2**40, 6))
         lambda: Tessellator(threads=-1),
         lambda: tessellate("tri", np.ones((1, 4), np.float32), base_vertex=-1),
         lambda: tessellate("tri", np.ma.masked_array(np.ones((1, 4), np.float32), mask=True)),
-        lambda: Coverage().add("middle/oddxodd", -1),
+        lambda: Coverage().add("middle/ruler/oddxodd", -1),
         lambda: tess_model.check_device([]),
         lambda: tess_model.check_device([(PATCH, PATCH.points)]),
         lambda: tess_model.check_device([(PATCH, PATCH.points, PATCH.indices)], cases=[]),

@@ -67,7 +67,7 @@ def test_values_are_those_of_the_explanation(patch: Patch) -> None:
 
 @pytest.mark.parametrize("patch", PATCHES, ids=lambda patch: patch.case)
 def test_pictures_and_listings(program: Path, patch: Patch) -> None:
-    assert patch.to_svg(indices=True) == tess(program, "draw", *options(patch), "--indices")
+    assert patch.to_svg(indices=True) == tess(program, "draw", *options(patch), "--number-points")
     assert patch._repr_svg_() == tess(program, "draw", *options(patch), "--size", "400")
     listing = tess(program, "patch", *options(patch))
     assert patch.listing() == listing.split("\n", 1)[1]

@@ -52,6 +52,12 @@ fn tess_edge_by_screen_size(
     return tess_quotient(distance(a, b) * pixels_per_unit, distance(eye, (a + b) * 0.5) * segment);
 }
 
+// Segments of `segment` pixels under a camera without perspective. `pixels_per_unit` is the number of pixels that a
+// length of 1 covers, at any distance.
+fn tess_edge_by_length(a: vec3<f32>, b: vec3<f32>, pixels_per_unit: f32, segment: f32) -> f32 {
+    return tess_quotient(pixels_per_unit * distance(a, b), segment);
+}
+
 // `scale` divided by the distance from the eye to the edge's middle.
 fn tess_edge_by_distance(a: vec3<f32>, b: vec3<f32>, eye: vec3<f32>, scale: f32) -> f32 {
     return tess_quotient(scale, distance(eye, (a + b) * 0.5));
@@ -82,6 +88,11 @@ fn tess_edge_by_flatness(bend: f32, tolerance: f32) -> f32 {
 fn tess_edge_beside_halves(factor: f32) -> vec2<f32> {
     let whole = max(tess_power_of_two(tess_clamp_factor(factor)), 2.0);
     return vec2<f32>(whole, 0.5 * whole);
+}
+
+// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls still does.
+fn tess_at_most(factor: f32, most: f32) -> f32 {
+    return select(factor, most, factor > most);
 }
 
 // --- Insides ---

@@ -4,8 +4,8 @@ use crate::models::models;
 use glam::Vec3;
 use tess_core::{Config, OutputPrimitive, Partitioning, Patch, PatchFactors, QuadFactors};
 use tess_surface::factors::{
-    edge_beside_halves, edge_by_curvature, edge_by_distance, edge_by_flatness, edge_by_screen_size,
-    inside_quad, inside_triangle, quotient, root_quotient,
+    at_most, edge_beside_halves, edge_by_curvature, edge_by_distance, edge_by_flatness,
+    edge_by_length, edge_by_screen_size, inside_quad, inside_triangle, quotient, root_quotient,
 };
 use tess_surface::pn::edge_points;
 use tess_surface::{Bend, BezierPatch, Curve, Edge, FactorRule, Model, PnCorner, Surface};
@@ -59,6 +59,31 @@ fn straight_edges_are_curves() {
     assert_eq!(edge_by_screen_size(ends, eye, 100.0, 5.0), screen.edge(&X_AXIS, 0.0), "10");
     let flat = FactorRule::Flatness { tolerance: 0.02 };
     assert_eq!(edge_by_flatness(8.0, 0.02), flat.edge(&X_AXIS, 8.0), "16");
+}
+
+#[test]
+fn a_length_has_as_many_pixels_at_any_distance() {
+    for away in [0.0, 1.0, 1e6] {
+        let ends = [Vec3::new(0.0, 0.0, away), Vec3::new(3.0, 4.0, away)];
+        assert_eq!(edge_by_length(ends, 20.0, 10.0), 10.0, "5 units are 100 pixels");
+        assert_eq!(edge_by_length(ends, 20.0, 0.5), 64.0, "200 segments are too many");
+        assert_eq!(edge_by_length(ends, 1.0, 10.0), 1.0, "no less");
+    }
+}
+
+#[test]
+fn a_largest_factor_leaves_smaller_ones_and_culling() {
+    for (factor, most, expected) in [
+        (40.0, 16.0, 16.0),
+        (16.0, 16.0, 16.0),
+        (3.5, 16.0, 3.5),
+        (0.0, 16.0, 0.0),
+        (-1.0, 8.0, -1.0),
+    ] {
+        assert_eq!(at_most(factor, most), expected, "{factor}, {most}");
+    }
+    assert!(at_most(f32::NAN, 8.0).is_nan(), "it culls");
+    assert_eq!(at_most(f32::INFINITY, 8.0), 8.0, "the largest");
 }
 
 #[test]

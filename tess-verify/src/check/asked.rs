@@ -39,6 +39,8 @@ pub(super) struct Expected<'a> {
     /// The next answers, as far as they were read.
     ahead: VecDeque<Record>,
     answers_end: bool,
+    /// Why the answers end early, once those before are settled.
+    malformed: Option<VectorError>,
     /// The fate of the first answers and cases, as far as it is settled.
     steps: VecDeque<Step>,
     said: Said,
@@ -55,6 +57,7 @@ impl<'a> Expected<'a> {
             due: 1,
             ahead: VecDeque::new(),
             answers_end: false,
+            malformed: None,
             steps: VecDeque::new(),
             said: Said::default(),
             missing: Findings::default(),
@@ -71,9 +74,11 @@ impl<'a> Expected<'a> {
     ) -> Result<Option<(Record, Option<Mismatch>)>, VectorError> {
         loop {
             if self.steps.is_empty() {
-                self.read_answers(file, 1)?;
+                self.read_answers(file, 1);
                 self.read_cases(1)?;
-                let Some(record) = self.ahead.front() else { return Ok(None) };
+                let Some(record) = self.ahead.front() else {
+                    return self.malformed.take().map_or(Ok(None), Err);
+                };
                 if record.case().is_some() && record.case() == self.next.front().copied() {
                     self.steps.push_back(Step::Same);
                 } else {
@@ -98,14 +103,19 @@ impl<'a> Expected<'a> {
 
     /// Settles the steps of at least one answer.
     fn settle<R: BufRead>(&mut self, file: &mut VectorFile<R>) -> Result<(), VectorError> {
-        self.read_answers(file, WINDOW)?;
+        self.read_answers(file, WINDOW);
         self.read_cases(2 * WINDOW)?;
         let cases_end = self.next.len() < 2 * WINDOW;
         let answers: Vec<Option<Case>> = self.ahead.iter().map(Record::case).collect();
-        let whole = self.answers_end || cases_end;
+        // Behind a malformed answer there may be others.
+        let is_cut = self.malformed.is_some();
+        let whole = self.answers_end && !is_cut || cases_end;
         let steps = align(&answers, self.next.make_contiguous(), whole, &mut self.said);
-        let settled =
-            if self.answers_end && cases_end { answers.len() } else { answers.len().div_ceil(2) };
+        let settled = if is_cut || self.answers_end && cases_end {
+            answers.len()
+        } else {
+            answers.len().div_ceil(2)
+        };
         let mut taken = 0;
         self.steps = steps
             .into_iter()
@@ -132,6 +142,11 @@ impl<'a> Expected<'a> {
         }
     }
 
+    /// The cases without an answer before the one that is malformed.
+    pub(super) fn so_far(self) -> Findings {
+        self.missing
+    }
+
     fn read_cases(&mut self, cases: usize) -> Result<(), VectorError> {
         while self.next.len() < cases {
             let Some(case) = self.asked.next().transpose()? else { break };
@@ -140,22 +155,21 @@ impl<'a> Expected<'a> {
         Ok(())
     }
 
-    fn read_answers<R: BufRead>(
-        &mut self,
-        file: &mut VectorFile<R>,
-        answers: usize,
-    ) -> Result<(), VectorError> {
+    /// Reads until there are so many answers ahead. They end at a malformed one, too.
+    fn read_answers<R: BufRead>(&mut self, file: &mut VectorFile<R>, answers: usize) {
         let mut elements: usize = self.ahead.iter().map(size).sum();
         while self.ahead.len() < answers && elements <= ELEMENTS && !self.answers_end {
-            match file.next().transpose()? {
-                Some(record) => {
+            match file.next() {
+                Some(Ok(record)) => {
                     elements += size(&record);
                     self.ahead.push_back(record);
                 }
-                None => self.answers_end = true,
+                ended => {
+                    self.answers_end = true;
+                    self.malformed = ended.and_then(Result::err);
+                }
             }
         }
-        Ok(())
     }
 
     /// The case that is due has no answer.

@@ -47,7 +47,7 @@ pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -
 
 /// The explanations of an output: freedoms that were not granted, and mistakes that turn it round.
 fn explained(case: &Case, observed: &Tessellation, strength: Strength) -> Explained {
-    Way::OF_FILES.map(|way| way.explains(case, observed, strength, 64))
+    Way::ALL.map(|way| way.explains(case, observed, strength, 64))
 }
 
 /// The first difference to the output that is the nearest of the legal ones.
@@ -126,9 +126,22 @@ fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: SpecSt
     first
 }
 
-/// The case with one factor off by a unit in the last place, or by one; and culled.
+/// Cases whose factors came out differently: one off by a unit in the last place, or by one; all equal to 1; the inside
+/// raised to what makes a picture frame; and what is culled and what is not, the other way round.
 fn other_factors(case: &Case) -> Vec<Case> {
-    let mut cases = vec![Case { factors: PatchFactors::uniform(case.domain(), 0.0), ..*case }];
+    let with = |factors| Case { factors, ..*case };
+    let uniform = |factor| with(PatchFactors::uniform(case.domain(), factor));
+    let outer = case.domain().outer_factors();
+    // The smallest factor of all is above zero, and is raised to the lower end of the range.
+    let above_zero = |factor: f32| if factor > 0.0 { factor } else { f32::from_bits(1) };
+    let raised = |inside: u32| {
+        with(PatchFactors::from_fn(case.domain(), |position| {
+            let factor = case.factors.iter().nth(position).unwrap_or_default();
+            if position < outer { factor } else { factor.max(from_fixed(inside)) }
+        }))
+    };
+    let mut cases = vec![uniform(0.0), uniform(1.0), with(case.factors.map(above_zero))];
+    cases.extend([0x1_0001, 0x1_0002].map(raised));
     let patch = case.patch();
     let processed = patch.processed().factors().into_iter().flat_map(|factors| factors.iter());
     for (position, factor) in processed.enumerate() {

@@ -229,15 +229,13 @@ impl Known {
         self.entries.iter().map(ToString::to_string)
     }
 
-    /// The fate of the lines: how many were met; the cases alone that were asked and no longer differ; and what is
-    /// wrong with lines that have terms, each with its place: one has expired, or expects what did not happen. If
-    /// the `whole` of the work was done, that includes what was not asked.
+    /// The fate of the lines. If the `whole` of the work was done, lines are also unused that were not asked.
     #[must_use]
-    pub fn outcome(&self, whole: bool) -> (usize, Vec<String>, Vec<String>) {
-        let (mut met, mut gone, mut faults) = (0, Vec::new(), Vec::new());
+    pub fn outcome(&self, whole: bool) -> KnownOutcome {
+        let KnownOutcome { mut met, mut gone, mut faults } = KnownOutcome::default();
         for entry in &self.entries {
             let is = |flag: &AtomicBool| flag.load(Ordering::Relaxed);
-            met += usize::from(is(&entry.different));
+            met += u64::from(is(&entry.different));
             match &entry.terms {
                 Some(terms) => faults.extend(
                     entry
@@ -248,8 +246,20 @@ impl Known {
                 None => {}
             }
         }
-        (met, gone, faults)
+        KnownOutcome { met, gone, faults }
     }
+}
+
+/// The fate of the lines of a baseline.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct KnownOutcome {
+    /// How many were met: something differed as they expect.
+    pub met: u64,
+    /// The lines without terms whose cases were asked and no longer differ.
+    pub gone: Vec<String>,
+    /// The lines with terms that have expired, or expect what did not happen: each with its place and why.
+    pub faults: Vec<String>,
 }
 
 #[cfg(test)]
@@ -288,6 +298,20 @@ mod tests {
         assert!(!known.excuses(&unasked, Some(&MISSING)), "that is to be said");
         assert_eq!(known.lines().count(), 4, "each case once");
         // Neither what differed once nor what was not asked is gone, and nothing has terms.
-        assert_eq!(known.outcome(true), (2, vec![gone.to_string()], vec![]));
+        let gone = vec![gone.to_string()];
+        assert_eq!(known.outcome(true), KnownOutcome { met: 2, gone, faults: vec![] });
+    }
+
+    /// A line holds through its last day.
+    #[test]
+    fn lines_end_after_their_last_day() {
+        let case: Case = "case isoline integer line ruler 3f800000 40000000".parse().expect("one");
+        let text = format!("{case} | * | ada | 2027-06-30 | rounds down\n");
+        for (today, holds) in [("2027-06-29", true), ("2027-06-30", true), ("2027-07-01", false)] {
+            let known = Known::read("known", text.as_bytes(), None, today).expect("a baseline");
+            assert_eq!(known.excuses(&case, Some(&"so")), holds, "on {today}");
+            let KnownOutcome { met, faults, .. } = known.outcome(true);
+            assert_eq!((met, faults.len()), (u64::from(holds), usize::from(!holds)), "on {today}");
+        }
     }
 }

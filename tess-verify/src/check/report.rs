@@ -1,7 +1,6 @@
 //! The report of a check.
 
 mod group;
-mod origin;
 
 pub use group::MismatchGroup;
 
@@ -35,15 +34,15 @@ pub struct Report {
     explained: Option<Explained>,
 }
 
-/// For each of [`Way::OF_FILES`], whether it explains an output.
-pub(super) type Explained = [bool; Way::OF_FILES.len()];
+/// For each of [`Way::ALL`], whether it explains an output.
+pub(super) type Explained = [bool; Way::ALL.len()];
 
 impl Report {
     /// The explanations of every difference, each on its own: freedoms that were not granted first
     /// ([`Way::options`] says how to grant them), then mistakes that turn outputs round.
     #[must_use]
     pub fn ways(&self) -> Vec<Way> {
-        let all = Way::OF_FILES.into_iter().zip(self.explained.into_iter().flatten());
+        let all = Way::ALL.into_iter().zip(self.explained.into_iter().flatten());
         all.filter(|(_, explains)| *explains).map(|(way, _)| way).collect()
     }
 
@@ -63,7 +62,7 @@ impl Report {
 
     /// Adds what explains a difference.
     pub(super) fn explain(&mut self, explained: Explained) {
-        let before = self.explained.unwrap_or([true; Way::OF_FILES.len()]);
+        let before = self.explained.unwrap_or([true; Way::ALL.len()]);
         self.explained = Some(std::array::from_fn(|i| before[i] && explained[i]));
     }
 
@@ -194,13 +193,31 @@ impl fmt::Display for Difference {
     }
 }
 
+impl CheckError {
+    /// A file that is malformed after the records of this report.
+    pub(super) fn malformed(error: VectorError, before: Report) -> Self {
+        match before.cases {
+            0 => Self::Vectors(error),
+            _ => Self::Malformed { error, before: Box::new(before) },
+        }
+    }
+}
+
 /// Why there is no verdict.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckError {
-    /// The file is malformed, truncated, too long or empty.
+    /// The file is malformed, truncated, too long or empty, from its beginning on.
     #[error("{0}")]
     Vectors(#[from] VectorError),
+    /// So it is from some record on. The records before were checked, which is no verdict.
+    #[error("{error}")]
+    Malformed {
+        /// The fault and its place.
+        error: VectorError,
+        /// The report of the records before.
+        before: Box<Report>,
+    },
     /// Listings were to be tested, and the file's records are of another kind.
     #[error("a device is tested by its listings; this file's kind is {}", .0.name())]
     NoListings(Kind),

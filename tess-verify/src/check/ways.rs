@@ -1,11 +1,14 @@
 //! Explanations of a device that differs: freedoms that the specification leaves (spec section 13), and
-//! mistakes that turn a whole output round.
+//! mistakes that every output shows in the same way.
 
 use crate::case::Case;
 use crate::check::strength::{Conversion, Denormals, ListOrder, Strength};
 use std::collections::BTreeSet;
 use tess_core::fixed_point::ONE;
-use tess_core::{Config, DomainPoint, OutputPrimitive, Tessellation};
+use tess_core::{
+    Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, PatchFactors, QuadFactors,
+    Tessellation,
+};
 
 /// The largest factor of the model.
 const LARGEST: u32 = 64;
@@ -27,60 +30,109 @@ pub enum Way {
     Clamping,
     /// Every triangle turns the other way.
     Reversed,
-    /// u and v are exchanged, and triangles turn the other way.
+    /// u and v are exchanged, and triangles turn as they should.
     Transposed,
-    /// u and v are exchanged.
+    /// u and v are exchanged, and each triangle has its vertices in the same order, so it turns the other way.
     TransposedReversed,
-    /// u runs backwards, and triangles turn the other way.
+    /// u runs backwards, and triangles turn as they should.
     MirroredU,
-    /// v runs backwards, and triangles turn the other way.
+    /// u runs backwards, and each triangle has its vertices in the same order.
+    MirroredUReversed,
+    /// v runs backwards, and triangles turn as they should.
     MirroredV,
+    /// v runs backwards, and each triangle has its vertices in the same order.
+    MirroredVReversed,
+    /// On triangle patches, v and w are exchanged, and triangles turn as they should.
+    ExchangedVW,
+    /// On triangle patches, v and w are exchanged, and each triangle has its vertices in the same order.
+    ExchangedVWReversed,
+    /// An isoline patch takes its density for its detail, and the detail for its density.
+    IsolineFactors,
+    /// A quad patch takes each inside factor for the other one.
+    InsideFactors,
+    /// Factors are rounded to binary16, as Metal stores them.
+    HalfFactors,
 }
 
 impl Way {
-    /// The ways that may explain output in any order, those that the specification allows first.
-    pub const ALL: [Self; 9] = [
+    /// Every way, those that the specification allows first.
+    pub const ALL: [Self; 17] = [
         Self::Flush,
         Self::Conversion,
         Self::FlushAndConversion,
         Self::Clamping,
-        Self::Reversed,
-        Self::Transposed,
-        Self::TransposedReversed,
-        Self::MirroredU,
-        Self::MirroredV,
-    ];
-
-    /// The ways that may explain every difference of a file: freedoms of `tess check`'s options first, then what turns a
-    /// whole output round.
-    pub(crate) const OF_FILES: [Self; 9] = [
         Self::Order,
-        Self::Flush,
-        Self::Conversion,
-        Self::FlushAndConversion,
         Self::Reversed,
         Self::Transposed,
         Self::TransposedReversed,
         Self::MirroredU,
+        Self::MirroredUReversed,
         Self::MirroredV,
+        Self::MirroredVReversed,
+        Self::ExchangedVW,
+        Self::ExchangedVWReversed,
+        Self::IsolineFactors,
+        Self::InsideFactors,
+        Self::HalfFactors,
     ];
 
-    /// Whether the specification leaves this to a device, as it does the first of them.
+    /// Whether the specification leaves this to a device.
     #[must_use]
     pub const fn is_allowed(self) -> bool {
-        self as usize <= Self::Clamping as usize
+        matches!(
+            self,
+            Self::Order
+                | Self::Flush
+                | Self::Conversion
+                | Self::FlushAndConversion
+                | Self::Clamping
+        )
     }
 
     /// The options of `tess check` under which this counts as equal; empty if there are none.
     #[must_use]
     pub const fn options(self) -> &'static str {
-        SAID[self as usize].1
+        match self {
+            Self::Order => "--order any",
+            Self::Flush => "--denormals flush",
+            Self::Conversion => "--conversion 0.6ulp",
+            Self::FlushAndConversion => "--denormals flush --conversion 0.6ulp",
+            _ => "",
+        }
     }
 
     /// The device's way, in words.
     #[must_use]
     pub const fn words(self) -> &'static str {
-        SAID[self as usize].0
+        match self {
+            Self::Order => "primitives or points come in another order, and are the model's",
+            Self::Flush => "positive denormal outer factors are flushed to zero, which culls",
+            Self::Conversion => "factors are converted to fixed point within 0.6 ulp",
+            Self::FlushAndConversion => {
+                "denormal outer factors are flushed, and factors converted within 0.6 ulp"
+            }
+            Self::Clamping => "factors above 64 are not clamped to the model's range",
+            Self::Reversed => "every triangle turns the other way",
+            Self::Transposed => "u and v are exchanged",
+            Self::TransposedReversed => {
+                "u and v are exchanged, and the order of a triangle's vertices is kept"
+            }
+            Self::MirroredU => "u runs backwards",
+            Self::MirroredUReversed => {
+                "u runs backwards, and the order of a triangle's vertices is kept"
+            }
+            Self::MirroredV => "v runs backwards",
+            Self::MirroredVReversed => {
+                "v runs backwards, and the order of a triangle's vertices is kept"
+            }
+            Self::ExchangedVW => "v and w are exchanged on triangle patches",
+            Self::ExchangedVWReversed => {
+                "v and w are exchanged on triangle patches, and the order of a triangle's vertices is kept"
+            }
+            Self::IsolineFactors => "the two factors of isolines are exchanged",
+            Self::InsideFactors => "the two inside factors of quads are exchanged",
+            Self::HalfFactors => "factors are rounded to binary16 (half), as Metal stores them",
+        }
     }
 
     /// Whether this explains an output that differs in a strength. `max_level` is the largest factor
@@ -95,10 +147,6 @@ impl Way {
     ) -> bool {
         let flush = Strength { denormals: Denormals::Flush, ..strength };
         let convert = |from: Strength| Strength { conversion: Conversion::Within06Ulp, ..from };
-        let turned = |turn: fn([u32; 2]) -> [u32; 2], reversed: bool| {
-            let case = if reversed { reverse(case) } else { *case };
-            !observed.points.is_empty() && strength.accepts(&case, &turn_round(observed, turn))
-        };
         match self {
             Self::Order => Strength { order: ListOrder::Any, ..strength }.accepts(case, observed),
             Self::Flush => flush.accepts(case, observed),
@@ -108,31 +156,58 @@ impl Way {
                 let is_larger = case.factors.iter().any(|factor| factor > 64.0);
                 max_level > LARGEST && is_larger && has_more_places(case, observed)
             }
-            Self::Reversed => turned(|uv| uv, true),
-            Self::Transposed => turned(|[u, v]| [v, u], true),
-            Self::TransposedReversed => turned(|[u, v]| [v, u], false),
-            Self::MirroredU => turned(|[u, v]| [ONE.wrapping_sub(u), v], true),
-            Self::MirroredV => turned(|[u, v]| [u, ONE.wrapping_sub(v)], true),
+            Self::IsolineFactors | Self::InsideFactors | Self::HalfFactors => {
+                let taken = self.taken_for(case);
+                taken.is_some_and(|taken| strength.accepts(&taken, observed))
+            }
+            _ => self.turns(case).is_some_and(|(turn, right)| {
+                !observed.points.is_empty() && strength.accepts(&right, &turn_round(observed, turn))
+            }),
         }
+    }
+
+    /// The move of points that makes an output right again, and the case that it is right for then.
+    fn turns(self, case: &Case) -> Option<(Turn, Case)> {
+        let (turn, is_reversed): (Turn, bool) = match self {
+            Self::Reversed => (|uv| uv, true),
+            Self::Transposed => (|[u, v]| [v, u], true),
+            Self::TransposedReversed => (|[u, v]| [v, u], false),
+            Self::MirroredU => (|[u, v]| [ONE.wrapping_sub(u), v], true),
+            Self::MirroredUReversed => (|[u, v]| [ONE.wrapping_sub(u), v], false),
+            Self::MirroredV => (|[u, v]| [u, ONE.wrapping_sub(v)], true),
+            Self::MirroredVReversed => (|[u, v]| [u, ONE.wrapping_sub(v)], false),
+            Self::ExchangedVW | Self::ExchangedVWReversed => {
+                if case.domain() != Domain::Triangle {
+                    return None;
+                }
+                let turn: Turn = |[u, v]| [u, ONE.wrapping_sub(u).wrapping_sub(v)];
+                (turn, self == Self::ExchangedVW)
+            }
+            _ => return None,
+        };
+        Some((turn, if is_reversed { reverse(case) } else { *case }))
+    }
+
+    /// The case that a device takes this one for.
+    fn taken_for(self, case: &Case) -> Option<Case> {
+        let factors = match (self, case.factors) {
+            (Self::IsolineFactors, PatchFactors::Isoline(f)) => {
+                PatchFactors::Isoline(IsolineFactors { density: f.detail, detail: f.density })
+            }
+            (Self::InsideFactors, PatchFactors::Quad(f)) => {
+                PatchFactors::Quad(QuadFactors { inside_u: f.inside_v, inside_v: f.inside_u, ..f })
+            }
+            (Self::HalfFactors, factors) => {
+                factors.map(|factor| half::f16::from_f32(factor).to_f32())
+            }
+            _ => return None,
+        };
+        Some(Case { factors, ..*case })
     }
 }
 
-/// The words and the options of each [`Way`], in their order.
-const SAID: [(&str, &str); 10] = [
-    ("primitives or points come in another order, and are the model's", "--order any"),
-    ("positive denormal outer factors are flushed to zero, which culls", "--denormals flush"),
-    ("factors are converted to fixed point within 0.6 ulp", "--conversion 0.6ulp"),
-    (
-        "denormal outer factors are flushed, and factors converted within 0.6 ulp",
-        "--denormals flush --conversion 0.6ulp",
-    ),
-    ("factors above 64 are not clamped to the model's range", ""),
-    ("every triangle turns the other way", ""),
-    ("u and v are exchanged", ""),
-    ("u and v are exchanged, the turn of triangles kept", ""),
-    ("u runs backwards", ""),
-    ("v runs backwards", ""),
-];
+/// A move of points by their 16.16 bits.
+type Turn = fn([u32; 2]) -> [u32; 2];
 
 /// Whether a device cuts finer than the model: it has more distinct points.
 fn has_more_places(case: &Case, observed: &Tessellation) -> bool {
@@ -154,7 +229,7 @@ const fn reverse(case: &Case) -> Case {
 }
 
 /// An output with every point moved.
-fn turn_round(output: &Tessellation, turn: fn([u32; 2]) -> [u32; 2]) -> Tessellation {
+fn turn_round(output: &Tessellation, turn: Turn) -> Tessellation {
     let point = |point: &DomainPoint| {
         let [u, v] = turn([point.u.to_bits(), point.v.to_bits()]);
         DomainPoint::from_bits(u, v)

@@ -1,12 +1,12 @@
 //! Every bin there is, and which of them a configuration can hit.
 
 use super::boundary;
-use super::observe::{quad_centre, triangle_centre};
+use super::observe::{quad_centre, sequence_values, triangle_centre};
 use crate::generate::configurations;
 use crate::names::Named;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
-use tess_core::{Config, Domain, Parity, Partitioning};
+use tess_core::{Config, Domain, Parity, Partitioning, SplitOrder};
 
 /// The paths of all bins, in alphabetical order.
 pub(super) fn all() -> &'static [String] {
@@ -18,7 +18,8 @@ pub(super) fn all() -> &'static [String] {
 pub(super) fn of(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Vec<String> {
     let mut bins = Vec::new();
     let mut stitched = Vec::new();
-    let mut kinds = BTreeSet::new();
+    // The values of each field of a stream's patches.
+    let mut values: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     for (domain, config) in configurations {
         bins.extend(of_settings(domain, config));
         let ways: &[&str] = if can_be_minimum(domain, config) {
@@ -26,15 +27,21 @@ pub(super) fn of(configurations: impl IntoIterator<Item = (Domain, Config)>) -> 
         } else {
             &["culled", "regular"]
         };
-        kinds.extend(ways.iter().map(|way| format!("{}_{way}", domain.name())));
-        let of = (domain, config.partitioning);
+        for way in ways {
+            for (field, value) in sequence_values(domain, config, way) {
+                values.entry(field).or_default().insert(value);
+            }
+        }
+        let of = (domain, config.partitioning, config.split);
         if !stitched.contains(&of) {
             stitched.push(of);
-            bins.extend(of_stitches(domain, config.partitioning));
+            bins.extend(of_stitches(domain, config.partitioning, config.split));
         }
     }
-    for before in &kinds {
-        bins.extend(kinds.iter().map(|kind| format!("sequence/{before}/{kind}")));
+    for (field, values) in &values {
+        for before in values {
+            bins.extend(values.iter().map(|value| format!("sequence/{field}/{before}/{value}")));
+        }
     }
     bins.sort_unstable();
     bins.dedup();
@@ -59,11 +66,11 @@ fn of_settings(domain: Domain, config: Config) -> Vec<String> {
     bins
 }
 
-/// Those of rings, transitions and centres, by far the most, which neither output nor split order changes.
-fn of_stitches(domain: Domain, partitioning: Partitioning) -> Vec<String> {
+/// Those of rings, transitions and centres, by far the most, which the output does not change.
+fn of_stitches(domain: Domain, partitioning: Partitioning, split: SplitOrder) -> Vec<String> {
     let mut bins = Vec::new();
     if domain != Domain::Isoline {
-        stitches(&mut bins, domain.name(), partitioning);
+        stitches(&mut bins, domain.name(), partitioning, split.name());
         centres(&mut bins, domain, parities(partitioning));
     }
     bins
@@ -97,7 +104,7 @@ fn configuration(bins: &mut Vec<String>, domain: Domain, config: Config) {
     let [domain_name, partitioning] = [domain.name(), config.partitioning.name()];
     bins.push(format!("configuration/{domain_name}/{partitioning}/{output}/{split}"));
     if can_be_minimum(domain, config) {
-        bins.push(format!("minimum/{domain_name}/{partitioning}/{output}"));
+        bins.push(format!("minimum/{domain_name}/{partitioning}/{output}/{split}"));
     }
     if domain != Domain::Isoline && config.partitioning == Partitioning::FractionalOdd {
         let how = ["raised", "all_one", "already_above"];
@@ -151,15 +158,15 @@ fn contexts(bins: &mut Vec<String>, config: Config, partitioning: Partitioning) 
     }
 }
 
-fn stitches(bins: &mut Vec<String>, domain: &str, partitioning: Partitioning) {
+fn stitches(bins: &mut Vec<String>, domain: &str, partitioning: Partitioning, split: &str) {
     for (outer, inside) in pairs(parities(partitioning)) {
         let parities = format!("{}x{}", outer.name(), inside.name());
-        bins.push(format!("parities/{domain}/{}/{parities}", partitioning.name()));
-        bins.push(format!("middle/{parities}"));
+        bins.push(format!("parities/{split}/{domain}/{}/{parities}", partitioning.name()));
+        bins.push(format!("middle/{split}/{parities}"));
         for outer in points(outer) {
             // An inside row has a picture frame, so at least three points.
             let inside = points(inside).filter(|inside| *inside >= 3);
-            bins.extend(inside.map(|inside| format!("transition/{outer}x{inside}")));
+            bins.extend(inside.map(|inside| format!("transition/{split}/{outer}x{inside}")));
         }
     }
 }
@@ -192,9 +199,9 @@ fn centres(bins: &mut Vec<String>, domain: Domain, parities: &[Parity]) {
 mod tests {
     use super::*;
     use crate::case::Case;
-    use crate::cover::observe::{kind, observe};
+    use crate::cover::observe::{observe, sequence_values_of};
     use crate::generate::{GenLevel, Selection, boundary_factors, thresholds};
-    use tess_core::{OutputPrimitive, PatchFactors, SplitOrder};
+    use tess_core::{OutputPrimitive, PatchFactors};
 
     /// Factors that hit what a domain's patches can hit: each boundary in each position, every pair of an outer
     /// and an inside number of points, and the interiors of level 1.
@@ -233,6 +240,15 @@ mod tests {
         all
     }
 
+    /// The values that patches of a stream have, by field.
+    fn values_of(cases: impl Iterator<Item = Case>) -> BTreeMap<&'static str, BTreeSet<String>> {
+        let mut values: BTreeMap<_, BTreeSet<String>> = BTreeMap::new();
+        for (field, value) in cases.flat_map(|case| sequence_values_of(&case)) {
+            values.entry(field).or_default().insert(value);
+        }
+        values
+    }
+
     /// The words beside a bin's path are of no use if a patch hits more, or nothing hits it.
     #[test]
     fn configurations_hit_these_bins_and_no_others() {
@@ -245,9 +261,11 @@ mod tests {
                 let mut hit = BTreeSet::new();
                 let cases = witnesses.iter().map(|&factors| Case { config, factors });
                 cases.clone().for_each(|case| observe(&case, |bin| _ = hit.insert(bin)));
-                let kinds: BTreeSet<String> = cases.map(|case| kind(&case)).collect();
-                for before in &kinds {
-                    hit.extend(kinds.iter().map(|kind| format!("sequence/{before}/{kind}")));
+                for (field, values) in values_of(cases) {
+                    for before in &values {
+                        let after = values.iter();
+                        hit.extend(after.map(|value| format!("sequence/{field}/{before}/{value}")));
+                    }
                 }
                 let declared: BTreeSet<String> = of([(domain, config)]).into_iter().collect();
                 let beyond: Vec<_> = hit.difference(&declared).collect();
@@ -263,14 +281,12 @@ mod tests {
     fn outputs_differ_in_their_own_bins_alone() {
         for (domain, config) in configurations() {
             let line = Config { output: OutputPrimitive::Line, ..config };
-            let renamed = of([(domain, line)])
-                .into_iter()
-                .map(|bin| bin.replace("/line", &format!("/{}", config.output.name())));
-            assert_eq!(
-                of([(domain, config)]),
-                renamed.collect::<Vec<_>>(),
-                "{domain:?} {config:?}"
-            );
+            let name = format!("/{}", config.output.name());
+            let renamed = of([(domain, line)]).into_iter().map(|bin| bin.replace("/line", &name));
+            // Which are in alphabetical order again.
+            let renamed: BTreeSet<String> = renamed.collect();
+            let own: BTreeSet<String> = of([(domain, config)]).into_iter().collect();
+            assert_eq!(own, renamed, "{domain:?} {config:?}");
         }
     }
 }

@@ -25,7 +25,7 @@ impl Exclusions {
     ///
     /// # Errors
     /// No bin begins with it.
-    pub(super) fn add(&mut self, pattern: &str) -> Result<(), UnknownBin> {
+    pub(super) fn add(&mut self, pattern: &str) -> Result<(), UnknownBinError> {
         let fits = |bin: &str| {
             let mut found = bin.split('/');
             pattern
@@ -38,7 +38,7 @@ impl Exclusions {
         let near = bins::all()[from..].iter().take_while(|bin| bin.starts_with(literal));
         let mut fitting = near.map(String::as_str).filter(|bin| fits(bin)).peekable();
         if fitting.peek().is_none() {
-            return Err(UnknownBin { line: None, pattern: pattern.to_owned() });
+            return Err(UnknownBinError { line: None, pattern: pattern.to_owned() });
         }
         self.bins.extend(fitting);
         Ok(())
@@ -49,14 +49,14 @@ impl Exclusions {
     ///
     /// # Errors
     /// A pattern of no bin, with its line.
-    pub fn read(text: &str) -> Result<Self, UnknownBin> {
+    pub fn read(text: &str) -> Result<Self, UnknownBinError> {
         let mut exclusions = Self::default();
         let mut read = HashSet::new();
         for (number, line) in (1..).zip(text.lines()) {
             let pattern = line.split('#').next().unwrap_or_default().trim();
             if !pattern.is_empty() && read.insert(pattern) {
                 let added = exclusions.add(pattern);
-                added.map_err(|error| UnknownBin { line: Some(number), ..error })?;
+                added.map_err(|error| UnknownBinError { line: Some(number), ..error })?;
             }
         }
         Ok(exclusions)
@@ -88,12 +88,12 @@ impl Exclusions {
 /// A pattern of no bin.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{}no bin begins with {}; a bin is a path such as middle/oddxeven, and * is any part of one",
+    "{}no bin begins with {}; a bin is a path such as middle/ruler/oddxeven, and * is any part of one",
     line.map(|line| format!("line {line}: ")).unwrap_or_default(),
     quoted(pattern)
 )]
 #[non_exhaustive]
-pub struct UnknownBin {
+pub struct UnknownBinError {
     /// Line of the text, from 1, if it was read from one.
     pub line: Option<usize>,
     /// The pattern.
@@ -139,11 +139,15 @@ mod tests {
     fn patterns() {
         let count = |text: &str| Exclusions::read(text).map(|found| found.bins().count());
         assert_eq!(count(""), Ok(0), "nothing");
-        assert_eq!(count("# all\n\n  middle # a group\nmiddle/oddxodd\n"), Ok(4), "each once");
+        assert_eq!(
+            count("# all\n\n  middle # a group\nmiddle/ruler/oddxodd\n"),
+            Ok(8),
+            "each once"
+        );
         assert_eq!(count("configuration/*/pow2"), Ok(24), "the first parts");
         assert_eq!(count("*"), Ok(Coverage::default().bins().count()), "every group");
         for (text, line) in
-            [("middle\nmidle", 2), ("middle/", 1), ("middle/oddxodd/x", 1), ("mid", 1)]
+            [("middle\nmidle", 2), ("middle/", 1), ("middle/ruler/oddxodd/x", 1), ("mid", 1)]
         {
             let error = Exclusions::read(text).expect_err(text);
             assert_eq!(error.line, Some(line), "{error}");

@@ -4,8 +4,8 @@ use super::boundary;
 use crate::case::Case;
 use crate::names::{Named, way_of};
 use tess_core::{
-    Domain, FactorContext, Parity, Partitioning, PatchFactors, ProcessedFactor, ProcessedPatch,
-    SplitOrder, place,
+    Config, Domain, FactorContext, Parity, Partitioning, PatchFactors, ProcessedFactor,
+    ProcessedPatch, SplitOrder, place,
 };
 
 /// Sends the bins of a case to `hit`; a bin may come more than once.
@@ -19,7 +19,7 @@ pub(super) fn observe(case: &Case, mut hit: impl FnMut(String)) {
     match patch.processed() {
         ProcessedPatch::Culled => culled(case, &mut hit),
         ProcessedPatch::Minimum(factors) => {
-            hit(format!("minimum/{domain}/{partitioning}/{output}"));
+            hit(format!("minimum/{domain}/{partitioning}/{output}/{split}"));
             processing(case, factors, &mut hit);
         }
         ProcessedPatch::Regular(factors) => {
@@ -29,9 +29,24 @@ pub(super) fn observe(case: &Case, mut hit: impl FnMut(String)) {
     }
 }
 
-/// The state that a patch may leave behind for the next: its domain, and which way it takes.
-pub(super) fn kind(case: &Case) -> String {
-    format!("{}_{}", case.domain().name(), way_of(&case.patch()))
+/// What a patch may leave behind for the next, a name and a value each: its kind, which is its domain and the way that
+/// it takes, and the fields of its configuration.
+pub(super) fn sequence_values_of(case: &Case) -> [(&'static str, String); 4] {
+    sequence_values(case.domain(), case.config, way_of(&case.patch()))
+}
+
+/// Those of a patch of this domain and configuration that takes this way.
+pub(super) fn sequence_values(
+    domain: Domain,
+    config: Config,
+    way: &str,
+) -> [(&'static str, String); 4] {
+    [
+        ("kind", format!("{}_{way}", domain.name())),
+        ("partitioning", config.partitioning.name().to_owned()),
+        ("output", config.output.name().to_owned()),
+        ("split", config.split.name().to_owned()),
+    ]
 }
 
 fn culled(case: &Case, hit: &mut impl FnMut(String)) {
@@ -150,12 +165,13 @@ fn connectivity(
         }
     };
     let (domain, partitioning) = (case.domain().name(), case.config.partitioning.name());
+    let split = case.config.split.name();
     for (outer, inside) in outer.iter().zip(&along) {
         let (outer, inside) = (outer.context, inside.context);
         let parities = format!("{}x{}", outer.parity.name(), inside.parity.name());
-        hit(format!("parities/{domain}/{partitioning}/{parities}"));
-        hit(format!("middle/{parities}"));
-        hit(format!("transition/{}x{}", outer.points, inside.points));
+        hit(format!("parities/{split}/{domain}/{partitioning}/{parities}"));
+        hit(format!("middle/{split}/{parities}"));
+        hit(format!("transition/{split}/{}x{}", outer.points, inside.points));
     }
     let rings = along.iter().map(|inside| inside.context.points.div_ceil(2) - 1).min();
     let rings = rings.unwrap_or(0);
@@ -257,12 +273,12 @@ mod tests {
              context/ruler/odd/2/whole 6
              conversion/inside/exact 2
              conversion/outer/exact 4
-             middle/oddxodd 4
-             parities/quad/integer/oddxodd 4
+             middle/ruler/oddxodd 4
+             parities/ruler/quad/integer/oddxodd 4
              rings/quad/1/strip_of_one 1
              round/integer/inside/exact 2
              round/integer/outer/exact 4
-             transition/4x4 4",
+             transition/ruler/4x4 4",
         );
         expect(
             "case quad fractional_even line ruler 40000000 40000000 40000000 00000001 40800000 40800000",
@@ -276,10 +292,10 @@ mod tests {
              conversion/inside/exact 2
              conversion/outer/exact 4
              denormal/quad/v1 1
-             middle/evenxeven 4
-             parities/quad/fractional_even/evenxeven 4
+             middle/ruler/evenxeven 4
+             parities/ruler/quad/fractional_even/evenxeven 4
              rings/quad/2/point 1
-             transition/3x5 4",
+             transition/ruler/3x5 4",
         );
     }
 
@@ -330,13 +346,13 @@ mod tests {
              conversion/outer/tie_down 1
              conversion/outer/tie_up 1
              exceptional/ruler/odd/equal_neighbours 2
-             middle/oddxodd 3
-             parities/tri/fractional_odd/oddxodd 3
+             middle/ruler/oddxodd 3
+             parities/ruler/tri/fractional_odd/oddxodd 3
              picture_frame/raised 1
              rings/tri/1/triangle 1
-             transition/2x4 1
-             transition/4x4 1
-             transition/6x4 1",
+             transition/ruler/2x4 1
+             transition/ruler/4x4 1
+             transition/ruler/6x4 1",
         );
         expect(
             "case tri fractional_odd line ruler 3f800000 3f800000 3f800000 3f800000",
@@ -346,7 +362,7 @@ mod tests {
              context/ruler/odd/1/whole 4
              conversion/inside/exact 1
              conversion/outer/exact 3
-             minimum/tri/fractional_odd/line 1
+             minimum/tri/fractional_odd/line/ruler 1
              picture_frame/all_one 1",
         );
     }

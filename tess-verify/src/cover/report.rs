@@ -125,13 +125,13 @@ mod tests {
             row.unwrap_or_default().split_whitespace().skip(2).collect::<Vec<_>>()
         };
         assert_eq!(row("configuration"), ["96", "1", "95", "100.0"], "{text}");
-        assert_eq!(row("middle"), ["4", "1", "0", "25.0"], "{text}");
+        assert_eq!(row("middle"), ["8", "1", "4", "25.0"], "{text}");
         assert_eq!(row("exceptional"), ["6", "0", "6", "-"], "{text}");
-        assert!(text.contains("\nmissed middle/evenxodd\n"), "{text}");
+        assert!(text.contains("\nmissed middle/ruler/evenxodd\n"), "{text}");
         assert!(!text.contains("missed exceptional") && !text.contains("but hit"), "{text}");
-        exclusions.add("middle/oddxodd").expect("a bin");
+        exclusions.add("middle/ruler/oddxodd").expect("a bin");
         let text = coverage.report(&exclusions);
-        assert!(text.contains("excluded, but hit middle/oddxodd\n"), "{text}");
+        assert!(text.contains("excluded, but hit middle/ruler/oddxodd\n"), "{text}");
     }
 
     #[test]

@@ -1,78 +1,60 @@
 //! The systematic parts of levels 1 and 2.
+//!
+//! Every part asks only what is selected, and asks all of it: where one split order or one partitioning is selected,
+//! its cases are not the few that another selection would give it, but a whole level of its own.
 
-use super::{
-    boundary_factors, configurations, exceptional_factors, ordinary_factors, special_factors,
-};
+use super::choices::Choices;
+use super::{boundary_factors, exceptional_factors, from_fixed, ordinary_factors, special_factors};
 use crate::case::Case;
-use tess_core::{
-    Config, Domain, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, SplitOrder,
-};
+use tess_core::{Config, Domain, Partitioning, PatchFactors, QuadFactors};
 
 /// Factors for the positions that a case is not about, small enough to keep it short.
 const PLAIN: [f32; 8] = [3.0, 1.0, 4.5, 2.0, 7.25, 5.0, 1.5, 6.0];
 
-/// Every boundary once: special and boundary factors in rotating positions, special factors in
-/// every position, every transition, small and large interiors, patches beside minimum ones, and both sides of every
-/// comparison.
-pub(super) fn one(version: u8) -> Vec<Case> {
+/// Factors whose split points differ between the split orders, and whose counts between all partitionings but
+/// integer and pow2, which are the same to a tessellator.
+const TELLING: [f32; 6] = [6.75, 10.25, 8.5, 12.75, 9.25, 7.5];
+
+/// Every boundary once: special and boundary factors in rotating positions, special factors in every position, every
+/// transition in each split order, small and large interiors, patches beside minimum ones, both sides of every
+/// comparison, and every value of a configuration after every other.
+pub(super) fn one(choices: &Choices) -> Vec<Case> {
     let mut cases = Vec::new();
-    for (domain, partitioning) in combinations() {
-        let factors = domain.factors();
-        let values = [ordinary_factors(), exceptional_factors()].concat();
-        for (i, &value) in values.iter().enumerate() {
-            // Outer factors and inside factors in turn, so that each value takes both roles.
-            cases.push(one_value(domain, partitioning, i, i % factors, value));
-            cases.push(one_value(domain, partitioning, i + 1, (i + factors / 2) % factors, value));
-        }
-        specials_everywhere(&mut cases, domain, partitioning);
-        all_equal(&mut cases, domain, partitioning);
+    for (domain, partitioning) in choices.combinations() {
+        boundaries(&mut cases, choices, domain, partitioning);
+        specials_everywhere(&mut cases, choices, domain, partitioning);
+        all_equal(&mut cases, choices, domain, partitioning);
+        beside_minimum(&mut cases, choices, domain, partitioning);
     }
-    transitions(&mut cases);
-    interiors(&mut cases, |u, v| u == v || u.max(v) <= 9 || (u % 15 < 3 && v % 15 < 3));
-    every_configuration(&mut cases);
-    beside_minimum(&mut cases);
-    if version > 1 {
-        cases.extend(super::thresholds().into_iter().map(|(_, case)| case));
-        sequences(&mut cases);
-    }
+    transitions(&mut cases, choices);
+    interiors(&mut cases, choices, |u, v| u == v || u.max(v) <= 9 || (u % 15 < 3 && v % 15 < 3));
+    every_configuration(&mut cases, choices);
+    cases.extend(super::thresholds::of(choices).into_iter().map(|(_, case)| case));
+    sequences(&mut cases, choices);
     cases
 }
 
 /// Every boundary in every position and both split orders, every interior there is.
-pub(super) fn two(version: u8) -> Vec<Case> {
-    let mut cases = one(version);
-    for (domain, partitioning) in combinations() {
+pub(super) fn two(choices: &Choices) -> Vec<Case> {
+    let mut cases = one(choices);
+    for (domain, partitioning) in choices.combinations() {
         let values = boundary_factors();
         for position in 0..domain.factors() {
             for (i, &value) in values.iter().enumerate() {
-                for turn in [i, i + 4] {
-                    cases.push(one_value(domain, partitioning, turn, position, value));
+                // Turns that are four apart have the other split order.
+                for turn in [i, i + 4].into_iter().take(choices.splits.len()) {
+                    cases.push(one_value(choices, domain, partitioning, turn, position, value));
                 }
             }
         }
     }
-    interiors(&mut cases, |_, _| true);
+    interiors(&mut cases, choices, |_, _| true);
     cases
-}
-
-fn combinations() -> impl Iterator<Item = (Domain, Partitioning)> {
-    Domain::ALL.into_iter().flat_map(|domain| Partitioning::ALL.map(|p| (domain, p)))
-}
-
-/// A configuration that changes with `turn`: triangles three times in five, both split orders.
-fn config(partitioning: Partitioning, turn: usize) -> Config {
-    let output = match turn % 5 {
-        0 | 3 => OutputPrimitive::TriangleCw,
-        1 => OutputPrimitive::TriangleCcw,
-        2 => OutputPrimitive::Line,
-        _ => OutputPrimitive::Point,
-    };
-    let split = if (turn / 4).is_multiple_of(2) { SplitOrder::Ruler } else { SplitOrder::Center };
-    Config { partitioning, output, split }
 }
 
 /// One factor is `value`, the others are plain.
 fn one_value(
+    choices: &Choices,
     domain: Domain,
     partitioning: Partitioning,
     turn: usize,
@@ -80,112 +62,198 @@ fn one_value(
     value: f32,
 ) -> Case {
     let factor = |p| if p == position { value } else { PLAIN[(turn + p) % PLAIN.len()] };
-    Case { config: config(partitioning, turn), factors: PatchFactors::from_fn(domain, factor) }
+    let factors = PatchFactors::from_fn(domain, factor);
+    Case { config: choices.config(partitioning, turn), factors }
 }
 
-fn specials_everywhere(cases: &mut Vec<Case>, domain: Domain, partitioning: Partitioning) {
+/// Each boundary as an outer factor and as an inside one, in rotating positions; of isolines as the density and as the
+/// detail.
+fn boundaries(
+    cases: &mut Vec<Case>,
+    choices: &Choices,
+    domain: Domain,
+    partitioning: Partitioning,
+) {
+    let (outer, all) = (domain.outer_factors(), domain.factors());
+    let values = [ordinary_factors(), exceptional_factors()].concat();
+    for (i, &value) in values.iter().enumerate() {
+        let inside = if outer == all { (i + 1) % outer } else { outer + i % (all - outer) };
+        for (turn, position) in [(i, i % outer), (i + 1, inside)] {
+            cases.push(one_value(choices, domain, partitioning, turn, position, value));
+        }
+    }
+}
+
+fn specials_everywhere(
+    cases: &mut Vec<Case>,
+    choices: &Choices,
+    domain: Domain,
+    partitioning: Partitioning,
+) {
     for position in 0..domain.factors() {
         for (i, &value) in special_factors().iter().enumerate() {
-            cases.push(one_value(domain, partitioning, i, position, value));
+            cases.push(one_value(choices, domain, partitioning, i, position, value));
         }
     }
 }
 
 /// All factors equal: minimum patches and what lies next to them, and values in between.
-fn all_equal(cases: &mut Vec<Case>, domain: Domain, partitioning: Partitioning) {
+fn all_equal(cases: &mut Vec<Case>, choices: &Choices, domain: Domain, partitioning: Partitioning) {
     let near_one = [0x3F80_0000u32, 0x3F80_0001, 0x3F80_0040, 0x3F80_0041, 0x3F80_0080];
     let near_one = near_one.map(f32::from_bits).into_iter();
     let others = special_factors().into_iter().chain([1.5, 2.0, 2.5, 3.0, 15.9, 16.0]);
     for (i, value) in near_one.chain(others).enumerate() {
         for turn in [i, i + 1] {
             let factors = PatchFactors::uniform(domain, value);
-            cases.push(Case { config: config(partitioning, turn), factors });
+            cases.push(Case { config: choices.config(partitioning, turn), factors });
         }
     }
-}
-
-/// Every pair of an outer and an inside factor, four outer ones at a time, the quad being narrow
-/// along its other axis to keep it short; both split orders in turn.
-fn transitions(cases: &mut Vec<Case>) {
-    for inside in 1..=64u8 {
-        for group in 0..16u8 {
-            let turn = usize::from(inside) * 4 + usize::from(group % 2) * 4;
-            let [a, b, c, d] = [0, 1, 2, 3].map(|k| f32::from(group * 4 + k + 1));
-            let (wide, narrow) = (f32::from(inside), f32::from(1 + group % 4));
-            // The edges v = 0 and v = 1 run along u, the others along v.
-            for quad in [
-                QuadFactors { u0: narrow, v0: a, u1: 2.0, v1: b, inside_u: wide, inside_v: narrow },
-                QuadFactors { u0: c, v0: 1.0, u1: d, v1: narrow, inside_u: narrow, inside_v: wide },
-                QuadFactors { u0: 1.0, v0: c, u1: 3.0, v1: d, inside_u: wide, inside_v: narrow },
-                QuadFactors { u0: a, v0: 2.0, u1: b, v1: 1.0, inside_u: narrow, inside_v: wide },
-            ] {
-                let split = config(Partitioning::Integer, turn).split;
-                cases.push(triangles(Partitioning::Integer, split, PatchFactors::Quad(quad)));
-            }
-        }
-    }
-}
-
-/// Pairs of inside factors on quads, with the fractional partitionings a little below, and each
-/// inside factor on triangles.
-fn interiors(cases: &mut Vec<Case>, wanted: impl Fn(u8, u8) -> bool) {
-    let partitionings =
-        [Partitioning::Integer, Partitioning::FractionalOdd, Partitioning::FractionalEven];
-    for partitioning in partitionings {
-        let shift = if partitioning == Partitioning::Integer { 0 } else { 0x6000 };
-        let factor = |n: u8| super::from_fixed((u32::from(n) << 16) - shift);
-        for u in 1..=64 {
-            let triangle =
-                PatchFactors::from_fn(Domain::Triangle, |p| if p == 3 { factor(u) } else { 3.0 });
-            cases.push(triangles(partitioning, SplitOrder::Ruler, triangle));
-            for v in (1..=64).filter(|&v| wanted(u, v)) {
-                let quad = PatchFactors::from_fn(Domain::Quad, |p| match p {
-                    4 => factor(u),
-                    5 => factor(v),
-                    _ => PLAIN[p],
-                });
-                cases.push(triangles(partitioning, SplitOrder::Ruler, quad));
-            }
-        }
-    }
-}
-
-fn triangles(partitioning: Partitioning, split: SplitOrder, factors: PatchFactors) -> Case {
-    let config = Config { partitioning, output: OutputPrimitive::TriangleCw, split };
-    Case { config, factors }
-}
-
-/// Each configuration of each domain, on one ordinary patch.
-fn every_configuration(cases: &mut Vec<Case>) {
-    cases.extend(configurations().map(|(domain, config)| {
-        let factors = PatchFactors::from_fn(domain, |p| PLAIN[p]);
-        Case { config, factors }
-    }));
 }
 
 /// All factors 1 but one: a patch that is no minimum patch because of that factor alone.
-fn beside_minimum(cases: &mut Vec<Case>) {
-    for (domain, partitioning) in combinations() {
-        for position in 0..domain.factors() {
-            let factor = |p| if p == position { 2.5 } else { 1.0 };
-            let factors = PatchFactors::from_fn(domain, factor);
-            cases.push(Case { config: config(partitioning, position), factors });
+fn beside_minimum(
+    cases: &mut Vec<Case>,
+    choices: &Choices,
+    domain: Domain,
+    partitioning: Partitioning,
+) {
+    for position in 0..domain.factors() {
+        let factor = |p| if p == position { 2.5 } else { 1.0 };
+        let factors = PatchFactors::from_fn(domain, factor);
+        cases.push(Case { config: choices.config(partitioning, position), factors });
+    }
+}
+
+/// Every pair of an outer and an inside number of points that a partitioning has, in each split order. Beside quads,
+/// triangles have each pair in one of the orders.
+fn transitions(cases: &mut Vec<Case>, choices: &Choices) {
+    let partitioning = choices.partitioning(&[Partitioning::Integer]);
+    let counts = segments(partitioning);
+    let has_quads = choices.domains.contains(&Domain::Quad);
+    for (order, &split) in choices.splits.iter().enumerate() {
+        let mut add = |factors| cases.push(choices.surface(partitioning, split, factors));
+        for (number, &inside) in counts.iter().enumerate() {
+            if has_quads {
+                for (turn, outer) in counts.chunks(4).enumerate() {
+                    let quads = quads_with(outer, inside, turn);
+                    quads.into_iter().for_each(|quad| add(PatchFactors::Quad(quad)));
+                }
+            }
+            if choices.domains.contains(&Domain::Triangle) {
+                let is_due =
+                    |turn: usize| !has_quads || (number + turn) % choices.splits.len() == order;
+                let outer = counts.chunks(3).enumerate().filter(|(turn, _)| is_due(*turn));
+                for (_, outer) in outer {
+                    let factor = |p| if p == 3 { inside } else { outer[p % outer.len()] };
+                    add(PatchFactors::from_fn(Domain::Triangle, factor));
+                }
+            }
         }
+    }
+}
+
+/// Factors of which each gives another number of points, ascending: all of them there are. Fractional ones lie
+/// between two whole numbers.
+fn segments(partitioning: Partitioning) -> Vec<f32> {
+    let whole = |n: u32| from_fixed(n << 16);
+    let below = |n: u32| from_fixed((n << 16) - 0x6000);
+    match partitioning {
+        Partitioning::Integer | Partitioning::Pow2 => (1..=64).map(whole).collect(),
+        Partitioning::FractionalOdd => (1..=63).step_by(2).map(below).collect(),
+        Partitioning::FractionalEven => (2..=64).step_by(2).map(below).collect(),
+    }
+}
+
+/// Quads with these four outer factors against an inside factor, each along both axes. A quad is narrow along its other
+/// axis, which keeps it short.
+fn quads_with(outer: &[f32], inside: f32, turn: usize) -> [QuadFactors; 4] {
+    let [a, b, c, d] = [0, 1, 2, 3].map(|k| outer[k]);
+    let (wide, narrow) = (inside, [1.0, 2.0, 3.0, 4.0][turn % 4]);
+    // The edges v = 0 and v = 1 run along u, the others along v.
+    [
+        QuadFactors { u0: narrow, v0: a, u1: 2.0, v1: b, inside_u: wide, inside_v: narrow },
+        QuadFactors { u0: c, v0: 1.0, u1: d, v1: narrow, inside_u: narrow, inside_v: wide },
+        QuadFactors { u0: 1.0, v0: c, u1: 3.0, v1: d, inside_u: wide, inside_v: narrow },
+        QuadFactors { u0: a, v0: 2.0, u1: b, v1: 1.0, inside_u: narrow, inside_v: wide },
+    ]
+}
+
+/// Pairs of inside factors on quads, with the fractional partitionings a little below, and each inside factor on
+/// triangles; split orders in turn.
+fn interiors(cases: &mut Vec<Case>, choices: &Choices, wanted: impl Fn(u8, u8) -> bool) {
+    for partitioning in choices.distinct_partitionings() {
+        let shift = if partitioning.has_integer_factors() { 0 } else { 0x6000 };
+        let factor = |n: u8| from_fixed((u32::from(n) << 16) - shift);
+        let mut add = |turn: u8, factors| {
+            let split = choices.splits[usize::from(turn / 2) % choices.splits.len()];
+            cases.push(choices.surface(partitioning, split, factors));
+        };
+        for u in 1..=64 {
+            if choices.domains.contains(&Domain::Triangle) {
+                let inside = |p| if p == 3 { factor(u) } else { 3.0 };
+                add(u, PatchFactors::from_fn(Domain::Triangle, inside));
+            }
+            if choices.domains.contains(&Domain::Quad) {
+                for v in (1..=64).filter(|&v| wanted(u, v)) {
+                    let quad = PatchFactors::from_fn(Domain::Quad, |p| match p {
+                        4 => factor(u),
+                        5 => factor(v),
+                        _ => PLAIN[p],
+                    });
+                    add(u + v, quad);
+                }
+            }
+        }
+    }
+}
+
+/// Each configuration of each domain: an ordinary patch, a minimum one and a culled one.
+fn every_configuration(cases: &mut Vec<Case>, choices: &Choices) {
+    for (domain, config) in choices.configurations() {
+        let ordinary = PatchFactors::from_fn(domain, |p| PLAIN[p]);
+        let [minimum, culled] = [1.0, 0.0].map(|factor| PatchFactors::uniform(domain, factor));
+        cases.extend([ordinary, minimum, culled].map(|factors| Case { config, factors }));
+    }
+}
+
+/// Pairs of patches of which the first may leave its state to the second: every kind after every kind, and each value of
+/// a configuration after each other one, while all else stays.
+fn sequences(cases: &mut Vec<Case>, choices: &Choices) {
+    kinds(cases, choices);
+    for &domain in &choices.domains {
+        let case = |config| {
+            // An isoline's first factor is its density.
+            let factors = PatchFactors::from_fn(domain, |p| TELLING[p]);
+            Case { config, factors }
+        };
+        let fractional = [Partitioning::FractionalOdd, Partitioning::FractionalEven];
+        let partitioning = choices.partitioning(&fractional);
+        let base = choices.surface_config(partitioning, choices.splits[0]);
+        let mut add = |pair: [Config; 2]| cases.extend(pair.map(case));
+        pairs(&choices.splits).for_each(|pair| add(pair.map(|split| Config { split, ..base })));
+        pairs(&choices.outputs).for_each(|pair| add(pair.map(|output| Config { output, ..base })));
+        pairs(&choices.partitionings)
+            .for_each(|pair| add(pair.map(|partitioning| Config { partitioning, ..base })));
     }
 }
 
 /// Every kind of patch after every kind: of each domain one that is culled, one that is minimum and one that is neither.
-fn sequences(cases: &mut Vec<Case>) {
+fn kinds(cases: &mut Vec<Case>, choices: &Choices) {
+    // The one that has picture frames.
+    let partitioning = choices.partitioning(&[Partitioning::FractionalOdd]);
     let mut kinds = Vec::new();
-    for domain in Domain::ALL {
+    for &domain in &choices.domains {
         let uniform = |factor| PatchFactors::uniform(domain, factor);
         kinds.extend([uniform(0.0), PatchFactors::from_fn(domain, |p| PLAIN[p])]);
         kinds.extend((domain != Domain::Isoline).then(|| uniform(1.0)));
     }
-    for first in &kinds {
-        for then in &kinds {
-            let case = |factors| triangles(Partitioning::FractionalOdd, SplitOrder::Ruler, factors);
-            cases.extend([case(*first), case(*then)]);
-        }
+    let split = choices.splits[0];
+    for [first, then] in pairs(&kinds) {
+        cases.extend([first, then].map(|factors| choices.surface(partitioning, split, factors)));
     }
+}
+
+/// Every ordered pair, also of a value with itself.
+fn pairs<T: Copy>(values: &[T]) -> impl Iterator<Item = [T; 2]> {
+    values.iter().flat_map(|&first| values.iter().map(move |&then| [first, then]))
 }

@@ -68,10 +68,4 @@ impl SplitMix64 {
     pub const fn below(&mut self, bound: u32) -> u32 {
         ((self.next_u32() as u64 * bound as u64) >> 32) as u32
     }
-
-    /// A multiple of 2^-24 in `0..1`, evenly distributed.
-    #[expect(clippy::float_arithmetic, reason = "exact: 24 bits times a power of two")]
-    pub(crate) fn unit(&mut self) -> f64 {
-        f64::from(self.next_u32() >> 8) / f64::from(1 << 24)
-    }
 }

@@ -29,9 +29,8 @@ fn levels() -> Vec<f32> {
     levels
 }
 
-/// A family for each level of each domain and spacing, and patches beside the least that has an
-/// inside.
-pub(super) fn systematic(version: u8) -> Vec<Case> {
+/// A family for each level of each domain and spacing, and patches beside the least that has an inside.
+pub(super) fn systematic() -> Vec<Case> {
     let levels = levels();
     let mut cases = Vec::new();
     for domain in Domain::ALL {
@@ -59,16 +58,12 @@ pub(super) fn systematic(version: u8) -> Vec<Case> {
             }
         }
     }
-    // Only where all other levels are 1 does one that is barely above 1 decide whether there is an
-    // inside.
-    let list = if version > 1 { super::thresholds() } else { Vec::new() };
-    let frames = list.into_iter().filter(|(side, _)| side.starts_with("frame/"));
+    // Only where all other levels are 1 does one that is barely above 1 decide whether there is an inside.
+    let frames = super::thresholds().into_iter().filter(|(side, _)| side.starts_with("frame/"));
     cases.extend(frames.map(|(_, case)| case));
-    if version > 2 {
-        powers_of_two(&mut cases);
-        unusual_levels(&mut cases);
-        changing_state(&mut cases);
-    }
+    powers_of_two(&mut cases);
+    unusual_levels(&mut cases);
+    changing_state(&mut cases);
     cases
 }
 

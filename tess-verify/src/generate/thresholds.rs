@@ -12,11 +12,10 @@
 //! Each entry is a comparison with a side of it, and a case that lies exactly there. The bins `boundary/*` of the
 //! coverage have the same names; what lies there is said where they are observed.
 
+use super::choices::Choices;
 use super::from_fixed;
 use crate::case::Case;
-use tess_core::{
-    Config, Domain, FixedFactor, OutputPrimitive, Partitioning, PatchFactors, SplitOrder,
-};
+use tess_core::{Domain, FixedFactor, Partitioning, PatchFactors};
 
 type Threshold = (&'static str, Case);
 
@@ -31,26 +30,40 @@ const ONE: f32 = 1.0;
 /// `frame/above`, and a case.
 #[must_use]
 pub fn thresholds() -> Vec<(&'static str, Case)> {
-    let mut list = Vec::new();
-    for domain in Domain::ALL {
-        cull(&mut list, domain);
-        for partitioning in Partitioning::ALL {
-            clamp(&mut list, domain, partitioning);
-        }
-        round(&mut list, domain);
-        frame(&mut list, domain);
-        parity(&mut list, domain);
-        conversion(&mut list, domain);
-    }
-    whole(&mut list);
-    locations(&mut list);
-    wider(&mut list);
-    list
+    of(&Choices::all())
 }
 
-fn case(partitioning: Partitioning, factors: PatchFactors) -> Case {
-    let output = OutputPrimitive::TriangleCw;
-    Case { config: Config { partitioning, output, split: SplitOrder::Ruler }, factors }
+/// The entries of a selection, whose patches have both sides of each comparison that they can be beside.
+pub(super) fn of(choices: &Choices) -> Vec<Threshold> {
+    let mut list = Thresholds { choices, list: Vec::new() };
+    for &domain in &choices.domains {
+        list.cull(domain);
+        for &partitioning in &choices.partitionings {
+            list.clamp(domain, partitioning);
+            list.round(domain, partitioning);
+        }
+        list.frame(domain);
+        list.minimum(domain);
+        for &partitioning in &choices.partitionings {
+            list.parity(domain, partitioning);
+            list.conversion(domain, partitioning);
+        }
+        if domain == Domain::Triangle {
+            list.rings();
+        }
+        if domain == Domain::Quad {
+            list.wider();
+        }
+    }
+    list.whole();
+    list.locations();
+    list.list
+}
+
+/// The list as it grows.
+struct Thresholds<'a> {
+    choices: &'a Choices,
+    list: Vec<Threshold>,
 }
 
 /// One factor among others that are equal.
@@ -59,119 +72,163 @@ fn alone(domain: Domain, position: usize, bits: u32, others: f32) -> PatchFactor
     PatchFactors::from_fn(domain, factor)
 }
 
-/// Each outer factor alone at the ends of what is greater than zero.
-fn cull(list: &mut Vec<Threshold>, domain: Domain) {
-    let infinity = f32::INFINITY.to_bits();
-    for position in 0..domain.outer_factors() {
-        for (side, bits) in [
-            ("cull/below", 0),
-            ("cull/below", SIGN),
-            ("cull/above", 1),
-            ("sign/above", SIGN + 1),
-            ("number/below", infinity),
-            ("number/above", FIRST_NAN),
-        ] {
-            let partitioning = Partitioning::ALL[position];
-            list.push((side, case(partitioning, alone(domain, position, bits, ONE))));
+/// Whether a factor is processed as an integer: an isoline's density always is.
+fn is_integer(domain: Domain, partitioning: Partitioning, position: usize) -> bool {
+    partitioning.has_integer_factors() || (domain, position) == (Domain::Isoline, 0)
+}
+
+impl Thresholds<'_> {
+    fn push(&mut self, side: &'static str, partitioning: Partitioning, factors: PatchFactors) {
+        let split = self.choices.splits[0];
+        self.list.push((side, self.choices.surface(partitioning, split, factors)));
+    }
+
+    fn push_in_each_order(
+        &mut self,
+        side: &'static str,
+        partitioning: Partitioning,
+        factors: PatchFactors,
+    ) {
+        for &split in &self.choices.splits {
+            self.list.push((side, self.choices.surface(partitioning, split, factors)));
         }
     }
-}
 
-/// All factors at the lower end of the range; outer factors at the upper end, then inside factors, of isolines the
-/// density, then the detail.
-fn clamp(list: &mut Vec<Threshold>, domain: Domain, partitioning: Partitioning) {
-    let of =
-        |p| if (domain, p) == (Domain::Isoline, 0) { Partitioning::Integer } else { partitioning };
-    let units = |factor, units| {
-        from_fixed(FixedFactor::from_f32(factor).to_bits().wrapping_add_signed(units))
-    };
-    for (side, offset) in [("clamp_low/below", -2), ("clamp_low/below", -1), ("clamp_low/above", 0)]
-    {
-        let low = |p| units(of(p).range().0, offset);
-        list.push((side, case(partitioning, PatchFactors::from_fn(domain, low))));
+    /// Each outer factor alone at the ends of what is greater than zero.
+    fn cull(&mut self, domain: Domain) {
+        let infinity = f32::INFINITY.to_bits();
+        let partitionings = &self.choices.partitionings;
+        for position in 0..domain.outer_factors() {
+            for (side, bits) in [
+                ("cull/below", 0),
+                ("cull/below", SIGN),
+                ("cull/above", 1),
+                ("sign/above", SIGN + 1),
+                ("number/below", infinity),
+                ("number/above", FIRST_NAN),
+            ] {
+                let partitioning = partitionings[position % partitionings.len()];
+                self.push(side, partitioning, alone(domain, position, bits, ONE));
+            }
+        }
     }
-    // Rounding up sees what a conversion to fixed point would not.
-    let beyond = |p| match of(p).range().1 {
-        high if of(p).has_integer_factors() => f32::from_bits(high.to_bits() + 1),
-        high => units(high, 1),
-    };
-    let first = if domain == Domain::Isoline { 1 } else { domain.outer_factors() };
-    for is_first in [true, false] {
-        let among_ones = |high: &dyn Fn(usize) -> f32| {
-            let factor = |p| if (p < first) == is_first { high(p) } else { ONE };
-            case(partitioning, PatchFactors::from_fn(domain, factor))
+
+    /// All factors at the lower end of the range; outer factors at the upper end, then inside factors, of isolines the
+    /// density, then the detail.
+    fn clamp(&mut self, domain: Domain, partitioning: Partitioning) {
+        let of = |p| match is_integer(domain, partitioning, p) {
+            true => Partitioning::Integer,
+            false => partitioning,
         };
-        list.push(("clamp_high/below", among_ones(&|p| of(p).range().1)));
-        list.push(("clamp_high/above", among_ones(&beyond)));
+        let units = |factor, units| {
+            from_fixed(FixedFactor::from_f32(factor).to_bits().wrapping_add_signed(units))
+        };
+        for (side, offset) in
+            [("clamp_low/below", -2), ("clamp_low/below", -1), ("clamp_low/above", 0)]
+        {
+            let low = |p| units(of(p).range().0, offset);
+            self.push(side, partitioning, PatchFactors::from_fn(domain, low));
+        }
+        // Rounding up sees what a conversion to fixed point would not.
+        let beyond = |p| match of(p).range().1 {
+            high if of(p).has_integer_factors() => f32::from_bits(high.to_bits() + 1),
+            high => units(high, 1),
+        };
+        let first = if domain == Domain::Isoline { 1 } else { domain.outer_factors() };
+        for is_first in [true, false] {
+            let among_ones = |high: &dyn Fn(usize) -> f32| {
+                let factor = |p| if (p < first) == is_first { high(p) } else { ONE };
+                PatchFactors::from_fn(domain, factor)
+            };
+            self.push("clamp_high/below", partitioning, among_ones(&|p| of(p).range().1));
+            self.push("clamp_high/above", partitioning, among_ones(&beyond));
+        }
     }
-}
 
-/// Powers of two from 1 to 32, in each position: exact, one pattern more, and the last pattern before the next.
-fn round(list: &mut Vec<Threshold>, domain: Domain) {
-    for partitioning in [Partitioning::Integer, Partitioning::Pow2] {
+    /// Powers of two from 1 to 32, in each position that is rounded: exact, one pattern more, and the last pattern
+    /// before the next.
+    fn round(&mut self, domain: Domain, partitioning: Partitioning) {
+        if !is_integer(domain, partitioning, 0) {
+            return;
+        }
         for turn in 0..6 {
             let power = |p: usize| [127, 128, 129, 130, 131, 132][(p + turn) % 6];
-            let of = |bits: &dyn Fn(u32) -> u32| {
-                let factor = |p| f32::from_bits(bits(power(p)));
-                case(partitioning, PatchFactors::from_fn(domain, factor))
-            };
-            list.extend([
-                ("round/below", of(&|power| power << 23)),
-                ("round/above", of(&|power| (power << 23) + 1)),
-                ("round/last", of(&|power| ((power + 1) << 23) - 1)),
-            ]);
-        }
-    }
-}
-
-/// Each factor alone beside what makes a picture frame, and what makes a patch more than a minimum one.
-fn frame(list: &mut Vec<Threshold>, domain: Domain) {
-    if domain == Domain::Isoline {
-        return;
-    }
-    let [below, above] = FRAME;
-    for position in 0..domain.factors() {
-        let at = |partitioning, bits| case(partitioning, alone(domain, position, bits, ONE));
-        let odd = |bits| at(Partitioning::FractionalOdd, bits);
-        list.extend([
-            ("frame/below", odd(below)),
-            ("frame/above", odd(above)),
-            ("number/below", odd(f32::INFINITY.to_bits())),
-        ]);
-        for partitioning in [Partitioning::Integer, Partitioning::Pow2] {
-            list.push(("minimum/above", at(partitioning, ONE.to_bits() + 1)));
-        }
-        if position >= domain.outer_factors() {
-            list.push(("sign/above", odd(SIGN | above)));
-            list.push(("round/last", at(Partitioning::Integer, 2f32.to_bits() - 1)));
-            for partitioning in Partitioning::ALL {
-                list.push(("number/above", at(partitioning, FIRST_NAN)));
+            let sides: [(_, fn(u32) -> u32); 3] = [
+                ("round/below", |power| power << 23),
+                ("round/above", |power| (power << 23) + 1),
+                ("round/last", |power| ((power + 1) << 23) - 1),
+            ];
+            for (side, bits) in sides {
+                let factor = |p| match is_integer(domain, partitioning, p) {
+                    true => f32::from_bits(bits(power(p))),
+                    false => ONE,
+                };
+                self.push(side, partitioning, PatchFactors::from_fn(domain, factor));
             }
         }
     }
-}
 
-/// Each factor alone is 1 or 2: only an inside factor of 1 counts as even.
-fn parity(list: &mut Vec<Threshold>, domain: Domain) {
-    for position in 0..domain.factors() {
-        for (side, one) in [("one/below", 1f32), ("one/above", 2.0)] {
-            for partitioning in [Partitioning::Integer, Partitioning::Pow2] {
-                list.push((side, case(partitioning, alone(domain, position, one.to_bits(), 3.0))));
+    /// Each factor alone beside what makes a picture frame.
+    fn frame(&mut self, domain: Domain) {
+        let odd = Partitioning::FractionalOdd;
+        if domain == Domain::Isoline || !self.choices.partitionings.contains(&odd) {
+            return;
+        }
+        let [below, above] = FRAME;
+        for position in 0..domain.factors() {
+            let mut at = |side, bits| self.push(side, odd, alone(domain, position, bits, ONE));
+            at("frame/below", below);
+            at("frame/above", above);
+            at("number/below", f32::INFINITY.to_bits());
+            if position >= domain.outer_factors() {
+                at("sign/above", SIGN | above);
             }
         }
     }
-}
 
-/// Even 15.16 numbers in each binade from 1 or 2 on, whose odd successor moves a point on an outer edge and inside.
-const ODD_MOVES: [u32; 6] = [0x1_0200, 0x2_0204, 0x4_0204, 0x8_0202, 0x10_0210, 0x20_0200];
-const EVEN_MOVES: [u32; 5] = [0x2_0204, 0x4_0202, 0x8_0206, 0x10_0202, 0x20_0216];
+    /// Each factor alone beside what makes a patch more than a minimum one.
+    fn minimum(&mut self, domain: Domain) {
+        if domain == Domain::Isoline {
+            return;
+        }
+        let choices = self.choices;
+        for position in 0..domain.factors() {
+            for &partitioning in &choices.partitionings {
+                let mut at =
+                    |side, bits| self.push(side, partitioning, alone(domain, position, bits, ONE));
+                if partitioning.has_integer_factors() {
+                    at("minimum/above", ONE.to_bits() + 1);
+                }
+                if position < domain.outer_factors() {
+                    continue;
+                }
+                at("number/above", FIRST_NAN);
+                if partitioning == Partitioning::Integer {
+                    at("round/last", 2f32.to_bits() - 1);
+                }
+            }
+        }
+    }
 
-/// Halfway between two 15.16 numbers, and one pattern to each side, in each position and binade.
-fn conversion(list: &mut Vec<Threshold>, domain: Domain) {
-    for (partitioning, moves) in [
-        (Partitioning::FractionalOdd, &ODD_MOVES[..]),
-        (Partitioning::FractionalEven, &EVEN_MOVES[..]),
-    ] {
+    /// Each factor alone is 1 or 2: only an inside factor of 1 counts as even.
+    fn parity(&mut self, domain: Domain, partitioning: Partitioning) {
+        for position in 0..domain.factors() {
+            if is_integer(domain, partitioning, position) {
+                for (side, one) in [("one/below", 1f32), ("one/above", 2.0)] {
+                    let factors = alone(domain, position, one.to_bits(), 3.0);
+                    self.push(side, partitioning, factors);
+                }
+            }
+        }
+    }
+
+    /// Halfway between two 15.16 numbers, and one pattern to each side, in each position and binade.
+    fn conversion(&mut self, domain: Domain, partitioning: Partitioning) {
+        let moves = match partitioning {
+            Partitioning::Integer | Partitioning::Pow2 => return,
+            Partitioning::FractionalOdd => &ODD_MOVES[..],
+            Partitioning::FractionalEven => &EVEN_MOVES[..],
+        };
         for turn in 0..moves.len() {
             for (side, offset) in
                 [("conversion/below", -1), ("conversion/at", 0), ("conversion/above", 1)]
@@ -180,70 +237,85 @@ fn conversion(list: &mut Vec<Threshold>, domain: Domain) {
                     let fixed = moves[(p + turn) % moves.len()];
                     let [low, high] = [fixed, fixed + 1].map(|fixed| from_fixed(fixed).to_bits());
                     let tie = u32::midpoint(low, high);
-                    f32::from_bits(tie.wrapping_add_signed(offset))
+                    let beside = f32::from_bits(tie.wrapping_add_signed(offset));
+                    if is_integer(domain, partitioning, p) { ONE } else { beside }
                 };
-                // The density is processed as integer.
-                let factor = |p| if (domain, p) == (Domain::Isoline, 0) { ONE } else { factor(p) };
-                list.push((side, case(partitioning, PatchFactors::from_fn(domain, factor))));
+                self.push(side, partitioning, PatchFactors::from_fn(domain, factor));
             }
         }
     }
-}
 
-fn isoline(split: SplitOrder, partitioning: Partitioning, detail: u32) -> Case {
-    let factors = PatchFactors::from_fn(Domain::Isoline, |p| [ONE, from_fixed(detail)][p]);
-    let Case { config, factors } = case(partitioning, factors);
-    Case { config: Config { split, ..config }, factors }
-}
+    /// Factors of which a ring lies just below the middle between two 16.16 numbers, or in it.
+    fn rings(&mut self) {
+        for (side, partitioning, inside) in [
+            ("ring/below", Partitioning::FractionalOdd, 0x2_8011),
+            ("ring/above", Partitioning::FractionalOdd, 0x2_7FFF),
+            ("ring/below", Partitioning::FractionalEven, 0x3_FFE5),
+            ("ring/above", Partitioning::FractionalEven, 0x3_FFFD),
+        ] {
+            if self.choices.partitionings.contains(&partitioning) {
+                let inside = from_fixed(inside).to_bits();
+                self.push(side, partitioning, alone(Domain::Triangle, 3, inside, 3.0));
+            }
+        }
+    }
 
-/// Details that are whole, and those by a unit above: the least that splits a point off, in both orders.
-fn whole(list: &mut Vec<Threshold>) {
-    for split in SplitOrder::ALL {
+    /// Quads of every size whose inside factors differ by at most two, either being the larger. An inside factor of 1
+    /// is 2.
+    fn wider(&mut self) {
+        let partitioning = self.choices.partitioning(&[Partitioning::Integer]);
+        for u in 2..=64u8 {
+            for v in (u - 2).max(2)..=(u + 2).min(64) {
+                let side = if u > v { "wider/above" } else { "wider/below" };
+                let [inside_u, inside_v] = [u, v].map(f32::from);
+                let factors = PatchFactors::from_fn(Domain::Quad, |p| match p {
+                    4 => inside_u,
+                    5 => inside_v,
+                    _ => ONE,
+                });
+                self.push(side, partitioning, factors);
+            }
+        }
+    }
+
+    /// A patch with a factor in whose context the split order shows: an isoline's detail, else an outer factor.
+    fn push_detail(&mut self, side: &'static str, partitioning: Partitioning, detail: u32) {
+        let domain = self.choices.domains[0];
+        let position = usize::from(domain == Domain::Isoline);
+        let factors = alone(domain, position, from_fixed(detail).to_bits(), ONE);
+        self.push_in_each_order(side, partitioning, factors);
+    }
+
+    /// Factors that are whole, and those by a unit above: the least that splits a point off, in both orders.
+    fn whole(&mut self) {
         for whole in 1..=62u32 {
             let partitioning = match whole % 2 {
                 0 => Partitioning::FractionalEven,
                 _ => Partitioning::FractionalOdd,
             };
-            let detail = |units| isoline(split, partitioning, (whole << 16) + units);
-            list.extend([("whole/below", detail(0)), ("whole/above", detail(1))]);
+            if self.choices.partitionings.contains(&partitioning) {
+                self.push_detail("whole/below", partitioning, whole << 16);
+                self.push_detail("whole/above", partitioning, (whole << 16) + 1);
+            }
+        }
+    }
+
+    /// Factors of which a location lies just below the middle between two 16.16 numbers, or in it.
+    fn locations(&mut self) {
+        use Partitioning::{FractionalEven as Even, FractionalOdd as Odd};
+        for (side, partitioning, detail) in [
+            ("location/below", Odd, 0x2_0005),
+            ("location/above", Odd, 0x1_FFFF),
+            ("location/below", Even, 0x5_7FF9),
+            ("location/above", Even, 0x2_0003),
+        ] {
+            if self.choices.partitionings.contains(&partitioning) {
+                self.push_detail(side, partitioning, detail);
+            }
         }
     }
 }
 
-/// Factors of which a location lies just below the middle between two 16.16 numbers, or in it.
-fn locations(list: &mut Vec<Threshold>) {
-    use Partitioning::{FractionalEven as Even, FractionalOdd as Odd};
-    for (side, partitioning, detail) in [
-        ("location/below", Odd, 0x2_0005),
-        ("location/above", Odd, 0x1_FFFF),
-        ("location/below", Even, 0x5_7FF9),
-        ("location/above", Even, 0x2_0003),
-    ] {
-        list.extend(SplitOrder::ALL.map(|split| (side, isoline(split, partitioning, detail))));
-    }
-    for (side, partitioning, inside) in [
-        ("ring/below", Odd, 0x2_8011),
-        ("ring/above", Odd, 0x2_7FFF),
-        ("ring/below", Even, 0x3_FFE5),
-        ("ring/above", Even, 0x3_FFFD),
-    ] {
-        let inside = from_fixed(inside).to_bits();
-        list.push((side, case(partitioning, alone(Domain::Triangle, 3, inside, 3.0))));
-    }
-}
-
-/// Quads of every size whose inside factors differ by at most two, either being the larger. An inside factor of 1 is 2.
-fn wider(list: &mut Vec<Threshold>) {
-    for u in 2..=64u8 {
-        for v in (u - 2).max(2)..=(u + 2).min(64) {
-            let side = if u > v { "wider/above" } else { "wider/below" };
-            let [inside_u, inside_v] = [u, v].map(f32::from);
-            let factors = PatchFactors::from_fn(Domain::Quad, |p| match p {
-                4 => inside_u,
-                5 => inside_v,
-                _ => ONE,
-            });
-            list.push((side, case(Partitioning::Integer, factors)));
-        }
-    }
-}
+/// Even 15.16 numbers in each binade from 1 or 2 on, whose odd successor moves a point on an outer edge and inside.
+const ODD_MOVES: [u32; 6] = [0x1_0200, 0x2_0204, 0x4_0204, 0x8_0202, 0x10_0210, 0x20_0200];
+const EVEN_MOVES: [u32; 5] = [0x2_0204, 0x4_0202, 0x8_0206, 0x10_0202, 0x20_0216];

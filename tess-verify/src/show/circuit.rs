@@ -42,32 +42,44 @@ impl fmt::Display for Part {
     }
 }
 
-/// A signal, by the stage and the name that benches give it, and the module of the circuit that makes it.
+/// A signal of the circuit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Signal {
-    /// The option of `tess explain` that chooses what it describes.
-    option: &'static str,
+    /// The stage, as benches name it.
     stage: &'static str,
+    /// Its name there.
     name: &'static str,
+    /// The module that makes it.
     module: &'static str,
 }
 
-/// The signals of the circuit, those of each option in the order in which each feeds the next.
-const STAGES: &str = include_str!("stages.tsv");
-const _: () = assert!(
-    STAGES.as_bytes()[0] == b'#',
-    "stages.tsv is a symbolic link; git leaves its target's path without core.symlinks"
-);
-
-/// The signals of an option.
-fn signals(option: &str) -> impl Iterator<Item = Signal> {
-    let rows = STAGES.lines().filter(|line| !line.starts_with('#'));
-    let signals = rows.filter_map(|row| {
-        let [option, stage, name, module] = row.split('\t').collect::<Vec<_>>().try_into().ok()?;
-        Some(Signal { option, stage, name, module })
-    });
-    signals.filter(move |signal| signal.option == option)
+const fn signal(stage: &'static str, name: &'static str, module: &'static str) -> Signal {
+    Signal { stage, name, module }
 }
+
+// Those of each part are in the order in which each feeds the next. `rtl/stages.tsv` has the same list for the
+// circuit's benches, which a test compares.
+const CULLED: Signal = signal("factors", "culled", "tess_factors");
+const FIXED: Signal = signal("factors", "fixed", "tess_factor");
+const ODD: Signal = signal("factors", "odd", "tess_factor");
+const FRACTION: Signal = signal("factor_context", "fraction", "tess_factor_context");
+const HALF_POINTS: Signal = signal("factor_context", "half_points", "tess_factor_context");
+const FACTOR_POINTS: Signal = signal("factor_context", "points", "tess_factor_context");
+const SPLIT: Signal = signal("factor_context", "split", "tess_factor_context");
+const INV_FLOOR: Signal = signal("factor_context", "inv_floor", "tess_factor_context");
+const INV_CEIL: Signal = signal("factor_context", "inv_ceil", "tess_factor_context");
+const POINTS: Signal = signal("counts", "points", "tess_factors");
+const PRIMITIVES: Signal = signal("counts", "primitives", "tess_factors");
+const POINT_VALID: Signal = signal("points", "valid", "tess_points");
+const U: Signal = signal("points", "u", "tess_points");
+const V: Signal = signal("points", "v", "tess_points");
+const LAST_POINT: Signal = signal("points", "last", "tess_points");
+const PRIMITIVE_VALID: Signal = signal("connect", "valid", "tess_connect");
+const SIZE: Signal = signal("connect", "size", "tess_connect");
+const I0: Signal = signal("connect", "i0", "tess_connect");
+const I1: Signal = signal("connect", "i1", "tess_connect");
+const I2: Signal = signal("connect", "i2", "tess_connect");
+const LAST_PRIMITIVE: Signal = signal("connect", "last", "tess_connect");
 
 /// A signal that differs from the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,7 +140,7 @@ pub fn compare_signals(
     let differences = expected.into_iter().flat_map(|(signal, expected)| {
         let seen =
             observed.iter().filter(move |(name, value)| *name == signal.name && *value != expected);
-        let Signal { stage, name, module, .. } = signal;
+        let Signal { stage, name, module } = signal;
         seen.map(move |&(_, observed)| SignalDifference { stage, name, module, observed, expected })
     });
     Ok(differences.collect())
@@ -138,46 +150,53 @@ pub fn compare_signals(
 fn values(case: &Case, part: Part) -> Option<Vec<(Signal, u32)>> {
     let patch = case.patch();
     let counts = patch.counts();
-    let (option, values): (&str, Vec<u32>) = match part {
-        Part::Patch => ("patch", vec![counts.points, counts.primitives]),
+    Some(match part {
+        Part::Patch => vec![(POINTS, counts.points), (PRIMITIVES, counts.primitives)],
         Part::Factor(k) => {
-            let factors = patch.processed().factors();
             let number = usize::try_from(k).ok().filter(|k| *k < case.domain().factors())?;
-            (
-                "factor",
-                factors.map_or(Some(vec![1]), |all| all.iter().nth(number).map(|x| factor(&x)))?,
-            )
+            match patch.processed().factors() {
+                None => vec![(CULLED, 1)],
+                Some(factors) => of_factor(&factors.iter().nth(number)?),
+            }
         }
         Part::Point(i) => {
             let point = patch.point(i)?;
-            (
-                "point",
-                vec![1, point.u.to_bits(), point.v.to_bits(), (i + 1 == counts.points).into()],
-            )
+            let is_last = i + 1 == counts.points;
+            vec![
+                (POINT_VALID, 1),
+                (U, point.u.to_bits()),
+                (V, point.v.to_bits()),
+                (LAST_POINT, is_last.into()),
+            ]
         }
         Part::Primitive(t) => {
             let primitive = patch.primitive(t)?;
             let index = |i: usize| primitive.indices().get(i).copied().unwrap_or(0);
-            let last = (t + 1 == counts.primitives).into();
-            ("primitive", vec![1, primitive.size(), index(0), index(1), index(2), last])
+            let is_last = t + 1 == counts.primitives;
+            vec![
+                (PRIMITIVE_VALID, 1),
+                (SIZE, primitive.size()),
+                (I0, index(0)),
+                (I1, index(1)),
+                (I2, index(2)),
+                (LAST_PRIMITIVE, is_last.into()),
+            ]
         }
-    };
-    Some(signals(option).zip(values).collect())
+    })
 }
 
-/// In the order of the signals of `factor`.
-fn factor(factor: &ProcessedFactor) -> Vec<u32> {
-    let c = &factor.context;
+fn of_factor(factor: &ProcessedFactor) -> Vec<(Signal, u32)> {
+    let context = &factor.context;
     vec![
-        0,
-        factor.fixed.to_bits(),
-        c.parity.odd(),
-        c.fraction,
-        c.half_points,
-        c.points,
-        c.split,
-        c.inv_floor,
-        c.inv_ceil,
+        (CULLED, 0),
+        (FIXED, factor.fixed.to_bits()),
+        (ODD, context.parity.odd()),
+        (FRACTION, context.fraction),
+        (HALF_POINTS, context.half_points),
+        (FACTOR_POINTS, context.points),
+        (SPLIT, context.split),
+        (INV_FLOOR, context.inv_floor),
+        (INV_CEIL, context.inv_ceil),
     ]
 }
 
@@ -187,6 +206,30 @@ mod tests {
 
     fn case(line: &str) -> Case {
         line.parse().expect("a case")
+    }
+
+    /// The list of the circuit's benches, row by row: the option of `tess explain` that chooses the part, then the signal.
+    /// A published package has none.
+    #[test]
+    fn the_circuit_has_the_same_signals() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../rtl/stages.tsv");
+        let Ok(list) = std::fs::read_to_string(path) else { return };
+        let case =
+            case("case tri fractional_odd triangle_cw ruler 40200000 40400000 3f800000 40500000");
+        let parts = [
+            ("factor", Part::Factor(0)),
+            ("patch", Part::Patch),
+            ("point", Part::Point(0)),
+            ("primitive", Part::Primitive(0)),
+        ];
+        let own = parts.into_iter().flat_map(|(option, part)| {
+            let row = move |(Signal { stage, name, module }, _)| {
+                format!("{option}\t{stage}\t{name}\t{module}")
+            };
+            values(&case, part).expect("the part").into_iter().map(row).collect::<Vec<_>>()
+        });
+        let rows = list.lines().filter(|line| !line.starts_with('#'));
+        assert_eq!(own.collect::<Vec<_>>(), rows.collect::<Vec<_>>());
     }
 
     /// The values of a circuit without a fault do not differ; each signal alone is seen.
@@ -202,7 +245,7 @@ mod tests {
             for (i, (signal, expected)) in right.into_iter().enumerate() {
                 let mut wrong = observed.clone();
                 wrong[i].1 ^= 1;
-                let Signal { stage, name, module, .. } = signal;
+                let Signal { stage, name, module } = signal;
                 let observed = expected ^ 1;
                 let difference = SignalDifference { stage, name, module, observed, expected };
                 assert_eq!(

@@ -76,12 +76,27 @@ impl fmt::Display for Record {
     }
 }
 
-/// Reads a listing of either form, of which the first line was read already.
-pub(super) fn read_listing<R: BufRead>(lines: &mut Lines<R>) -> Result<Record, VectorError> {
+/// Reads a listing of either form, of which the first line was read already. Errors name it: it is record `number`.
+pub(super) fn read_listing<R: BufRead>(
+    lines: &mut Lines<R>,
+    number: u64,
+) -> Result<Record, VectorError> {
     let first = lines.last();
     let parsed: Result<Case, CaseError> = first.text.parse();
     let case = parsed.map_err(|error| first.error(error.field, error.message))?;
     let start = first.place.line;
+    let record = read_output(lines, case, start);
+    record.map_err(|error| {
+        let message = format!("{} (record {number}, from line {start}: {case})", error.message);
+        VectorError { message, ..error }
+    })
+}
+
+fn read_output<R: BufRead>(
+    lines: &mut Lines<R>,
+    case: Case,
+    start: u64,
+) -> Result<Record, VectorError> {
     if coordinates::is_announced(&lines.expect("points")?) {
         return coordinates::read(lines, case, start).map(Record::Coordinates);
     }

@@ -7,13 +7,12 @@ struct Frame {
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
-// Who looks, in x: a number of such a matrix. Each pass has its own dynamic offset.
-@group(0) @binding(1) var<uniform> view: vec4u;
 @group(1) @binding(0) var shadows: texture_depth_2d;
 @group(1) @binding(1) var nearer: sampler_comparison;
 
 struct Vertex {
-    // All passes compute the same bits, so that depths can be equal.
+    // In the world after `domain`, in clip space after `left`, `right` or `sun`. A prepass and its colours compute the
+    // same bits, so that depths can be equal.
     @builtin(position) @invariant position: vec4f,
     @location(0) world: vec3f,
 }
@@ -37,7 +36,21 @@ fn hull(number: u32) -> QuadFactors {
 fn domain(number: u32, uv: vec2f) -> Vertex {
     let at = vec2f(f32(number % 8u), f32(number / 8u)) + uv;
     let world = vec3f(at, height(at));
-    return Vertex(frame.clip_from_world[view.x] * vec4f(world, 1.0), world);
+    return Vertex(vec4f(world, 1.0), world);
+}
+
+// Who looks: each pass calls one of these for every vertex.
+
+fn left(vertex: Vertex) -> Vertex {
+    return Vertex(frame.clip_from_world[0] * vertex.position, vertex.world);
+}
+
+fn right(vertex: Vertex) -> Vertex {
+    return Vertex(frame.clip_from_world[1] * vertex.position, vertex.world);
+}
+
+fn sun(vertex: Vertex) -> Vertex {
+    return Vertex(frame.clip_from_world[2] * vertex.position, vertex.world);
 }
 
 @fragment
@@ -52,7 +65,7 @@ fn shade(vertex: Vertex) -> @location(0) vec4f {
     return vec4f(vec3f(0.55, 0.62, 0.40) * (0.3 + 0.7 * toward * lit), 1.0);
 }
 
-// For depth alone, in a pass that has a colour target.
+// Only depth, in a pass that has a colour target.
 @fragment
 fn nothing() -> @location(0) vec4f {
     return vec4f();

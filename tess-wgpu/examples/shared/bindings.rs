@@ -12,28 +12,21 @@ pub(crate) enum Bound<'a> {
     Read(&'a wgpu::Buffer),
     /// A texture that is loaded from, not sampled.
     Texture(&'a wgpu::TextureView),
-    /// 16 bytes at a dynamic offset.
-    Dynamic(&'a wgpu::Buffer),
     Depth(&'a wgpu::TextureView),
     Comparison(&'a wgpu::Sampler),
 }
 
 /// The layout and the bind group of these, bindings 0, 1, ..., for all stages.
 pub(crate) fn bind<'a>(gpu: &Gpu, all: &[Bound<'a>]) -> (BindGroupLayout, BindGroup) {
-    let buffer = |ty, has_dynamic_offset| BindingType::Buffer {
-        ty,
-        has_dynamic_offset,
-        min_binding_size: None,
-    };
+    let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     let texture = |sample_type| BindingType::Texture {
         sample_type,
         view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
     };
     let kind = |bound: &Bound<'_>| match bound {
-        Bound::Uniform(_) => buffer(wgpu::BufferBindingType::Uniform, false),
-        Bound::Dynamic(_) => buffer(wgpu::BufferBindingType::Uniform, true),
-        Bound::Read(_) => buffer(wgpu::BufferBindingType::Storage { read_only: true }, false),
+        Bound::Uniform(_) => buffer(wgpu::BufferBindingType::Uniform),
+        Bound::Read(_) => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
         Bound::Texture(_) => texture(wgpu::TextureSampleType::Float { filterable: false }),
         Bound::Depth(_) => texture(wgpu::TextureSampleType::Depth),
         Bound::Comparison(_) => BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
@@ -44,11 +37,6 @@ pub(crate) fn bind<'a>(gpu: &Gpu, all: &[Bound<'a>]) -> (BindGroupLayout, BindGr
         Bound::Uniform(buffer) | Bound::Read(buffer) => buffer.as_entire_binding(),
         Bound::Texture(view) | Bound::Depth(view) => BindingResource::TextureView(view),
         Bound::Comparison(sampler) => BindingResource::Sampler(sampler),
-        Bound::Dynamic(buffer) => BindingResource::Buffer(wgpu::BufferBinding {
-            buffer,
-            offset: 0,
-            size: std::num::NonZeroU64::new(16),
-        }),
     };
     let group = group(&gpu.device, &layout, (0..).zip(all.iter().map(resource)));
     (layout, group)

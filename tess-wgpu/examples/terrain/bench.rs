@@ -4,7 +4,7 @@ use crate::app::{self, Args, Frame, Show};
 use crate::terrain::Terrain;
 use std::error::Error;
 use std::time::Instant;
-use tess_wgpu::{Gpu, Stopwatch, DeviceLimits};
+use tess_wgpu::{DeviceLimits, Gpu, Stopwatch};
 
 /// Pixels across and down.
 const SIZE: [u32; 2] = [960, 720];

@@ -70,7 +70,8 @@ impl Show for Terrain {
                 self.points = match self.points {
                     Points::Stored => Points::Pull,
                     Points::Pull => Points::PullWithoutIndices,
-                    Points::PullWithoutIndices => Points::Stored,
+                    Points::PullWithoutIndices => Points::Evaluated,
+                    Points::Evaluated => Points::Stored,
                 }
             }
             _ => return Ok(()),
@@ -104,7 +105,8 @@ pub(crate) fn points(word: &str) -> Result<Points, String> {
         "stored" => Ok(Points::Stored),
         "pull" => Ok(Points::Pull),
         "none" => Ok(Points::PullWithoutIndices),
-        _ => Err(format!("--points {word} is none of stored, pull and none")),
+        "evaluated" => Ok(Points::Evaluated),
+        _ => Err(format!("--points {word} is none of stored, pull, none and evaluated")),
     }
 }
 

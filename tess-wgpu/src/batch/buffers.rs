@@ -40,7 +40,8 @@ impl Buffers {
             Resource::Indices => Ok(indices.clone()),
             _ => {
                 let is_read = matches!(resource, Resource::Arguments | Resource::Draws);
-                let more = if is_read { Usage::INDIRECT } else { Usage::empty() };
+                // A stage copies the number of instances there.
+                let more = if is_read { Usage::INDIRECT | Usage::COPY_DST } else { Usage::empty() };
                 let usage = Usage::STORAGE | Usage::COPY_SRC | more;
                 gpu::empty(device, &format!("{resource:?}"), plan.buffer_size(resource), usage)
             }

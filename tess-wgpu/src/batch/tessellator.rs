@@ -5,9 +5,7 @@ use crate::Batch;
 use crate::device::pipelines::{Edit, Pipelines};
 use crate::error::Error;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-#[cfg(feature = "measure")]
-use tess_gpu::Stage;
-use tess_gpu::{Limits, Setup};
+use tess_gpu::{Limits, Setup, Stage};
 
 /// Makes batches for one device, and keeps the pipelines and tables that they share.
 ///
@@ -50,6 +48,12 @@ impl Tessellator {
 
     pub(crate) const fn device(&self) -> &wgpu::Device {
         &self.device
+    }
+
+    /// Makes the pipelines of these stages that are missing.
+    pub(crate) fn compile(&self, setup: Setup, stages: &[Stage]) -> Result<(), Error> {
+        let mut pipelines = self.pipelines();
+        stages.iter().try_for_each(|&stage| pipelines.pipeline(stage, setup).map(drop))
     }
 
     /// The pipelines that clones share.

@@ -112,6 +112,24 @@ pub enum StageError {
     /// The factors of this stage do not come from the host. Make it with `Factors::Host`.
     #[error("the factors of this stage do not come from the host; make it with Factors::Host")]
     NotHostFactors,
+    /// The user's WGSL has no function of the name that
+    /// [`StageBuilder::project`](crate::stage::StageBuilder::project) got.
+    #[error("your WGSL has no function `{name}`; write `fn {name}(vertex: Vertex) -> Vertex`")]
+    NoSuchFunction {
+        /// The name.
+        name: String,
+    },
+    /// A stage that was made with [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) has another domain
+    /// or configuration than the other stage or, where points are evaluated, another `struct Vertex`.
+    #[error(
+        "a stage draws another's output if both have one domain and configuration and, where points \
+         are evaluated, a `struct Vertex` with the same types and locations"
+    )]
+    OtherOutput,
+    /// A stage that was made with [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) is not prepared.
+    /// Prepare the other stage, once for all that draw its output.
+    #[error("this stage draws the output of another; prepare and change that one")]
+    DrawsAnother,
     /// Whoever draws without the stage's pipeline needs stored points and indices. Leave out `points`.
     #[error(
         "to draw without the stage's pipeline, points and indices have to be stored; leave out `points`"

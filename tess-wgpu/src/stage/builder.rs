@@ -2,9 +2,13 @@
 
 use super::choices::{Factors, Overflow, Points, Room};
 use super::room::Form;
-use super::source;
-use super::wgsl::Declaration;
+use super::source::{self, VertexShader};
+use super::vertex::VertexLayout;
+use super::wgsl::{self, Declaration};
+use super::{StageError, TessellationStage};
 use crate::Tessellator;
+use crate::error::Error;
+use std::num::NonZeroU32;
 use tess_core::{Config, Domain};
 use tess_gpu::{Capacity, Order, Setup};
 
@@ -31,16 +35,20 @@ pub struct StageBuilder<'a> {
     pub(super) makes_pipeline: bool,
     pub(super) constants: &'a [(&'a str, f64)],
     pub(super) tessellator: Option<&'a Tessellator>,
+    /// The stage whose output this one draws.
+    pub(super) output_of: Option<&'a TessellationStage>,
 }
 
 /// The state of the render pipeline that is the user's.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Render<'a> {
+    pub(super) project: Option<&'a str>,
     pub(super) fragment: Option<&'a str>,
     pub(super) targets: Vec<Option<wgpu::ColorTargetState>>,
     pub(super) depth: Option<wgpu::DepthStencilState>,
     pub(super) multisample: wgpu::MultisampleState,
     pub(super) primitive: wgpu::PrimitiveState,
+    pub(super) views: Option<NonZeroU32>,
 }
 
 /// Enough for 16 million small triangles.
@@ -63,6 +71,7 @@ impl<'a> StageBuilder<'a> {
             overflow: Overflow::Coarser,
             groups: Vec::new(),
             render: Render {
+                project: None,
                 fragment: None,
                 targets: Vec::new(),
                 depth: None,
@@ -80,16 +89,19 @@ impl<'a> StageBuilder<'a> {
                     polygon_mode: wgpu::PolygonMode::Fill,
                     conservative: false,
                 },
+                views: None,
             },
             makes_pipeline: true,
             constants: &[],
             tessellator: None,
+            output_of: None,
         }
     }
 
     /// The user's next bind group: the first call is `@group(0)`, the second `@group(1)`, and so on. The device's limit
     /// is 4 by default, and the stage takes one of them. The layout is visible to the stages that use
-    /// it: `COMPUTE` for `hull`, `VERTEX` for `domain`. Dynamic offsets are set with
+    /// it: `COMPUTE` for `hull`, `VERTEX` for `domain` and the function of [`Self::project`], `COMPUTE` for `domain`
+    /// with [`Points::Evaluated`]. Dynamic offsets are set with
     /// [`set_dynamic_offsets`](super::TessellationStage::set_dynamic_offsets). wgpu looks at the group when a frame's
     /// encoder is finished: see [`set_bind_group`](super::TessellationStage::set_bind_group).
     pub fn bind_group(mut self, layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup) -> Self {
@@ -107,6 +119,34 @@ impl<'a> StageBuilder<'a> {
     /// thread: a stage, its builder and a tessellator are `Send`.
     pub const fn tessellator(mut self, shared: &'a Tessellator) -> Self {
         self.tessellator = Some(shared);
+        self
+    }
+
+    /// Draws the output of another stage, with this stage's WGSL and state: a further material, a shadow map, a prepass.
+    /// The other stage is prepared once for all that draw its output; this one has no compute passes, and `hull` is not
+    /// needed. Unless points are evaluated, the draw calls this stage's own `domain`.
+    ///
+    /// Both have one domain, configuration and, where points are evaluated, one `struct Vertex` up to its names.
+    /// Factors, points, order, room, groups and the most patches are the other's, whatever this builder got.
+    pub const fn output_of(mut self, other: &'a TessellationStage) -> Self {
+        self.output_of = Some(other);
+        self
+    }
+
+    /// The name of a function of the WGSL, `fn name(vertex: Vertex) -> Vertex`, that every draw calls for each vertex
+    /// that `domain` returned; none if this is not called. What differs from pass to pass belongs there: the camera.
+    ///
+    /// With [`Points::Evaluated`] the draws call nothing else, so it is `domain` that runs once and this function that
+    /// runs in each pass. With the others it is called after `domain` in the same vertex shader.
+    pub const fn project(mut self, function: &'a str) -> Self {
+        self.render.project = Some(function);
+        self
+    }
+
+    /// Draws several layers of the targets at once, those whose bits are set, with wgpu's feature `MULTIVIEW`. The WGSL
+    /// asks `tess_view()` for the layer's number.
+    pub const fn views(mut self, mask: NonZeroU32) -> Self {
+        self.render.views = Some(mask);
         self
     }
 
@@ -202,24 +242,50 @@ impl<'a> StageBuilder<'a> {
     }
 
     /// The WGSL of the vertex shader, for an engine that makes the render pipeline: the user's text, line by
-    /// line as it is, and the stage's behind it. The entry point is `tess_vertex`. It takes one vertex buffer of 8 bytes
-    /// a point, `Uint32x2` at location 0. With points that are pulled the text is of no use outside of the stage, which
-    /// keeps what it binds to itself.
-    #[must_use]
-    pub fn vertex_shader(&self) -> String {
-        source::of_vertices(self.source, self.setup(), self.points, self.own_group())
+    /// line as it is, and then the stage's. The entry point is `tess_vertex`. It takes one vertex buffer of
+    /// [`Self::vertex_layout`]. With points that are pulled, and with `tess_factors`, the text is of no use outside of
+    /// the stage, which keeps what it binds to itself.
+    ///
+    /// # Errors
+    /// [`StageError::Wgsl`] if points are evaluated and a member of `Vertex` cannot be an attribute.
+    pub fn vertex_shader(&self) -> Result<String, Error> {
+        Ok(self.shader(&self.vertex_layout()?).with(self.source))
+    }
+
+    /// The layout of the vertex buffer: packed points, or `Vertex` if points are evaluated.
+    ///
+    /// # Errors
+    /// [`StageError::Wgsl`] if points are evaluated and a member of `Vertex` cannot be an attribute.
+    pub fn vertex_layout(&self) -> Result<VertexLayout, StageError> {
+        match self.points {
+            Points::Evaluated => VertexLayout::of(&wgsl::declarations(self.source)),
+            _ => Ok(VertexLayout::packed()),
+        }
+    }
+
+    pub(super) fn shader<'b>(&'b self, vertices: &'b VertexLayout) -> VertexShader<'b> {
+        let (points, project) = (self.points, self.render.project);
+        VertexShader { setup: self.setup(), points, group: self.own_group(), project, vertices }
     }
 
     /// All that the bytes of the stage's buffers depend on.
-    pub(super) fn form(&self, device: &wgpu::Device) -> Form {
+    pub(super) fn form(&self, device: &wgpu::Device, vertices: &VertexLayout) -> Form {
         let Self { points, patches, .. } = *self;
-        Form { setup: self.setup(), points, patches, buffer_limit: device.limits().max_buffer_size }
+        let is_evaluated = points == Points::Evaluated;
+        let vertex_bytes = if is_evaluated { vertices.array_stride } else { 0 };
+        Form {
+            setup: self.setup(),
+            points,
+            vertex_bytes: u32::try_from(vertex_bytes).unwrap_or(u32::MAX),
+            patches,
+            buffer_limit: device.limits().max_buffer_size,
+        }
     }
 
     /// The setup of the stage's batches.
     pub(super) fn setup(&self) -> Setup {
-        let without_indices = self.points == Points::PullWithoutIndices;
-        let default = if without_indices { Order::Specification } else { Order::VertexCache };
+        let has_indices = self.points.has_indices();
+        let default = if has_indices { Order::VertexCache } else { Order::Specification };
         Setup { order: self.order.unwrap_or(default), ..Setup::new(self.domain, self.config) }
     }
 
@@ -232,7 +298,12 @@ impl<'a> StageBuilder<'a> {
         self.constants.iter().map(|&(name, value)| (key(name), value.to_bits())).collect()
     }
 
-    /// The number of the stage's own bind group: the one behind the user's.
+    /// Whether the WGSL reads the factors that are drawn.
+    pub(super) fn has_factors(&self) -> bool {
+        source::uses(self.source, "tess_factors")
+    }
+
+    /// The number of the stage's own bind group: the one after the user's.
     pub(super) fn own_group(&self) -> u32 {
         u32::try_from(self.layouts.len()).unwrap_or(u32::MAX)
     }

@@ -29,6 +29,31 @@ pub enum Points {
     /// Computed for each corner of each primitive; there are no buffers of points and indices. The
     /// vertex stage binds the same as with [`Points::Pull`].
     PullWithoutIndices,
+    /// From a vertex buffer of the user's `Vertex` structs, with an index buffer. After the tessellation a compute pass
+    /// calls `domain` once for each point, and draws load what it returned. Take it for a long `domain`, above all in a frame
+    /// of several passes, and to trace, pick or export the surface: see
+    /// [`TessellationStage::vertices`](super::TessellationStage::vertices).
+    ///
+    /// What differs from draw to draw, such as the camera, is then a function of its own:
+    /// [`StageBuilder::project`](super::StageBuilder::project). The bindings that `domain` reads are visible to
+    /// `COMPUTE`. The pass binds four storage buffers besides yours. A point takes the bytes of a `Vertex` and 8.
+    Evaluated,
+}
+
+impl Points {
+    /// Whether there is an index buffer.
+    pub(super) const fn has_indices(self) -> bool {
+        !matches!(self, Self::PullWithoutIndices)
+    }
+
+    /// Whether the batch writes packed points.
+    pub(super) const fn are_written(self) -> bool {
+        matches!(self, Self::Stored | Self::Evaluated)
+    }
+
+    #[cfg(test)]
+    pub(super) const ALL: [Self; 4] =
+        [Self::Stored, Self::Pull, Self::PullWithoutIndices, Self::Evaluated];
 }
 
 /// How much room a stage has for points and indices.
@@ -47,7 +72,7 @@ pub enum Room {
     /// Enough for all patches at factor 4 at first. When a frame needs more than 7/8 of it, a later one has twice as
     /// much or more: the stage learns what was needed without waiting and makes larger buffers, within the budget.
     /// Output that rises by up to 4 % a frame therefore always fits. Room of which 1024 frames use a fifth or less
-    /// shrinks.
+    /// shrinks. The pipelines for any room are made when the stage is built, none by a frame.
     ///
     /// The first frames can therefore be coarser than asked for, or empty, as [`Overflow`] says. For a picture that
     /// is drawn once, call [`TessellationStage::make_room`](super::TessellationStage::make_room) first,

@@ -4,7 +4,7 @@ use super::builder::StageBuilder;
 use super::choices::Factors;
 use super::passes;
 use super::room::Form;
-use super::{UserGroup, modules, source, wgsl};
+use super::{UserGroup, mistakes, modules, source, wgsl};
 use crate::Tessellator;
 use crate::device::pipelines::PipelineKey;
 use crate::device::{gpu, pipeline};
@@ -112,4 +112,5 @@ async fn hull(
     let joined = source::of_hull(user, setup.domain, own_group);
     let module = modules::user_module(tessellator.device(), "hull", user, joined).await?;
     passes::pipeline(tessellator, key, || Ok(module))
+        .map_err(|error| mistakes::explained(error, user, "COMPUTE"))
 }

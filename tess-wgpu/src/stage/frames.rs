@@ -9,8 +9,12 @@ use crate::error::Error;
 use tess_gpu::{Capacity, Resource};
 use wgpu::BufferUsages as Usage;
 
+/// Bytes of a draw's arguments before the number of its instances.
+const INSTANCES_AT: u64 = 4;
+
 impl TessellationStage {
-    /// Records the compute passes of a frame: factors, tessellation. Call it before the render pass that draws the
+    /// Records the compute passes of a frame: factors, tessellation and, with [`Points::Evaluated`](super::Points), the
+    /// vertices. Call it before the render pass that draws the
     /// stage, with the same encoder or with one that is submitted earlier. The passes' time depends on what
     /// is drawn and, a little, on the most patches that the stage was made for.
     ///
@@ -19,7 +23,7 @@ impl TessellationStage {
     ///
     /// # Errors
     /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
-    /// [`StageError::OtherDevice`];
+    /// [`StageError::OtherDevice`]; [`StageError::DrawsAnother`] for a stage that draws another's output;
     /// [`Error::OutOfMemory`] or [`Error::DeviceLost`]. Nothing is recorded then, and what was prepared last can still
     /// be drawn.
     pub fn prepare<'a>(
@@ -36,31 +40,52 @@ impl TessellationStage {
         encoder: &mut wgpu::CommandEncoder,
         patches: PatchCount<'_>,
     ) -> Result<(), Error> {
+        if self.factor_pass.is_none() {
+            return Err(StageError::DrawsAnother.into());
+        }
         let (count, offset) = self.count_words(patches)?;
         locked(&self.feedback).reserve(&self.device)?;
         if let Some((groups, output)) = self.next.take() {
             self.groups = groups;
-            self.output = output;
+            *locked(&self.output) = output;
             self.begins = None;
         }
         self.adapt()?;
         gpu::recorded(&self.device, || {
             encoder.copy_buffer_to_buffer(&count, offset, &self.count, 0, 4);
-            self.factor_pass.encode(encoder, &self.bind_groups);
-            if let Some(fit) = &self.fit {
-                fit.encode(encoder);
-            }
-            let batch = &self.output.batch;
-            if let Some(begins) = &self.begins {
-                let groups = batch.buffers().of(Resource::Groups);
-                encoder.copy_buffer_to_buffer(begins, 0, groups, 0, begins.size());
-            }
-            batch.encode(encoder);
-            let of = (batch, self.fit.as_ref());
-            locked(&self.feedback).record(encoder, of, self.frame);
+            self.encode(encoder);
         })?;
         self.frame += 1;
         Ok(())
+    }
+
+    /// Records a frame's passes, for the number of patches that is there.
+    fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some(pass) = &self.factor_pass {
+            pass.encode(encoder, &self.bind_groups);
+        }
+        if let Some(fit) = &self.fit {
+            fit.encode(encoder);
+        }
+        let StageOutput { batch, windows, .. } = self.output();
+        if let Some(begins) = &self.begins {
+            let groups = batch.buffers().of(Resource::Groups);
+            encoder.copy_buffer_to_buffer(begins, 0, groups, 0, begins.size());
+        }
+        batch.encode(encoder);
+        if let Some(instances) = &self.instances {
+            let all = (batch.draw_arguments(), 0);
+            let groups = 0..u64::from(batch.plan().groups());
+            let groups = groups.map(|group| (batch.group_arguments(), Self::GROUP_BYTES * group));
+            for (arguments, at) in [all].into_iter().chain(groups) {
+                encoder.copy_buffer_to_buffer(instances, 0, arguments, at + INSTANCES_AT, 4);
+            }
+        }
+        if let Some(evaluation) = &self.evaluation {
+            evaluation.encode(encoder, &self.bind_groups, &windows);
+        }
+        let of = (&*batch, self.fit.as_ref());
+        locked(&self.feedback).record(encoder, of, self.frame);
     }
 
     /// Makes the room that a frame needs before it is drawn: runs a frame's compute passes, waits for what they
@@ -105,23 +130,24 @@ impl TessellationStage {
         let frame = self.frame;
         self.record(&mut encoder, patches)?;
         gpu.submit(encoder)?;
-        let of = (&self.output.batch, self.fit.as_ref());
-        let found = feedback::wait(gpu, of, frame).await?;
+        let batch = self.output().batch;
+        let found = feedback::wait(gpu, (&batch, self.fit.as_ref()), frame).await?;
         locked(&self.feedback).arrived(Some(found));
         self.adapt()?;
         Ok(found)
     }
 
     /// A batch of these groups that writes these buffers.
-    pub(super) fn output_of(
+    pub(super) fn new_output(
         &mut self,
         room: Capacity,
         groups: &[u32],
         stored: Stored,
     ) -> Result<StageOutput, Error> {
         let of_batch = (&self.factors, groups);
-        let pulled = self.pulled.as_ref();
-        StageOutput::new(&mut self.tessellator, self.form, (room, stored), of_batch, pulled)
+        let own = self.output().own;
+        let more = (self.evaluation.as_ref(), &own);
+        StageOutput::new(&mut self.tessellator, self.form, (room, stored), of_batch, more)
     }
 
     /// Makes more room if a frame needed nearly all of it and the stage may, or gives back what many did not need.
@@ -129,7 +155,7 @@ impl TessellationStage {
         let last = locked(&self.feedback).last();
         let Some(Feedback { frame, points, primitives, .. }) = last else { return Ok(()) };
         let (form, room, now, needed) =
-            (self.form, self.room, self.output.room, [points, primitives]);
+            (self.form, self.room, self.capacity(), [points, primitives]);
         let grown = form.grown(room, now, needed);
         let changed = grown.or_else(|| self.lull.shrunk((form, room, now), (frame, needed)));
         let Some(room) = changed else { return Ok(()) };
@@ -137,7 +163,7 @@ impl TessellationStage {
             Ok(()) => Ok(()),
             // What there is still serves; asking again each frame would not help.
             Err(Error::OutOfMemory) => {
-                self.room = Room::Exactly(self.output.room);
+                self.room = Room::Exactly(now);
                 Ok(())
             }
             Err(error) => Err(error),
@@ -149,7 +175,8 @@ impl TessellationStage {
         let words = fit::room_words(&self.device, room)?;
         let stored = Stored::new(&self.device, self.form, room)?;
         let groups = self.groups.clone();
-        self.output = self.output_of(room, &groups, stored)?;
+        let output = self.new_output(room, &groups, stored)?;
+        *locked(&self.output) = output;
         self.begins = None;
         if let Some(fit) = &mut self.fit {
             fit.set_room(words);

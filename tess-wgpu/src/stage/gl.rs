@@ -7,16 +7,23 @@ pub(super) fn is_gl(device: &wgpu::Device) -> bool {
     device.adapter_info().backend == wgpu::Backend::Gl
 }
 
-/// The attributes of the stage's vertex buffer: a point at location 0.
+/// The attributes of the stage's vertex buffer.
 ///
-/// On OpenGL the other locations have it too, unread. wgpu leaves locations enabled that another pipeline used;
-/// once their buffer is gone, OpenGL ES refuses indirect draws, and draws nothing.
-pub(super) fn attributes(device: &wgpu::Device) -> Vec<wgpu::VertexAttribute> {
-    let count = if is_gl(device) { device.limits().max_vertex_attributes } else { 1 };
+/// On OpenGL the locations without an attribute have the buffer too, unread. wgpu leaves locations enabled that another
+/// pipeline used; once their buffer is gone, OpenGL ES refuses indirect draws, and draws nothing.
+pub(super) fn attributes(
+    device: &wgpu::Device,
+    own: &[wgpu::VertexAttribute],
+) -> Vec<wgpu::VertexAttribute> {
+    let count = if is_gl(device) { device.limits().max_vertex_attributes } else { 0 };
+    let is_free = |location: &u32| own.iter().all(|one| one.shader_location != *location);
     let format = wgpu::VertexFormat::Uint32x2;
-    (0..count)
-        .map(|shader_location| wgpu::VertexAttribute { format, offset: 0, shader_location })
-        .collect()
+    let unread = (0..count).filter(is_free).map(|shader_location| wgpu::VertexAttribute {
+        format,
+        offset: 0,
+        shader_location,
+    });
+    own.iter().copied().chain(unread).collect()
 }
 
 /// Refuses a vertex shader whose struct `Vertex` has a member that takes the value of a primitive's first vertex,

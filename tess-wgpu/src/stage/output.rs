@@ -1,30 +1,33 @@
 //! The parts that depend on the room: the batch, and the buffers that it writes.
 
-use super::DrawBuffers;
-use super::choices::Points;
+use super::TessellationStage;
+use super::evaluation::{Evaluation, Window};
 use super::gl;
+use super::own_group::OwnGroups;
 use super::room::Form;
 use crate::device::gpu;
-use crate::device::pipeline::group;
 use crate::error::Error;
 use crate::{Batch, Outputs, Tessellator};
-use tess_gpu::layout::Job;
-use tess_gpu::{Capacity, Pull, Resource, Span};
+use std::sync::Arc;
+use tess_gpu::Capacity;
 use wgpu::BufferUsages as Usage;
 
-/// A batch with room for its output.
-#[derive(Debug)]
+/// A batch with room for its output. Stages that draw it share it; a clone is another handle.
+#[derive(Clone, Debug)]
 pub(super) struct StageOutput {
     pub(super) room: Capacity,
-    pub(super) batch: Batch,
+    pub(super) batch: Arc<Batch>,
     pub(super) stored: Stored,
-    pulled: Option<wgpu::BindGroup>,
+    pub(super) windows: Arc<[Window]>,
+    /// Bind groups of the draws.
+    pub(super) own: OwnGroups,
 }
 
 /// The buffers that a batch writes and a draw reads, where there are any.
 #[derive(Clone, Debug)]
 pub(super) struct Stored {
     pub(super) points: Option<wgpu::Buffer>,
+    pub(super) vertices: Option<wgpu::Buffer>,
     pub(super) indices: Option<wgpu::Buffer>,
     /// A buffer in place of the points where [`gl::attributes`] need a buffer that nothing reads.
     unread: Option<wgpu::Buffer>,
@@ -33,33 +36,44 @@ pub(super) struct Stored {
 impl Stored {
     /// Buffers for this room.
     pub(super) fn new(device: &wgpu::Device, form: Form, room: Capacity) -> Result<Self, Error> {
+        let has_rays = device.features().contains(wgpu::Features::EXPERIMENTAL_RAY_QUERY);
+        let is_evaluated = form.vertex_bytes > 0;
+        let rays = if has_rays && is_evaluated { Usage::BLAS_INPUT } else { Usage::empty() };
         let make = |label, size, usage| {
             gpu::empty(device, label, size, Usage::STORAGE | Usage::COPY_SRC | usage)
         };
         let primitive_bytes = u64::from(form.setup.primitive_bytes());
         let index_bytes = (u64::from(room.primitives) * primitive_bytes).next_multiple_of(8);
-        let points = (form.points == Points::Stored)
+        let vertex_bytes = u64::from(form.vertex_bytes) * u64::from(room.points);
+        let points = (form.points.are_written())
             .then(|| make("points", 8 * u64::from(room.points), Usage::VERTEX))
             .transpose()?;
-        let indices = (form.points != Points::PullWithoutIndices)
-            .then(|| make("indices", index_bytes, Usage::INDEX))
+        let vertices = is_evaluated
+            .then(|| make("vertices", vertex_bytes, Usage::VERTEX | rays))
+            .transpose()?;
+        let indices = (form.points.has_indices())
+            .then(|| make("indices", index_bytes, Usage::INDEX | rays))
             .transpose()?;
         let unread = (points.is_none() && gl::is_gl(device))
             .then(|| gpu::empty(device, "unread", 8, Usage::VERTEX))
             .transpose()?;
-        Ok(Self { points, indices, unread })
+        Ok(Self { points, vertices, indices, unread })
+    }
+
+    /// The vertex buffer of draws.
+    pub(super) fn loaded(&self) -> Option<&wgpu::Buffer> {
+        self.vertices.as_ref().or(self.points.as_ref())
     }
 }
 
 impl StageOutput {
-    /// `factors` and the groups' first patches are those of the batch; `pulled` is the layout of what
-    /// the vertex shader binds, if it computes its points.
+    /// `factors` and the groups' first patches are those of the batch; `own` has the layouts of the draws' bind groups.
     pub(super) fn new(
         tessellator: &mut Tessellator,
         form: Form,
         (room, stored): (Capacity, Stored),
         (factors, groups): (&wgpu::Buffer, &[u32]),
-        pulled: Option<&wgpu::BindGroupLayout>,
+        (evaluation, own): (Option<&Evaluation>, &OwnGroups),
     ) -> Result<Self, Error> {
         let outputs = match (&stored.points, &stored.indices) {
             (Some(points), Some(indices)) => Outputs::Buffers { points, indices },
@@ -68,32 +82,36 @@ impl StageOutput {
         };
         let Form { setup, patches, .. } = form;
         let batch = tessellator.batch_in_groups(setup, patches, groups, factors, outputs)?;
-        let pulled = match pulled {
-            Some(layout) => Some(bind(tessellator, form, layout, &batch)?),
-            None => None,
+        let windows = match (evaluation, &stored.points, &stored.vertices) {
+            (Some(evaluation), Some(points), Some(vertices)) => {
+                let of = (&batch, factors);
+                evaluation.windows(tessellator, of, [points, vertices], room.points)?
+            }
+            _ => Vec::new(),
         };
-        Ok(Self { room, batch, stored, pulled })
+        let own = own.with(tessellator, form, (&batch, factors))?;
+        Ok(Self { room, batch: Arc::new(batch), stored, windows: windows.into(), own })
     }
 
     /// Draws with the arguments of the whole batch or of one of its groups. Pipeline and user's bind
-    /// groups are set; `own_group` is the number of the stage's bind group.
+    /// groups are set; `own` is the stage's bind group and its number.
     pub(super) fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        own_group: u32,
+        own: Option<(u32, &wgpu::BindGroup)>,
         of_group: Option<u32>,
     ) {
         let (arguments, offset) = match of_group {
             None => (self.batch.draw_arguments(), 0),
             Some(group) => {
-                (self.batch.group_arguments(), u64::from(group) * DrawBuffers::GROUP_BYTES)
+                (self.batch.group_arguments(), u64::from(group) * TessellationStage::GROUP_BYTES)
             }
         };
-        if let Some(points) = self.stored.points.as_ref().or(self.stored.unread.as_ref()) {
-            pass.set_vertex_buffer(0, points.slice(..));
+        if let Some(vertices) = self.stored.loaded().or(self.stored.unread.as_ref()) {
+            pass.set_vertex_buffer(0, vertices.slice(..));
         }
-        if let Some(pulled) = &self.pulled {
-            pass.set_bind_group(own_group, pulled, &[]);
+        if let Some((number, group)) = own {
+            pass.set_bind_group(number, group, &[]);
         }
         match &self.stored.indices {
             Some(indices) => {
@@ -104,23 +122,4 @@ impl StageOutput {
             None => pass.draw_indirect(arguments, offset),
         }
     }
-}
-
-/// The bindings of `Pull::source_for_drawing`.
-fn bind(
-    tessellator: &Tessellator,
-    form: Form,
-    layout: &wgpu::BindGroupLayout,
-    batch: &Batch,
-) -> Result<wgpu::BindGroup, Error> {
-    let bound = |resource| match resource {
-        Resource::Job => {
-            batch.buffers().bound(resource, Span { offset: 0, size: size_of::<Job>() as u64 })
-        }
-        _ => batch.buffers().of(resource).as_entire_binding(),
-    };
-    let bindings = Pull { group: 0, first_binding: 0 }
-        .bindings(form.setup)
-        .map(|(number, resource)| (number, bound(resource)));
-    group(tessellator.device(), "pulled", layout, bindings)
 }

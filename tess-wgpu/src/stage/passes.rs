@@ -20,18 +20,27 @@ pub(crate) fn workgroups(device: &wgpu::Device, threads: u32) -> [u32; 2] {
 /// A binding of a compute pass: a storage buffer, and whether it is only read.
 pub(crate) type Binding<'a> = (&'a wgpu::Buffer, Access);
 
+/// The layout of these storage buffers.
+pub(crate) fn layout(
+    tessellator: &Tessellator,
+    label: &str,
+    bindings: impl IntoIterator<Item = (u32, Access)>,
+) -> Result<wgpu::BindGroupLayout, Error> {
+    let entry = |(number, access)| {
+        let storage = tess_gpu::Binding(Resource::Tables, access);
+        pipeline::entry(number, storage, wgpu::ShaderStages::COMPUTE)
+    };
+    let entries = bindings.into_iter().map(entry).collect();
+    tessellator.pipelines().layout(label, entries)
+}
+
 /// The layout and the bind group of these buffers, bindings 0, 1, ...
 pub(crate) fn bind(
     tessellator: &Tessellator,
     label: &str,
     buffers: &[Binding<'_>],
 ) -> Result<(wgpu::BindGroupLayout, wgpu::BindGroup), Error> {
-    let entry = |(number, &(_, access)): (u32, &Binding<'_>)| {
-        let storage = tess_gpu::Binding(Resource::Tables, access);
-        pipeline::entry(number, storage, wgpu::ShaderStages::COMPUTE)
-    };
-    let entries = (0..).zip(buffers).map(entry).collect();
-    let layout = tessellator.pipelines().layout(label, entries)?;
+    let layout = layout(tessellator, label, (0..).zip(buffers.iter().map(|one| one.1)))?;
     let bindings = (0..).zip(buffers.iter().map(|(buffer, _)| buffer.as_entire_binding()));
     let group = pipeline::group(tessellator.device(), label, &layout, bindings)?;
     Ok((layout, group))

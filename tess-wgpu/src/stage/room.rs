@@ -19,7 +19,8 @@
 //! room, as a frame uses it:    0 ... 1/5 shrinks after 1024 frames ... 2/5 after a change ... 7/8 grows at once ... 1
 //! ```
 //!
-//! A point takes 8 bytes, or none where the vertex shader computes it. A primitive takes 4 bytes for each of its
+//! A point takes 8 bytes and, where points are evaluated, those of a vertex; or none where the vertex shader computes
+//! it. A primitive takes 4 bytes for each of its
 //! corners, or none without an index buffer.
 //!
 //! # One stage
@@ -43,13 +44,16 @@
 //!   down to one.
 
 use super::choices::{Points, Room};
-use tess_gpu::{Capacity, Setup};
+use tess_gpu::sizes::SHORT_PATCHES;
+use tess_gpu::{Capacity, Setup, Stage};
 
 /// All that the bytes of an output depend on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
     pub(crate) setup: Setup,
     pub(crate) points: Points,
+    /// Bytes of a vertex that is stored; 0 unless points are evaluated.
+    pub(crate) vertex_bytes: u32,
     /// The most patches.
     pub(crate) patches: u32,
     /// The most bytes of a buffer.
@@ -153,11 +157,32 @@ impl Form {
             each => u32::try_from((self.buffer_limit - self.buffer_limit % 8) / each)
                 .unwrap_or(u32::MAX),
         };
-        let [point_bytes, primitive_bytes] = self.element_bytes();
+        let (point_bytes, primitive_bytes) = (self.packed_bytes(), self.element_bytes()[1]);
         Capacity {
-            points: room.points.min(worst.points).min(of(point_bytes)),
+            points: room.points.min(worst.points).min(of(point_bytes.max(self.vertex_bytes))),
             primitives: room.primitives.min(worst.primitives).min(of(primitive_bytes)),
         }
+    }
+
+    /// The shaders that batches run in any room, with any groups, and with more patches than these: pipelines to make
+    /// before a frame needs them.
+    pub(crate) fn stages(self) -> Vec<Stage> {
+        use Stage::{
+            ExpandPoints, ExpandPrimitives, ExpandShort, Factors, Groups, List, Partition, Scan,
+            Short, Totals,
+        };
+        let mut all = vec![Factors, Scan, Totals, Partition, Groups];
+        if self.points.are_written() {
+            all.push(ExpandPoints);
+        }
+        if self.points.has_indices() {
+            all.push(ExpandPrimitives);
+            all.extend(self.setup.has_triangles().then_some(List));
+        }
+        if self.points.are_written() && self.patches <= SHORT_PATCHES {
+            all.extend([Short, ExpandShort]);
+        }
+        all
     }
 
     /// Bytes of the raw factors of all patches.
@@ -167,11 +192,15 @@ impl Form {
 
     /// Bytes that are stored of a point and of a primitive.
     fn element_bytes(self) -> [u32; 2] {
-        let is_indexed = self.points != Points::PullWithoutIndices;
         [
-            if self.points == Points::Stored { 8 } else { 0 },
-            if is_indexed { self.setup.primitive_bytes() } else { 0 },
+            self.packed_bytes() + self.vertex_bytes,
+            if self.points.has_indices() { self.setup.primitive_bytes() } else { 0 },
         ]
+    }
+
+    /// Bytes of a packed point.
+    const fn packed_bytes(self) -> u32 {
+        if self.points.are_written() { 8 } else { 0 }
     }
 
     /// Bytes of the buffers of points and indices.
@@ -221,7 +250,41 @@ mod tests {
 
     fn form(points: Points) -> Form {
         let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-        Form { setup: Setup::new(Domain::Quad, config), points, patches: 10, buffer_limit: 1 << 30 }
+        let setup = Setup::new(Domain::Quad, config);
+        let vertex_bytes = if points == Points::Evaluated { 32 } else { 0 };
+        Form { setup, points, vertex_bytes, patches: 10, buffer_limit: 1 << 30 }
+    }
+
+    /// Every stage that a plan runs is made ahead.
+    #[test]
+    fn the_stages_are_those_of_every_plan() {
+        use std::collections::HashSet;
+        use tess_gpu::{Limits, Plan, Written};
+        for points in Points::ALL {
+            for patches in [1, 10, 1024, 1025, 1 << 14, 1 << 20] {
+                let form = Form { patches, ..form(points) };
+                let made = form.stages();
+                for elements in [100, 1 << 18, 1 << 20, 1 << 24] {
+                    let room = Capacity { points: elements, primitives: elements };
+                    let limits = Limits::WEBGPU;
+                    let plan = match points {
+                        Points::Stored | Points::Evaluated => {
+                            Plan::new(form.setup, patches, room, limits)
+                        }
+                        Points::Pull => {
+                            Plan::writing(Written::Indices, form.setup, patches, room, limits)
+                        }
+                        Points::PullWithoutIndices => {
+                            Plan::writing(Written::Arguments, form.setup, patches, room, limits)
+                        }
+                    };
+                    let stages = plan.with_groups(3).dispatches().map(|one| one.stage());
+                    let missing: HashSet<_> =
+                        stages.filter(|stage| !made.contains(stage)).collect();
+                    assert!(missing.is_empty(), "{points:?}, {patches}, {elements}: {missing:?}");
+                }
+            }
+        }
     }
 
     #[test]
@@ -334,7 +397,7 @@ mod tests {
 
     #[test]
     fn all_patches_fit_at_factor_1_where_the_budget_allows() {
-        for points in [Points::Stored, Points::Pull, Points::PullWithoutIndices] {
+        for points in Points::ALL {
             for domain in Domain::ALL {
                 for partitioning in Partitioning::ALL {
                     let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
@@ -381,6 +444,10 @@ mod tests {
     #[test]
     fn buffers_keep_within_the_limit_in_whole_8_bytes() {
         for limit in 984..1024 {
+            let evaluated = Form { buffer_limit: limit, ..form(Points::Evaluated) };
+            let room = evaluated.initial(Room::Bytes(1 << 30));
+            let bytes = 32 * u64::from(room.points);
+            assert!(bytes <= limit && bytes + 32 > limit, "{bytes} of {limit} are vertices");
             let form = Form { buffer_limit: limit, ..form(Points::Stored) };
             let room = form.initial(Room::Bytes(1 << 30));
             let bytes = (12 * u64::from(room.primitives)).next_multiple_of(8);

@@ -3,6 +3,7 @@
 //! The user's text comes first, so that a line of the joined text is the same line of theirs.
 
 use super::choices::Points;
+use super::vertex::VertexLayout;
 use super::{StageError, wgsl};
 use tess_core::Domain;
 use tess_gpu::{Pull, Setup};
@@ -10,17 +11,23 @@ use tess_gpu::{Pull, Setup};
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
 const HELPERS: &str = tess_gpu::surfaces::HELPERS;
 const HULL: &str = include_str!("../../shaders/hull.wgsl");
+const UNPACK: &str = include_str!("../../shaders/unpack.wgsl");
+const EVALUATE: &str = include_str!("../../shaders/evaluate.wgsl");
 const STORED: &str = include_str!("../../shaders/vertex_stored.wgsl");
 const PULLED: &str = include_str!("../../shaders/vertex_pulled.wgsl");
 const UNINDEXED: &str = include_str!("../../shaders/vertex_unindexed.wgsl");
+const EVALUATED: &str = include_str!("../../shaders/vertex_evaluated.wgsl");
+
+/// The binding of the factors that `tess_factors` reads, in the stage's own group: beyond all others there.
+pub(crate) const FACTORS_BINDING: u32 = 8;
 
 /// The module whose entry point `tess_hull` runs the user's hull function. Its own bindings are 0 and 1 of
 /// bind group `group`.
 pub(crate) fn of_hull(user: &str, domain: Domain, group: u32) -> String {
-    joined(user, &own_of_hull(domain, group))
+    joined(user, &(own_of_hull(domain, group) + &of_draws(user, domain, group)))
 }
 
-/// The text behind the types and helpers in the hull's module.
+/// The text after the types and helpers in the hull's module.
 fn own_of_hull(domain: Domain, group: u32) -> String {
     let write = match domain {
         Domain::Isoline => include_str!("../../shaders/hull_isoline.wgsl"),
@@ -30,30 +37,104 @@ fn own_of_hull(domain: Domain, group: u32) -> String {
     HULL.replace("GROUP", &group.to_string()) + "\n" + write
 }
 
-/// The module whose entry point `tess_vertex` runs the user's domain function. Unless points are
-/// stored, its own bindings are 0 to 5 of bind group `group`.
-pub(crate) fn of_vertices(user: &str, setup: Setup, points: Points, group: u32) -> String {
-    joined(user, &own_of_vertices(setup, points, group))
+/// The module whose entry point `tess_evaluate` runs the user's domain function over all points. Its own bindings are
+/// 0 to 3 of bind group `group`.
+pub(crate) fn of_evaluation(user: &str, domain: Domain, group: u32) -> String {
+    joined(user, &(own_of_evaluation(group) + &of_draws(user, domain, group)))
 }
 
-/// The text behind the types and helpers in the module of the vertex shader.
-fn own_of_vertices(setup: Setup, points: Points, group: u32) -> String {
-    let pull = || Pull { group, first_binding: 0 }.source_for_drawing(setup);
-    match points {
-        Points::Stored => STORED.to_owned(),
-        Points::Pull => with_own_names(&(pull() + PULLED)),
-        Points::PullWithoutIndices => with_own_names(&(pull() + UNINDEXED)),
+fn own_of_evaluation(group: u32) -> String {
+    UNPACK.to_owned() + "\n" + &EVALUATE.replace("GROUP", &group.to_string())
+}
+
+/// All that the vertex shader's text depends on besides the user's.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct VertexShader<'a> {
+    pub(crate) setup: Setup,
+    pub(crate) points: Points,
+    /// The number of the stage's own bind group.
+    pub(crate) group: u32,
+    /// The user's function that every draw runs.
+    pub(crate) project: Option<&'a str>,
+    /// The vertices that are loaded, where points are evaluated.
+    pub(crate) vertices: &'a VertexLayout,
+}
+
+impl VertexShader<'_> {
+    /// The module whose entry point is `tess_vertex`. Where points are pulled, its own bindings are 0 to 5 of the
+    /// stage's bind group.
+    pub(crate) fn with(self, user: &str) -> String {
+        let of_draws = of_draws(user, self.setup.domain, self.group);
+        let (mut builtins, mut begin) = (String::new(), String::new());
+        for (function, builtin) in OF_DRAWS {
+            if uses(user, function) {
+                builtins += &format!(", @builtin({builtin}) {function}_now: u32");
+                begin += &format!("{function}_value = {function}_now;");
+            }
+        }
+        let own = self
+            .own()
+            .replace(" BUILTINS", &builtins)
+            .replace("BEGIN", &begin)
+            .replace("PROJECT", self.project.unwrap_or_default());
+        joined(user, &(own + &of_draws))
+    }
+
+    /// The text after the types and helpers, with the parts that the user's choices fill in.
+    fn own(self) -> String {
+        let Self { setup, group, .. } = self;
+        let pull = || Pull { group, first_binding: 0 }.source_for_drawing(setup);
+        let [loaded, vertex] = self.vertices.loads();
+        match self.points {
+            Points::Stored => UNPACK.to_owned() + "\n" + STORED,
+            Points::Evaluated => EVALUATED.replace("LOADED", &loaded).replace("VERTEX", &vertex),
+            Points::Pull => with_own_names(&(pull() + PULLED)),
+            Points::PullWithoutIndices => with_own_names(&(pull() + UNINDEXED)),
+        }
     }
 }
 
-/// The user's text with the types and helpers that it may use, and `own` behind.
+/// Functions that give a value of the draw, and the builtin that it is.
+const OF_DRAWS: [(&str, &str); 2] =
+    [("tess_instance", "instance_index"), ("tess_view", "view_index")];
+
+/// Whether a text has this word.
+pub(crate) fn uses(text: &str, word: &str) -> bool {
+    wgsl::tokens(text).any(|(_, token)| token == word)
+}
+
+/// The functions for the factors, the instance and the view that are drawn, where the user's text has them.
+fn of_draws(user: &str, domain: Domain, group: u32) -> String {
+    let mut text = String::new();
+    if uses(user, "tess_factors") {
+        let read = match domain {
+            Domain::Isoline => include_str!("../../shaders/factors_isoline.wgsl"),
+            Domain::Triangle => include_str!("../../shaders/factors_triangle.wgsl"),
+            Domain::Quad => include_str!("../../shaders/factors_quad.wgsl"),
+        };
+        let kind = "var<storage, read> tess_drawn_factors: array<f32>";
+        text += &format!("@group({group}) @binding({FACTORS_BINDING}) {kind};\n{read}");
+    }
+    for (function, _) in OF_DRAWS {
+        if uses(user, function) {
+            let value = format!("{function}_value");
+            text += &format!(
+                "var<private> {value}: u32;\nfn {function}() -> u32 {{ return {value}; }}\n"
+            );
+        }
+    }
+    text
+}
+
+/// The user's text, then the types and helpers that it may use, then `own`.
 pub(crate) fn joined(user: &str, own: &str) -> String {
     [user, TYPES, HELPERS, own].join("\n")
 }
 
 /// Refuses a user's text that declares a name of WGSL's own which the stage's text uses.
-pub(crate) fn check_names(user: &str, setup: Setup, points: Points) -> Result<(), StageError> {
-    let own = joined("", &own_of_hull(setup.domain, 0)) + &own_of_vertices(setup, points, 0);
+pub(crate) fn check_names(user: &str, shader: VertexShader<'_>) -> Result<(), StageError> {
+    let domain = shader.setup.domain;
+    let own = joined("", &own_of_hull(domain, 0)) + &own_of_evaluation(0) + &shader.own();
     match wgsl::shadowed(user, &own) {
         None => Ok(()),
         Some(wgsl::Declaration { name, line, .. }) => Err(StageError::Wgsl {
@@ -70,7 +151,7 @@ pub(crate) fn lines(user: &str) -> u32 {
     u32::try_from(user.lines().count()).unwrap_or(u32::MAX)
 }
 
-/// The same WGSL with a prefix in front of every name that it declares at module scope, so that the
+/// The same WGSL with a prefix before every name that it declares at module scope, so that the
 /// user's text can have these names too. Every occurrence of such a name is renamed, members and locals
 /// included, which changes nothing within the text.
 fn with_own_names(source: &str) -> String {
@@ -154,19 +235,36 @@ mod tests {
         )
     }
 
+    /// The same, with everything that a user may call.
+    fn busy(domain: Domain) -> String {
+        user(domain).replace("vec4f(uv, 0.0", "vec4f(uv, f32(tess_instance())")
+            + "fn turned(vertex: Vertex) -> Vertex {\n    let a = tess_factors(tess_view());\n    \
+               return vertex;\n}\n"
+    }
+
+    fn vertex_shader(setup: Setup, points: Points, project: Option<&str>) -> VertexShader<'_> {
+        static LAYOUT: std::sync::LazyLock<VertexLayout> = std::sync::LazyLock::new(|| {
+            VertexLayout::of(&wgsl::declarations(&user(Domain::Quad))).expect("a sound struct")
+        });
+        VertexShader { setup, points, group: 1, project, vertices: &LAYOUT }
+    }
+
     /// Every module of the stage, with names of the stage's own shaders in the user's text.
     fn modules() -> Vec<String> {
         let mut all = Vec::new();
         for domain in Domain::ALL {
             let user = user(domain)
                 + "const ONE = 1.0; fn place() {} fn corner() {} struct Job { a: u32 }";
-            all.push(of_hull(&user, domain, 2));
+            let busy = busy(domain);
+            all.extend([of_hull(&user, domain, 2), of_hull(&busy, domain, 2)]);
+            all.extend([of_evaluation(&user, domain, 2), of_evaluation(&busy, domain, 2)]);
             for partitioning in tess_core::Partitioning::ALL {
                 for output in tess_core::OutputPrimitive::ALL {
                     let setup = Setup::new(domain, tess_core::Config::new(partitioning, output));
                     all.push(super::super::fit::source(setup));
-                    for points in [Points::Stored, Points::Pull, Points::PullWithoutIndices] {
-                        all.push(of_vertices(&user, setup, points, 1));
+                    for points in Points::ALL {
+                        all.push(vertex_shader(setup, points, None).with(&user));
+                        all.push(vertex_shader(setup, points, Some("turned")).with(&busy));
                     }
                 }
             }
@@ -180,7 +278,7 @@ mod tests {
         for source in modules() {
             let module = wgpu::naga::front::wgsl::parse_str(&source)
                 .unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));
-            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::MULTIVIEW);
             if let Err(error) = validator.validate(&module) {
                 panic!("{}", error.emit_to_string(&source));
             }

@@ -50,6 +50,16 @@ fn of_edges() -> Vec<Table> {
             cases: by_screen_size(),
         },
         Table {
+            name: "tess_edge_by_length",
+            call: "vec4(tess_edge_by_length(a[0].xyz, a[1].xyz, a[2].x, a[2].y), 0, 0, 0)",
+            cases: by_length(),
+        },
+        Table {
+            name: "tess_at_most",
+            call: "vec4(tess_at_most(a[0].x, a[0].y), 0, 0, 0)",
+            cases: at_most(),
+        },
+        Table {
             name: "tess_edge_by_distance",
             call: "vec4(tess_edge_by_distance(a[0].xyz, a[1].xyz, a[2].xyz, a[3].x), 0, 0, 0)",
             cases: by_distance(),
@@ -205,6 +215,28 @@ fn by_screen_size() -> Vec<Case> {
         all.push(Case { args: given, expected: Expected::Bits(one(factor)) });
     }
     all
+}
+
+fn by_length() -> Vec<Case> {
+    let (mut all, mut random) = (Vec::new(), SplitMix64::new(12));
+    for _ in 0..200 {
+        let [a, b] = [(); 2].map(|()| point(&mut random, 1.0));
+        let (unit, segment) = (number(&mut random, 50.0, 900.0), number(&mut random, 2.0, 30.0));
+        let factor = factors::edge_by_length([a, b], unit, segment);
+        let rest = [unit, segment, 0.0, 0.0];
+        let ways = [[a, b], [b, a]].map(|[a, b]| args(&[vec(a, 0.0), vec(b, 0.0), rest]));
+        both_ways(&mut all, ways, factor, OF_A_RULE);
+    }
+    all
+}
+
+fn at_most() -> Vec<Case> {
+    let all = [0.0, -1.0, 0.5, 1.0, 3.5, 15.999_999, 16.0, 16.000_002, 17.0, 64.0, 65.0, 1e30];
+    let case = |factor: f32| Case {
+        args: args(&[[factor, 16.0, 0.0, 0.0]]),
+        expected: Expected::Bits(one(factors::at_most(factor, 16.0))),
+    };
+    all.map(case).into()
 }
 
 fn by_distance() -> Vec<Case> {

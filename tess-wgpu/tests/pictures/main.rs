@@ -22,6 +22,9 @@ mod meshes;
 #[allow(dead_code, reason = "only its picture is used here")]
 #[path = "../../examples/passes/show.rs"]
 mod passes;
+#[allow(dead_code, clippy::print_stdout, reason = "only its picture is used here")]
+#[path = "../../examples/pick/show.rs"]
+mod pick;
 #[allow(dead_code, reason = "only its picture is used here")]
 #[path = "../../examples/quickstart/show.rs"]
 mod quickstart;
@@ -100,10 +103,57 @@ fn passes_draw_what_was_prepared_once() {
     let of = |prepass| picture::<passes::Passes>(&gpu, &Args::default().with("prepass", prepass));
     let observed = of("on");
     assert!(observed == of("off"), "depths that are equal are the nearest");
+    let stored = picture::<passes::Passes>(&gpu, &Args::default().with("points", "stored"));
+    assert!(observed == stored, "vertices that are evaluated once have the same bits");
     let found = difference(&observed, &reference::hills(SIZE, true));
     assert!(found <= PER_MILLE / 2, "{found} pixels of a thousand differ");
     let found = difference(&observed, &reference::hills(SIZE, false));
     assert!(found > PER_MILLE, "hills without shadows differ in only {found}");
+}
+
+/// The triangle that is found surrounds the place where the ray meets the hills.
+#[test]
+fn the_picked_triangle_is_the_one_that_the_pixel_shows() {
+    let gpu = gpu();
+    let mut patches = std::collections::BTreeSet::new();
+    for [x, y] in [[0.36, 0.55], [0.53, 0.5], [0.7, 0.75], [0.2, 0.62], [0.5, 0.02]] {
+        let args = Args::default().with("x", &x.to_string()).with("y", &y.to_string());
+        let aspect = SIZE[0] as f32 / SIZE[1] as f32;
+        let direction = pick::direction(&pick::camera(), glam::Vec2::new(x, y), aspect);
+        let expected = reference::hit(pick::camera().eye, direction);
+        let found = picked(&gpu, &args);
+        assert_eq!(found.is_some(), expected.is_some(), "at {x}, {y}: {expected:?}");
+        let Some((found, expected)) = found.zip(expected) else { continue };
+        let corners = found.corners.map(|corner| glam::Vec3::from(corner.world));
+        for corner in corners {
+            let away = corner.distance(expected);
+            assert!(
+                away < 0.25,
+                "at {x}, {y}: {corner:?} of {corners:?} is {away} from {expected:?}"
+            );
+        }
+        let place = pick::camera().eye + found.distance * direction;
+        let away = place.distance(expected);
+        assert!(away < 0.03, "at {x}, {y}: {place:?}, not {expected:?}");
+        let cell = expected.truncate().floor();
+        assert_eq!(found.corners[0].number, (cell.x + 8.0 * cell.y) as u32, "at {x}, {y}");
+        patches.insert(found.corners[0].number);
+    }
+    assert!(patches.len() > 3, "{patches:?}");
+}
+
+/// The triangle that the example `pick` finds.
+fn picked(gpu: &Gpu, args: &Args) -> Option<pick::Picked> {
+    let mut show = pick::Pick::new(gpu, wgpu::TextureFormat::Rgba8Unorm, args)
+        .unwrap_or_else(|error| panic!("{error}"));
+    // The first frame is coarser.
+    for _ in 0..3 {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let frame = app::Frame { gpu, encoder: &mut encoder, seconds: 0.0, size: SIZE };
+        show.prepare(frame).unwrap_or_else(|error| panic!("{error}"));
+        gpu.run(encoder).unwrap_or_else(|error| panic!("{error}"));
+    }
+    show.picked(gpu).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Where points come from makes no difference to a single pixel.
@@ -116,6 +166,7 @@ fn the_terrain_is_the_same_without_buffers() {
     assert!(colours.len() > 5000, "{} colours of a terrain", colours.len());
     assert!(of("pull") == stored, "without points");
     assert!(of("none") == stored, "without points and indices");
+    assert!(of("evaluated") == stored, "evaluated once");
 }
 
 /// The red, green and blue teapots of the example are all there, and only they.

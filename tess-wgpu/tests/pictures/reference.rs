@@ -127,6 +127,15 @@ fn height(at: Vec2) -> f32 {
     0.25 * libm::sinf(1.7 * at.x) * libm::sinf(1.9 * at.y) + 1.8 * libm::expf(-1.5 * top.dot(top))
 }
 
+/// Where a ray meets the hills, if it does.
+pub(crate) fn hit(from: Vec3, direction: Vec3) -> Option<Vec3> {
+    let mut ray = (1..4000_u16).map(|step| from + direction * (0.005 * f32::from(step)));
+    ray.find(|at| {
+        let is_over = at.x >= 0.0 && at.y >= 0.0 && at.x <= 8.0 && at.y <= 8.0;
+        is_over && at.z < height(at.truncate())
+    })
+}
+
 /// The example `passes`: two pictures side by side, with shadows or without.
 pub(crate) fn hills([width, rows]: [u32; 2], has_shadows: bool) -> Vec<[u8; 3]> {
     let sun = passes::toward_sun();

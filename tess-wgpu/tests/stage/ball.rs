@@ -143,11 +143,11 @@ impl Ball {
         let size = u64::from(count);
         let placed = self.gpu.buffer("placed", 32 * size, usage).expect("there is room");
         let layout = self.evaluate.get_bind_group_layout(1);
-        let own = group(&self.gpu.device, &layout, whole([points, &placed, batch.status()]));
+        let own = group(&self.gpu.device, &layout, whole([&points, &placed, batch.status()]));
         let groups = [&self.group, &own];
         let workgroups = count.div_ceil(64);
         dispatch(&self.gpu, &self.evaluate, &groups, workgroups).expect("the device finishes");
-        let points = self.gpu.read(points, 8 * size).expect("it answers");
+        let points = self.gpu.read(&points, 8 * size).expect("it answers");
         let placed = self.gpu.read(&placed, 32 * size).expect("it answers");
         of_quads(&bytemuck::pod_collect_to_vec(&points), &bytemuck::pod_collect_to_vec(&placed))
     }

@@ -5,10 +5,12 @@ use crate::scene::{PATCHES, Scene};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::Order;
 use tess_wgpu::Error;
-use tess_wgpu::stage::{DrawBuffers, Factors, PatchCount, Points, Room, StageError};
+use tess_wgpu::TessellationStage;
+use tess_wgpu::stage::{Factors, PatchCount, Points, Room, StageError};
 use wgpu::BufferUsages as Usage;
 
-const WAYS: [Points; 3] = [Points::Stored, Points::Pull, Points::PullWithoutIndices];
+pub(crate) const WAYS: [Points; 4] =
+    [Points::Stored, Points::Pull, Points::PullWithoutIndices, Points::Evaluated];
 
 /// Different factors for each edge and patch, one patch culled.
 pub(crate) fn some_factors(domain: Domain) -> Vec<PatchFactors> {
@@ -67,7 +69,8 @@ fn a_given_order_is_that_of_every_way_to_draw() {
     assert!(of_orders[0] != of_orders[1], "the order is seen");
     let defaults = WAYS.map(|points| picture(points, None));
     let [specification, vertex_cache] = of_orders;
-    assert!(defaults == [vertex_cache.clone(), vertex_cache, specification], "as documented");
+    let cached = || vertex_cache.clone();
+    assert!(defaults == [cached(), cached(), specification, cached()], "as documented");
 }
 
 #[test]
@@ -147,26 +150,31 @@ fn groups_are_drawn_one_by_one() {
 #[test]
 fn an_engine_draws_groups_with_its_own_pipeline() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
-    let points = wgpu::VertexBufferLayout {
-        array_stride: 8,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![0 => Uint32x2],
-    };
-    let shader = scene.builder().vertex_shader();
-    let pipeline = scene.pipeline(shader, "tess_vertex", &[Some(points)]);
-    let mut stage = scene.build(scene.builder().groups(&[0]).without_pipeline());
+    for points in [Points::Stored, Points::Evaluated] {
+        an_engine_draws(&scene, points);
+    }
+}
+
+fn an_engine_draws(scene: &Scene, points: Points) {
+    let builder = scene.builder().points(points);
+    let layout = builder.vertex_layout().expect("a sound struct");
+    let shader = builder.vertex_shader().expect("a sound struct");
+    let pipeline = scene.pipeline(shader, "tess_vertex", &[Some(layout.buffer())]);
+    let mut stage = scene.build(builder.groups(&[0]).without_pipeline());
+    assert_eq!(stage.vertex_layout(), &layout, "of the stage too");
     // The last ones are as many as those before.
     for groups in [&[0, 3, 6][..], &[0, 1, 1, 7], &[2], &[5]] {
         stage.set_groups(groups).expect("they ascend");
         let ends = groups[1..].iter().copied().chain([PATCHES]);
         for (group, range) in groups.iter().zip(ends).map(|(&begin, end)| begin..end).enumerate() {
             let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
-                let buffers = stage.buffers().expect("they are stored");
+                let vertices = stage.vertices().expect("they are stored");
+                let indices = stage.indices().expect("they are stored");
                 pass.set_pipeline(&pipeline);
-                pass.set_vertex_buffer(0, buffers.points.slice(..));
-                pass.set_index_buffer(buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
-                let at = DrawBuffers::GROUP_BYTES * group as u64;
-                pass.draw_indexed_indirect(buffers.group_arguments, at);
+                pass.set_vertex_buffer(0, vertices.slice(..));
+                pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+                let at = TessellationStage::GROUP_BYTES * group as u64;
+                pass.draw_indexed_indirect(&stage.group_indirect(), at);
             });
             let mut patches = vec![PatchFactors::uniform(Domain::Quad, 0.0); 8];
             let range = range.start as usize..range.end as usize;
@@ -223,8 +231,8 @@ fn a_stage_without_a_pipeline_stores_its_points() {
         let refused = scene.builder().points(points).without_pipeline().build(&scene.gpu.device);
         assert_eq!(refused.err(), Some(StageError::NothingStored.into()), "{points:?}");
         let stage = scene.build(scene.builder().points(points));
-        let refused = stage.buffers().err();
-        assert_eq!(refused, Some(StageError::NothingStored.into()), "{points:?}: its buffers");
+        assert_eq!(stage.vertices(), None, "{points:?}: the vertex shader computes them");
+        assert_eq!(stage.indices().is_some(), points == Points::Pull, "{points:?}");
     }
 }
 

@@ -115,6 +115,79 @@ fn functions_that_do_not_go_with_the_stage_are_reported_with_their_line() {
 }
 
 #[test]
+fn the_factors_of_another_domain_are_named() {
+    for (own, other, function) in [
+        (Domain::Quad, Domain::Triangle, "QuadFactors"),
+        (Domain::Triangle, Domain::Quad, "TriFactors"),
+        (Domain::Quad, Domain::Isoline, "QuadFactors"),
+    ] {
+        let scene = scene(own, Partitioning::Integer);
+        let text = source(other);
+        let StageError::Wgsl { line, message } = refusal(&scene, &text, Points::Stored) else {
+            panic!("of the WGSL");
+        };
+        assert_eq!(line, Some(line_of(&text, "fn hull")), "{message}");
+        let says = format!("made for Domain::{own:?}: return `{function}`");
+        assert!(message.contains(&says), "{message}");
+    }
+}
+
+/// Layouts that do not go with the WGSL: the binding's name, its line and what its entry must be.
+#[test]
+fn bindings_that_do_not_go_with_their_layout_are_named() {
+    use crate::common::objects::{buffer, group, layout, storage, whole};
+    use wgpu::{BindingType, BufferBindingType, ShaderStages};
+    let scene = quads();
+    let device = &scene.gpu.device;
+    let right = source(Domain::Quad);
+    let in_domain = right
+        .replace("let at = place(number) + uv;", "let at = place(number) + uv + 0.0 * given[0];");
+    let small = BindingType::Buffer {
+        ty: BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: std::num::NonZeroU64::new(4),
+    };
+    let uniform = "\n@group(0) @binding(0) var<uniform> given: mat4x4f;\n\
+        struct Vertex { @builtin(position) position: vec4f }\n\
+        fn hull(number: u32) -> QuadFactors { return tess_quad_factors(given[number % 4u]); }\n\
+        fn domain(number: u32, uv: vec2f) -> Vertex { return Vertex(vec4f(uv, 0.0, 1.0)); }\n\
+        @fragment fn identify() -> @location(0) vec4<u32> { return vec4<u32>(); }"
+        .to_owned();
+    for (text, points, visibility, entry, says) in [
+        (&right, Points::Stored, ShaderStages::VERTEX, storage(true), "ShaderStages::COMPUTE"),
+        (&in_domain, Points::Evaluated, ShaderStages::COMPUTE, storage(true), ""),
+        (&in_domain, Points::Stored, ShaderStages::COMPUTE, storage(true), "ShaderStages::VERTEX"),
+        (
+            &right,
+            Points::Stored,
+            ShaderStages::COMPUTE,
+            buffer(BufferBindingType::Uniform),
+            "let entry 0 have its type (",
+        ),
+        (&uniform, Points::Stored, ShaderStages::COMPUTE, small, "min_binding_size"),
+    ] {
+        let of_one = layout(device, visibility, [entry]);
+        let usage = Usage::STORAGE | Usage::UNIFORM;
+        let given = scene.gpu.buffer("given", 256, usage).expect("there is room");
+        let bound = group(device, &of_one, whole([&given]));
+        let built = TessellationStage::builder(text, scene.domain, scene.config, PATCHES)
+            .bind_group(&of_one, &bound)
+            .points(points)
+            .target(crate::scene::FORMAT)
+            .build(device);
+        match built.err() {
+            None => assert_eq!(says, "", "{visibility:?}"),
+            Some(Error::Stage(StageError::Wgsl { line, message })) => {
+                assert_eq!(line, Some(line_of(text, "@group(0)")), "{message}");
+                assert!(message.starts_with("`given` does not go with the layout"), "{message}");
+                assert!(!says.is_empty() && message.contains(says), "{message}");
+            }
+            Some(other) => panic!("{other}"),
+        }
+    }
+}
+
+#[test]
 fn names_of_wgsls_own_are_refused_where_the_stage_uses_them() {
     let scene = quads();
     let right = source(Domain::Quad);

@@ -11,7 +11,9 @@ mod camera;
 mod common;
 mod cracks;
 mod drawing;
+mod draws;
 mod errors;
+mod evaluated;
 mod frames;
 #[path = "../common/sequences.rs"]
 mod hold;

@@ -63,7 +63,7 @@ fn a_frame_that_does_not_fit_is_coarser() {
     for partitioning in Partitioning::ALL {
         let scene = scene(Domain::Quad, partitioning);
         let room = needed(&scene);
-        for points in [Points::Stored, Points::PullWithoutIndices] {
+        for points in [Points::Stored, Points::PullWithoutIndices, Points::Evaluated] {
             for (room, fits) in
                 [(room, true)].into_iter().chain(too_little(room).map(|room| (room, false)))
             {
@@ -122,7 +122,7 @@ fn the_scale_is_the_greatest_of_the_ladder_that_fits() {
 fn a_frame_that_does_not_fit_is_empty_if_so_asked() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
     let room = needed(&scene);
-    for points in [Points::Stored, Points::Pull, Points::PullWithoutIndices] {
+    for points in crate::drawing::WAYS {
         let builder = || scene.builder().overflow(Overflow::DrawNothing).points(points);
         let mut stage = scene.build(builder().room(Room::Exactly(room)));
         let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");

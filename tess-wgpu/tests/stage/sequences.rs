@@ -70,7 +70,7 @@ impl World<'_> {
                 let encoder = gpu.device.create_command_encoder(&Default::default());
                 let (observed, group) = own.draw(encoder, draw)?;
                 self.words += observed.len() as u64;
-                return own.check(&observed, group);
+                return own.check(&observed, draw, group);
             }
             Again { .. } => {}
             StageCall::Refused { wrong } => return own.refused(gpu, wrong),
@@ -107,7 +107,7 @@ impl World<'_> {
             }
         }
         self.words += observed.len() as u64;
-        self.stages[&used].check(&observed, group)
+        self.stages[&used].check(&observed, draw, group)
     }
 }
 

@@ -83,6 +83,59 @@ fn a_stage_makes_the_pipelines_that_no_other_has() {
     assert!(left[1] == 0 && made == [compute - left[0], 1], "{left:?} were left, {made:?} made");
 }
 
+/// A room that grows out of a short batch and shrinks into one again, other groups, and a stage for more patches: what
+/// they run has been made when the first stage was built.
+#[test]
+fn no_frame_makes_a_pipeline() {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let gpu = device_of(&instance, Default::default());
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    let hull = "@group(0) @binding(0) var<uniform> factor: vec4f;\n\
+                fn hull(number: u32) -> QuadFactors { return tess_quad_factors(factor); }\n\
+                struct Vertex { @builtin(position) position: vec4f }\n\
+                fn domain(number: u32, uv: vec2f) -> Vertex { return Vertex(vec4f(uv, 0.0, 1.0)); }\n\
+                @fragment fn shade() -> @location(0) vec4<u32> { return vec4<u32>(); }";
+    let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+    let uniform = gpu.upload("factor", &[0; 16], usage).expect("there is room");
+    let ty = crate::common::objects::buffer(wgpu::BufferBindingType::Uniform);
+    let layout = crate::common::objects::layout(&gpu.device, wgpu::ShaderStages::COMPUTE, [ty]);
+    let whole = crate::common::objects::whole([&uniform]);
+    let group = crate::common::objects::group(&gpu.device, &layout, whole);
+    for points in crate::drawing::WAYS {
+        let shared = tessellator(&gpu.device, None);
+        let build = |patches| {
+            let builder = TessellationStage::builder(hull, Domain::Quad, config, patches)
+                .bind_group(&layout, &group)
+                .target(FORMAT)
+                .points(points)
+                .tessellator(&shared);
+            let stage = builder.build(&gpu.device);
+            stage.unwrap_or_else(|error| panic!("{error}"))
+        };
+        let mut stage = build(1000);
+        stage.shrink_after(4);
+        let made = pipelines(&instance);
+        let mut rooms = std::collections::BTreeSet::new();
+        for frame in 0..40 {
+            let factor = if (8..20).contains(&frame) { 40.0_f32 } else { 3.0 };
+            gpu.queue.write_buffer(&uniform, 0, bytemuck::bytes_of(&[factor; 4]));
+            if frame == 5 {
+                stage.set_groups(&[0, 10]).expect("they ascend");
+            }
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            stage.prepare(&mut encoder, 1000).expect("it is prepared");
+            gpu.run(encoder).expect("the device finishes");
+            let room = stage.capacity();
+            rooms.insert(u64::from(room.points) + u64::from(room.primitives) > 1 << 19);
+            assert_eq!(pipelines(&instance), made, "{points:?}, frame {frame}, {room:?}");
+        }
+        assert_eq!(rooms.len(), 2, "{points:?}: a short batch and a long one");
+        let larger = build(20_000);
+        assert_eq!(pipelines(&instance), made, "{points:?}, a stage for more patches");
+        drop((stage, larger));
+    }
+}
+
 #[test]
 fn stages_can_be_built_on_another_thread() {
     const fn is_send<T: Send>(_: &T) {}

@@ -91,10 +91,6 @@ pub(crate) struct SelectionArgs {
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u8).range(1..=3))]
     level: u8,
-    /// In which version: 1 is what a level was before it had both sides of every comparison
-    #[arg(long, value_name = "N", default_value_t = LEVEL_VERSION)]
-    #[arg(value_parser = clap::value_parser!(u8).range(1..=i64::from(LEVEL_VERSION)))]
-    level_version: u8,
     /// Seed of everything random
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -123,7 +119,6 @@ impl SelectionArgs {
                 2 => GenLevel::Two,
                 _ => GenLevel::Three,
             },
-            version: self.level_version,
             seed: self.seed,
             random: self.count,
             domain: self.domain,
@@ -139,7 +134,7 @@ impl SelectionArgs {
         let pair = |key: &str, value: String| (key.to_owned(), value);
         let mut notes = vec![
             pair("level", self.level.to_string()),
-            pair("level-version", self.level_version.to_string()),
+            pair("level-version", LEVEL_VERSION.to_string()),
             pair("seed", self.seed.to_string()),
             pair("random", self.selection().random_count().to_string()),
         ];

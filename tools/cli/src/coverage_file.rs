@@ -72,11 +72,6 @@ pub(crate) fn read_from(path: &Path) -> Result<Coverage, Failure> {
     read(path, File::open(path))
 }
 
-/// The hits as a report has them: a number for each bin.
-pub(crate) fn hits(coverage: &Coverage) -> Vec<u64> {
-    coverage.bins().map(|(_, hits)| hits).collect()
-}
-
 fn read(path: &Path, file: io::Result<File>) -> Result<Coverage, Failure> {
     let file = file.map_err(|error| Failure::file("read", path, &error))?;
     Coverage::read_ucis(file)

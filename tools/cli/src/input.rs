@@ -1,8 +1,10 @@
 //! Input of commands: a file, or stdin where the path is `-`.
 
+use crate::failure::Failure;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
+use tess_verify::vectors::Cases;
 
 /// A text that comes from a file or from stdin.
 pub(crate) type Reader = Box<dyn BufRead + Send>;
@@ -18,6 +20,22 @@ pub(crate) fn open(path: &Path) -> io::Result<Reader> {
         Some("-") => Box::new(BufReader::new(io::stdin())),
         _ => Box::new(BufReader::new(File::open(path)?)),
     })
+}
+
+/// [`open`], whose failure is exit code 2.
+///
+/// # Errors
+/// A file that cannot be opened.
+pub(crate) fn reader(path: &Path) -> Result<Reader, Failure> {
+    open(path).map_err(|error| Failure::file("read", path, &error))
+}
+
+/// The cases of a file; - is stdin.
+///
+/// # Errors
+/// It cannot be read, or begins wrongly.
+pub(crate) fn cases(path: &Path) -> Result<Cases<Reader>, Failure> {
+    Cases::new(name(path), reader(path)?).map_err(Failure::bad_input)
 }
 
 /// A whole text of at most `max` bytes, so that a device without an end does not fill the memory. Errors: it cannot

@@ -9,6 +9,7 @@ mod args;
 mod backends;
 mod campaign;
 mod commands;
+mod comparison;
 mod coverage_file;
 mod failure;
 mod formats;

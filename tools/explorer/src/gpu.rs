@@ -9,8 +9,8 @@ use tess_gpu::{
     Access, Capacity, Limits, Numbering, Order, Plan, Resource, Setup, Stage, Workgroups, tables,
 };
 use tess_verify::check::Mismatch;
-use tess_verify::generate::Workload;
 use tess_verify::vectors::Listing;
+use tess_verify::workloads::Workload;
 use tess_verify::{Case, Named};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;

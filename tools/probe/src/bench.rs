@@ -14,7 +14,7 @@ use std::sync::Arc;
 use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Capacity, Limits, Order, Plan, Resource, Setup};
-use tess_verify::generate::Workload;
+use tess_verify::workloads::Workload;
 
 /// Times of one workload: of each, the fastest of several runs.
 #[derive(Clone, Debug, Serialize)]

@@ -5,18 +5,25 @@ use tess_core::{Config, Domain, OutputPrimitive, SplitOrder};
 use tess_verify::Case;
 use tess_verify::generate::{Selection, Shard};
 
-/// The cases of a selection, with what Vulkan does not have replaced by what it has: one split order,
-/// lines from isolines alone, and from isolines no triangles. Each case comes once. Then one shard of
-/// them is taken.
+/// The cases of a selection that a Vulkan device is [`asked`], in the split order that it has. Then one shard of them
+/// is taken.
 #[must_use]
 pub fn cases(selection: Selection, shard: Shard) -> Vec<Case> {
-    let mut seen = HashSet::new();
-    let asked = selection.cases().map(|case| asked(&case)).filter(|case| seen.insert(*case));
+    let split = selection.split.or(Some(SplitOrder::Ruler));
+    let asked = asked(Selection { split, ..selection }.cases());
     (0..).zip(asked).filter(|(number, _)| shard.has(*number)).map(|(_, case)| case).collect()
 }
 
+/// Cases with what Vulkan does not have replaced by what it has: one split order, lines only from isolines, and from
+/// isolines no triangles. Each case comes once.
+#[must_use]
+pub fn asked(cases: impl IntoIterator<Item = Case>) -> Vec<Case> {
+    let mut seen = HashSet::new();
+    cases.into_iter().map(|case| asked_for(&case)).filter(|case| seen.insert(*case)).collect()
+}
+
 /// A case with what Vulkan does not have replaced by what it has.
-pub(crate) fn asked(case: &Case) -> Case {
+pub(crate) fn asked_for(case: &Case) -> Case {
     let output = match (case.domain(), case.config.output) {
         (_, OutputPrimitive::Point) => OutputPrimitive::Point,
         (Domain::Isoline, _) => OutputPrimitive::Line,

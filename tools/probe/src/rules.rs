@@ -1,7 +1,7 @@
 //! A device judged by what a standard demands.
 
 use crate::capture::{Method, Prober};
-use crate::cases::asked;
+use crate::cases::asked_for;
 use crate::error::Error;
 use tess_core::SplitOrder;
 use tess_verify::Case;
@@ -24,7 +24,7 @@ pub fn rules(
         return Err(Error::Missing("transform feedback, without which rules cannot be judged"));
     }
     let selection = Selection { split: Some(SplitOrder::Ruler), ..selection };
-    let cases: Vec<Case> = selection.cases().map(|case| asked(&case)).collect();
+    let cases: Vec<Case> = selection.cases().map(|case| asked_for(&case)).collect();
     let mut checker = Checker::new(specification);
     prober.each(&cases, &mut progress, |case, captured| {
         let output = captured.output().ok_or_else(|| {

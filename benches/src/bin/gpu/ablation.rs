@@ -9,8 +9,8 @@ use tess_core::{DomainPoint, Tessellation};
 use tess_gpu::layout::{PackedPoint, factor_words};
 use tess_gpu::{Numbering, Setup, Stage};
 use tess_testkit::listed::{self, ListedFault};
-use tess_verify::generate::{IndexWidth, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
+use tess_verify::workloads::{IndexWidth, Totals, Workload};
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
 /// Runs whose median is taken.

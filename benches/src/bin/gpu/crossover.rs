@@ -6,7 +6,7 @@ use crate::timing::{SAMPLES, median};
 use std::time::{Duration, Instant};
 use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
 use tess_gpu::Numbering;
-use tess_verify::generate::Workload;
+use tess_verify::workloads::Workload;
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Stopwatch, Tessellator};
 
 pub(crate) fn run() -> Result<()> {

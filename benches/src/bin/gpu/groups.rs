@@ -7,7 +7,7 @@ use std::time::Duration;
 use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup};
-use tess_verify::generate::Workload;
+use tess_verify::workloads::Workload;
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
 /// How many meshes there are.

@@ -4,6 +4,7 @@
 //! ```text
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- crossover
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- groups
+//! cargo run --release -p tess-benches --features gpu --bin gpu -- evaluated
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- ablation benches/edits uniform-16 character
 //! ```
 //!
@@ -14,6 +15,7 @@
 
 mod ablation;
 mod crossover;
+mod evaluated;
 mod groups;
 mod timing;
 
@@ -33,6 +35,8 @@ struct Arguments {
 enum Command {
     /// Compare the device with one CPU thread, for batches of 1 to 4096 patches
     Crossover,
+    /// Compare `Points::Evaluated` with `Points::Stored`, in frames of one and of four passes
+    Evaluated,
     /// Compare many meshes in one batch with as many batches
     Groups,
     /// Time each stage with parts of the shaders changed or left out
@@ -42,6 +46,7 @@ enum Command {
 fn main() -> Result<()> {
     match Arguments::parse().command {
         Command::Crossover => crossover::run(),
+        Command::Evaluated => evaluated::run(),
         Command::Groups => groups::run(),
         Command::Ablation(arguments) => ablation::run(&arguments),
     }

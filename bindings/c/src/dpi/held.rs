@@ -1,8 +1,9 @@
 //! One whole patch at a time, held for a test bench that reads all of its elements.
 //!
-//! `tess_dpi_point` and `tess_dpi_primitive` work out one element of any patch. Whoever compares whole
-//! patches opens a configuration once, gives it one patch after another, and reads points and indices
-//! from memory. The patches go the way of [`tess_batch_patch`](crate::batch::tess_batch_patch).
+//! `tess_dpi_point` and `tess_dpi_primitive` compute one element of any patch. A bench that compares
+//! whole patches opens a configuration once, passes it one patch after another, and reads points and
+//! indices from memory. The patches are tessellated as by
+//! [`tess_batch_patch`](crate::batch::tess_batch_patch).
 
 use super::{factors_of, sizes, write_each};
 use crate::boundary;
@@ -11,8 +12,7 @@ use crate::types::{TessConfig, TessPoint};
 use tess_core::{Counts, Domain, DomainPoint, MAX_INDICES, MAX_POINTS};
 use tess_simd::{CountedPatch, Tessellator};
 
-/// A configuration and the patch that was tessellated last. Made by `tess_dpi_open`, given back to
-/// `tess_dpi_close`.
+/// A configuration and its last tessellated patch. `tess_dpi_open` makes it, `tess_dpi_close` frees it.
 #[derive(Debug)]
 pub struct TessHeldPatch {
     tessellator: Tessellator,
@@ -23,7 +23,7 @@ pub struct TessHeldPatch {
     indices: Vec<u32>,
 }
 
-/// Makes what holds one patch at a time of a configuration; it has no elements before the first one.
+/// Makes a holder of one patch at a time of a configuration; before the first patch it has no elements.
 ///
 /// # Safety
 /// - `held`, if not null and aligned, must be valid for writing one pointer.
@@ -64,7 +64,8 @@ pub unsafe extern "C" fn tess_dpi_close(held: *mut TessHeldPatch) {
     }
 }
 
-/// Tessellates a patch, which is held from then on instead of the one before, and gives its sizes.
+/// Tessellates a patch, holds it in place of the one before, and gives its sizes. A refused call leaves
+/// the patch before.
 ///
 /// # Safety
 /// - `held` is null or came from `tess_dpi_open`, and is in no other call at the same time.
@@ -86,6 +87,9 @@ pub unsafe extern "C" fn tess_dpi_patch(
         boundary::check(held)?;
         // SAFETY: not null, made by `tess_dpi_open` and in no other call, as the caller promises.
         let held = unsafe { &mut *held };
+        for pointer in [points, primitives, indices] {
+            boundary::check(pointer)?;
+        }
         let factors = factors_of(held.domain, [f0, f1, f2, f3, f4, f5]);
         let written = held.tessellator.patch(factors, &mut held.points, &mut held.indices);
         held.counts = written.map_err(|_| TESS_INTERNAL)?; // no patch is larger than the room
@@ -94,7 +98,7 @@ pub unsafe extern "C" fn tess_dpi_patch(
     })
 }
 
-/// Point `i` of the patch that is held.
+/// Point `i` of the held patch.
 ///
 /// # Safety
 /// - `held` is null or came from `tess_dpi_open`.
@@ -117,7 +121,7 @@ pub unsafe extern "C" fn tess_dpi_held_point(
     })
 }
 
-/// Index `i` of the patch that is held.
+/// Index `i` of the held patch.
 ///
 /// # Safety
 /// - `held` is null or came from `tess_dpi_open`.

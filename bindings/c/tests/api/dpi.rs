@@ -88,6 +88,8 @@ fn held_patches() {
         let counts = samples::counts(s.patch.counts());
         let expected = [counts.points, counts.primitives, counts.indices];
         assert_eq!((status, out), (TESS_OK, expected), "sizes of {:?}", s.factors);
+        let status = unsafe { tess_dpi_patch(held, 0, 0, 0, 0, 0, 0, a, b, null_mut()) };
+        assert_eq!(status, TESS_NULL_POINTER, "a refused patch leaves the one before");
         let (points, indices) = unsafe { elements(held, counts.points, counts.indices) };
         let whole = s.patch.tessellate();
         let bits = |point: &tess_core::DomainPoint| [point.u.to_bits(), point.v.to_bits()];

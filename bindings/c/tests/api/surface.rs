@@ -2,9 +2,9 @@
 
 use proptest::prelude::{any, prop_assert_eq, proptest};
 use tess_capi::surface::{
-    TessCorner, TessMat4, TessVec3, tess_edge_by_curvature, tess_edge_by_distance,
-    tess_edge_by_screen_size, tess_faces_away, tess_inside_quad, tess_inside_triangle,
-    tess_is_outside,
+    TessCorner, TessMat4, TessVec3, tess_at_most, tess_edge_by_curvature, tess_edge_by_distance,
+    tess_edge_by_length, tess_edge_by_screen_size, tess_faces_away, tess_inside_quad,
+    tess_inside_triangle, tess_is_outside,
 };
 use tess_surface::glam::{Mat4, Vec3};
 use tess_surface::{PnCorner, culling, factors};
@@ -32,6 +32,10 @@ proptest! {
         prop_assert_eq!(tess_edge_by_screen_size(a, b, eye, scale, segment).to_bits(), screen.to_bits());
         let distance = factors::edge_by_distance([ra, rb], reye, scale);
         prop_assert_eq!(tess_edge_by_distance(a, b, eye, scale).to_bits(), distance.to_bits());
+        let length = factors::edge_by_length([ra, rb], scale, segment);
+        prop_assert_eq!(tess_edge_by_length(a, b, scale, segment).to_bits(), length.to_bits());
+        let most = factors::at_most(scale, segment);
+        prop_assert_eq!(tess_at_most(scale, segment).to_bits(), most.to_bits());
         let (one, rone) = corner(ra.to_array(), other);
         let (two, rtwo) = corner(rb.to_array(), reye.normalize_or_zero().to_array());
         let curved = factors::edge_by_curvature([rone, rtwo], segment);

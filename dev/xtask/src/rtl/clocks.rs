@@ -5,7 +5,7 @@ use super::sources;
 use crate::command;
 use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
-use tess_verify::generate::{Calls, Workload};
+use tess_verify::workloads::{Calls, Workload};
 
 /// Points of a workload that are enough; the patches after them are left out.
 const POINTS: u64 = 100_000;

@@ -14,7 +14,7 @@ use bevy::render::render_phase::{
 };
 use bevy::render::render_resource::IndexFormat;
 use bevy::render::view::ExtractedView;
-use tess_wgpu::stage::DrawBuffers;
+use tess_wgpu::TessellationStage;
 
 /// In the main pass.
 pub(crate) type DrawLit = (
@@ -56,7 +56,8 @@ impl<P: PhaseItem> RenderCommand<P> for DrawTessellated {
         pass.set_bind_group(DRAW_GROUP, bind_group, &[]);
         pass.set_vertex_buffer(0, drawn.points.slice(..));
         pass.set_index_buffer(drawn.indices.slice(..), IndexFormat::Uint32);
-        pass.draw_indexed_indirect(&drawn.arguments, DrawBuffers::GROUP_BYTES * u64::from(group));
+        let at = TessellationStage::GROUP_BYTES * u64::from(group);
+        pass.draw_indexed_indirect(&drawn.arguments, at);
         RenderCommandResult::Success
     }
 }

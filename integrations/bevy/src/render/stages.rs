@@ -182,11 +182,10 @@ impl Prepared {
             stage.set_groups(&places.begins).map_err(told)?;
         }
         stage.prepare(encoder, places.patches()).map_err(told)?;
-        let buffers = stage.buffers().map_err(told)?;
-        self.drawn = Some(Drawn {
-            points: buffers.points.clone().into(),
-            indices: buffers.indices.clone().into(),
-            arguments: buffers.group_arguments.clone().into(),
+        self.drawn = stage.vertices().zip(stage.indices()).map(|(points, indices)| Drawn {
+            points: points.into(),
+            indices: indices.into(),
+            arguments: stage.group_indirect().into(),
         });
         Ok(())
     }

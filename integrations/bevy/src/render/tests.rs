@@ -195,7 +195,7 @@ fn points_of(app: &App, stage: &TessellationStage, count: usize) -> Vec<(u32, [f
     let world = app.sub_app(RenderApp).world();
     let device = world.resource::<RenderDevice>().wgpu_device().clone();
     let queue = world.resource::<RenderQueue>();
-    let buffers = stage.buffers().expect("they are stored");
+    let points = stage.vertices().expect("they are stored");
     let size = 8 * count as u64;
     let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
     let staging = device.create_buffer(&wgpu::BufferDescriptor {
@@ -205,7 +205,7 @@ fn points_of(app: &App, stage: &TessellationStage, count: usize) -> Vec<(u32, [f
         mapped_at_creation: false,
     });
     let mut encoder = device.create_command_encoder(&Default::default());
-    encoder.copy_buffer_to_buffer(buffers.points, 0, &staging, 0, size);
+    encoder.copy_buffer_to_buffer(&points, 0, &staging, 0, size);
     queue.submit([encoder.finish()]);
     staging.map_async(wgpu::MapMode::Read, .., |outcome| outcome.expect("it can be mapped"));
     device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");

@@ -1,7 +1,6 @@
 //! A picture as SVG.
 
 use super::{Colour, Picture, Position, Shape};
-use crate::quote::escape;
 use std::fmt::Write;
 
 pub(in crate::show) fn render(picture: &Picture) -> String {
@@ -47,4 +46,9 @@ fn list(positions: &[Position]) -> String {
 
 fn hex(Colour(red, green, blue): Colour) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// Text between tags.
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

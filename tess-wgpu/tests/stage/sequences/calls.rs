@@ -48,6 +48,8 @@ pub(crate) enum Draw {
     One(u32),
     /// Every stage is prepared in the encoder, and this one drawn.
     AmongOthers,
+    /// Everything, by a stage that draws this one's output.
+    ByAnother,
 }
 
 /// The fate of a frame.
@@ -100,7 +102,7 @@ fn form(row: &[usize]) -> StageForm {
     StageForm {
         domain: [Domain::Quad, Domain::Triangle][row[0]],
         partitioning: Partitioning::ALL[row[1]],
-        points: [Points::Stored, Points::Pull, Points::PullWithoutIndices][row[2]],
+        points: crate::drawing::WAYS[row[2]],
         source: [Source::Hull, Source::Host, Source::Buffer][row[3]],
         room: ROOMS[row[4]],
         overflow: [Overflow::Coarser, Overflow::DrawNothing][row[5]],
@@ -111,7 +113,7 @@ fn form(row: &[usize]) -> StageForm {
 /// The stages: a few, whose pipelines are made quickly, or every two options together.
 pub(crate) fn forms(is_long: bool) -> Vec<StageForm> {
     if is_long {
-        let options = Options::new(&[2, 4, 3, 3, 4, 2, 2], |_, _| false);
+        let options = Options::new(&[2, 4, 4, 3, 4, 2, 2], |_, _| false);
         return options.rows().iter().map(|row| form(row)).collect();
     }
     let few = [
@@ -119,6 +121,7 @@ pub(crate) fn forms(is_long: bool) -> Vec<StageForm> {
         [0, 0, 1, 1, 1, 0, 1],
         [1, 3, 2, 0, 1, 1, 0],
         [1, 1, 0, 2, 2, 1, 0],
+        [0, 3, 3, 0, 0, 0, 0],
     ];
     few.iter().map(|row| form(row)).collect()
 }
@@ -144,7 +147,7 @@ pub(crate) fn call(stages: usize) -> impl Strategy<Value = StageCall> + Clone {
     let draw = prop_oneof![
         4 => Just(Draw::Everything),
         2 => (0..5_u32).prop_map(Draw::One),
-        1 => select(vec![Draw::AmongOthers]),
+        2 => select(vec![Draw::AmongOthers, Draw::ByAnother]),
     ];
     let from = prop_oneof![2 => Just(Count::Host), 1 => Just(Count::Device)];
     let then = prop_oneof![5 => Just(Then::Submit), 1 => Just(Then::Drop), 1 => Just(Then::Keep)];

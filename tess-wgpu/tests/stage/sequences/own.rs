@@ -28,6 +28,8 @@ pub(super) struct Own {
     pub(super) lull: (u64, Capacity),
     pub(super) scene: Scene,
     pub(super) stage: TessellationStage,
+    /// Draws the stage's output, with a mark of its own.
+    other: TessellationStage,
     pub(super) given: wgpu::Buffer,
     pub(super) camera: wgpu::Buffer,
     pub(super) cameras: wgpu::BindGroupLayout,
@@ -42,6 +44,9 @@ pub(super) struct Own {
     pub(super) heard: Option<(u64, Capacity)>,
     pub(super) kept: VecDeque<(wgpu::CommandEncoder, u64, u32, Capacity)>,
 }
+
+/// The mark of a pixel that another stage has drawn.
+const OTHER: u32 = 7;
 
 /// Frames of little output after which a stage gives room back.
 pub(super) const PATIENCE: u64 = 2;
@@ -99,6 +104,14 @@ impl Own {
             });
         let mut stage = scene.build(builder);
         stage.shrink_after(PATIENCE);
+        let mark = |mark: u32| format!("vertex.number, {mark}u);");
+        let marked = source.replace(&mark(1 + variant / 2), &mark(OTHER));
+        let other = TessellationStage::builder(&marked, form.domain, config, PATCHES)
+            .bind_group(&scene.layout, &scene.group)
+            .bind_group(&cameras, &group(&gpu.device, &cameras, whole([&camera])))
+            .target(FORMAT)
+            .output_of(&stage);
+        let other = scene.build(other);
         Self {
             form,
             variant,
@@ -106,6 +119,7 @@ impl Own {
             lull: Default::default(),
             scene,
             stage,
+            other,
             given,
             camera,
             cameras,
@@ -141,7 +155,12 @@ impl Own {
 
     /// Bytes of a room.
     pub(super) fn bytes(&self, room: Capacity) -> u64 {
-        let point = if self.form.points == Points::Stored { 8 } else { 0 };
+        let point = match self.form.points {
+            Points::Stored => 8,
+            // The scene's `Vertex` has 32.
+            Points::Evaluated => 8 + 32,
+            Points::Pull | Points::PullWithoutIndices => 0,
+        };
         let primitive = if self.form.points == Points::PullWithoutIndices { 0 } else { 12 };
         point * u64::from(room.points) + primitive * u64::from(room.primitives)
     }
@@ -181,6 +200,7 @@ impl Own {
             self.camera = gpu.upload("camera", bytes, usage).expect("room");
             let group = group(&gpu.device, &self.cameras, whole([&self.camera]));
             self.stage.set_bind_group(1, &group).expect("it goes with the layout");
+            self.other.set_bind_group(1, &group).expect("it goes with the layout");
         } else {
             gpu.queue.write_buffer(&self.camera, 0, bytes);
         }
@@ -256,7 +276,7 @@ impl Own {
             ["points", "indices"].into_iter().zip(stored.into_iter().zip(expected.output()))
         {
             let Some(buffer) = buffer else { continue };
-            let observed = self.words(buffer);
+            let observed = self.words(&buffer);
             *words += expected.len() as u64;
             if let Some(at) = (0..expected.len()).find(|&at| observed[at] != expected[at]) {
                 let (observed, expected) = (observed[at], expected[at]);
@@ -282,11 +302,11 @@ impl Own {
     }
 
     /// The pixels of these patches in their places.
-    fn pixels(&self, patches: &[PatchFactors]) -> Vec<Option<Pixel>> {
+    fn pixels(&self, patches: &[PatchFactors], mark: u32) -> Vec<Option<Pixel>> {
         let mut placed = patches.to_vec();
         placed.rotate_right(self.moved as usize);
         let number = |[u, v, cell, is_drawn]: Pixel| match is_drawn {
-            1 => [u, v, (cell + PATCHES - self.moved) % PATCHES, 1 + self.variant / 2],
+            1 => [u, v, (cell + PATCHES - self.moved) % PATCHES, mark],
             _ => [0; 4],
         };
         self.scene.pixels(&placed).into_iter().map(|pixel| pixel.map(number)).collect()
@@ -305,15 +325,21 @@ impl Own {
             _ => None,
         };
         let number = |group| u32::try_from(group).expect("a few");
+        let stage = if matches!(draw, Draw::ByAnother) { &self.other } else { &self.stage };
         let observed = self.scene.draw_only(encoder, |pass| match group {
-            None => self.stage.draw(pass),
-            Some(group) => self.stage.draw_group(pass, number(group)).expect("it is there"),
+            None => stage.draw(pass),
+            Some(group) => stage.draw_group(pass, number(group)).expect("it is there"),
         });
         Ok((observed.map_err(|error| error.to_string())?, group))
     }
 
     /// Compares the pixels of the patches that were drawn last, or of a group of them.
-    pub(super) fn check(&self, observed: &[Pixel], group: Option<usize>) -> Result<(), String> {
+    pub(super) fn check(
+        &self,
+        observed: &[Pixel],
+        draw: Draw,
+        group: Option<usize>,
+    ) -> Result<(), String> {
         let Some(mut drawn) = self.drawn.clone() else { return Ok(()) };
         if let Some(group) = group {
             let begin = self.groups[group] as usize;
@@ -324,7 +350,11 @@ impl Own {
         }
         // More would take the model too long.
         let is_little = self.needed(&drawn).primitives < 2500;
-        if is_little { compare(observed, &self.pixels(&drawn)) } else { Ok(()) }
+        let mark = match draw {
+            Draw::ByAnother => OTHER,
+            _ => 1 + self.variant / 2,
+        };
+        if is_little { compare(observed, &self.pixels(&drawn, mark)) } else { Ok(()) }
     }
 
     pub(super) fn refused(&mut self, gpu: &Gpu, wrong: WrongFrame) -> Result<(), String> {
@@ -367,7 +397,8 @@ impl Own {
 
 fn layout_of_cameras(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let uniform = objects::buffer(wgpu::BufferBindingType::Uniform);
-    objects::layout(&gpu.device, wgpu::ShaderStages::VERTEX, [uniform])
+    let visibility = wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE;
+    objects::layout(&gpu.device, visibility, [uniform])
 }
 
 pub(super) const fn fits(needed: Capacity, room: Capacity) -> bool {

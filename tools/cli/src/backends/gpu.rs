@@ -8,7 +8,7 @@ use tess_core::{
 };
 use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
 use tess_gpu::{Numbering, Setup, Tap};
-use tess_verify::generate::IndexWidth;
+use tess_verify::workloads::IndexWidth;
 use tess_verify::{Answers, Backend, BackendError};
 use tess_wgpu::{Gpu, ReadBack, Tessellator};
 

@@ -14,7 +14,7 @@ use crate::threads::start_pool;
 use clap::ValueEnum;
 use simd::Simd;
 use tess_simd::{Level, LevelUnavailable};
-use tess_verify::generate::IndexWidth;
+use tess_verify::workloads::IndexWidth;
 use tess_verify::{Backend, CoreBackend};
 
 /// The names that `--backend` takes.

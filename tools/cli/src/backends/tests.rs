@@ -7,9 +7,9 @@ use tess_simd::Level;
 use tess_testkit::faults::{Fault, Faulty};
 use tess_verify::Backend;
 use tess_verify::check::{self, Tested};
-#[cfg(feature = "gpu")]
-use tess_verify::generate::IndexWidth;
 use tess_verify::vectors::VectorFile;
+#[cfg(feature = "gpu")]
+use tess_verify::workloads::IndexWidth;
 
 /// One index that is one too high, in a backend with 16-bit indices.
 #[test]

@@ -10,24 +10,21 @@ use crate::output::{Role, counted, note};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
-use tess_verify::check::Known;
+use tess_verify::check::{Known, KnownOutcome};
 use tess_verify::generate::Shard;
 use tess_verify::rules::Specification;
 
 /// The `--known` option.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct KnownArgs {
-    /// Known differences: lines that begin with `case` or `rule`, or a vector file such as --failures writes
+    /// Known differences: lines that begin with `case` or `rule`, or a vector file as --failures writes it
     ///
-    /// Such differences are counted as known and are no mismatches. Behind a case or rule may stand ` | EXPECTED |
-    /// OWNER | UNTIL | REASON` (docs/campaigns.md): a line that has expired, or is not met, is exit code 1. Cases
-    /// alone that no longer differ are named on stderr. A header without records, or remarks alone, are a baseline
-    /// of nothing; an empty file is refused.
+    /// They are counted as known, not as mismatches. A case or rule may be followed by ` | EXPECTED | OWNER | UNTIL | REASON` (docs/campaigns.md): a line that has expired or is not met gives exit code 1. Cases without these terms that no longer differ are named on stderr. A file with only a header or only remarks is a baseline of nothing; an empty file is refused.
     #[arg(long, value_name = "FILE")]
     known: Option<PathBuf>,
 }
 
-/// Known differences, and the file that they stand in.
+/// Known differences, and the file that they come from.
 #[derive(Debug, Default)]
 pub(crate) struct Baseline {
     pub(crate) known: Arc<Known>,
@@ -114,7 +111,8 @@ impl Baseline {
     }
 
     fn conclude(&self, recorder: &Recorder, placed: Placed, exit: Exit) -> Exit {
-        let (met, gone, faults) = self.known.outcome(placed.shard == Shard::WHOLE);
+        let KnownOutcome { met, gone, faults, .. } =
+            self.known.outcome(placed.shard == Shard::WHOLE);
         if !gone.is_empty() {
             let lines: String = gone.iter().map(|line| format!("\n  {line}")).collect();
             let number = counted(gone.len() as u64, "case");
@@ -123,7 +121,7 @@ impl Baseline {
         faults.iter().for_each(|fault| note(fault));
         recorder.update(|report| {
             if let Some(known) = &mut report.known {
-                (known.different, known.gone) = (met as u64, gone);
+                (known.different, known.gone) = (met, gone);
             }
             if let Some(fault) = faults.first() {
                 let number = faults.len() as u64;

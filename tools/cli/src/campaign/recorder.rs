@@ -15,14 +15,12 @@ use std::time::Instant;
 /// The options that ask for a report.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct ReportArgs {
-    /// Write what was run and what was found to this file, a line of JSON that `tess merge` reads
+    /// Write a report of the run to this file: a line of JSON that `tess merge` reads
     ///
-    /// It is written at the end, and a signal is an end too. The report of an earlier run is removed before
-    /// anything else is done; a file that is no report is kept, and is an error. docs/campaigns.md explains its
-    /// entries.
+    /// It is written on exit, also when a signal ends the run. The report of an earlier run is removed before anything else is done; a file that is not a report is kept, and is an error. docs/campaigns.md explains the entries.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Write the result to this file as `JUnit` XML, for Jenkins and its like
+    /// Write the result to this file as `JUnit` XML, for Jenkins and similar tools
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
 }

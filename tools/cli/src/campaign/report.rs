@@ -55,9 +55,6 @@ pub(crate) struct Report {
     /// The cases and mismatches again, in parts.
     #[serde(default)]
     pub(crate) parts: Vec<ReportPart>,
-    /// The hits of this run, in the order of `Coverage::bins`.
-    #[serde(default)]
-    pub(crate) coverage: Option<Vec<u64>>,
     pub(crate) milliseconds: u64,
 }
 

@@ -10,11 +10,11 @@ use tess_verify::generate::Shard;
 /// The `--shard` option.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct ShardArgs {
-    /// One of N disjoint parts, counted from 1 [default: what the batch system says, or 1/1]
+    /// One of N disjoint parts, counted from 1 [default: from the batch system, or 1/1]
     ///
     /// Without it, the part is taken from the environment: `TEST_SHARD_INDEX` and `TEST_TOTAL_SHARDS` (Bazel,
     /// googletest), `SLURM_ARRAY_TASK_ID` (Slurm arrays that begin with 0 or 1), `JOB_COMPLETION_INDEX` with
-    /// `TESS_SHARDS` (Kubernetes). --shard 1/1 does everything whatever they say.
+    /// `TESS_SHARDS` (Kubernetes). --shard 1/1 does everything, whatever the environment says.
     #[arg(long = "shard", value_name = "I/N", value_parser = shard)]
     given: Option<Shard>,
 }

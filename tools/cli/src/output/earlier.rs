@@ -44,15 +44,8 @@ const REPORT: TrustedForm = form("--report", "report", ["{", "\"tess-report "]);
 const JUNIT: TrustedForm = form("--junit", "JUnit file", ["<", "<testsuite"]);
 const CHECK: [TrustedForm; 3] =
     [REPORT, JUNIT, form("--failures", "vector file", ["# tess-vectors", ""])];
-const MERGE: [TrustedForm; 3] = [
-    form("--csv", "table of shards", ["shard,shards,state,", ""]),
-    JUNIT,
-    form("--coverage", "coverage file", UCIS),
-];
-const COVERAGE: [TrustedForm; 2] = [
-    form("--merged", "coverage file", UCIS),
-    form("--html", "coverage page", ["<!DOCTYPE html>", "Coverage of the tessellator"]),
-];
+const MERGE: [TrustedForm; 1] = [JUNIT];
+const COVERAGE: [TrustedForm; 1] = [form("--merged", "coverage file", UCIS)];
 
 /// The outputs of a command that are trusted when it has ended. What it adds to, as `--coverage` of other
 /// commands, is none: that stays as it was.
@@ -77,7 +70,9 @@ struct Named {
 /// that is kept because it is no file of its kind, or cannot be removed. The others are removed all the same.
 pub(crate) fn remove_earlier(words: &[OsString]) -> Result<(), Failure> {
     let forms = words.get(1).map_or(&[][..], |command| trusted(command));
-    let named: Vec<Named> = (2..words.len()).flat_map(|at| named(words, at, forms)).collect();
+    // After `--` there are no options.
+    let end = words.iter().position(|word| word == "--").unwrap_or(words.len());
+    let named: Vec<Named> = (2..end).flat_map(|at| named(&words[..end], at, forms)).collect();
     let mut removed = Ok(());
     for output in &named {
         let others = (2..words.len()).filter(|at| named.iter().all(|output| output.at != *at));
@@ -131,7 +126,11 @@ impl Named {
         {
             return Ok(());
         }
-        if !form.fits(&file).map_err(|error| Failure::file("read", path, &error))? {
+        // Another run may remove the same file meanwhile.
+        let is_gone = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
+        let fits =
+            form.fits(&file).or_else(|error| if is_gone(&error) { Ok(true) } else { Err(error) });
+        if !fits.map_err(|error| Failure::file("read", path, &error))? {
             return Err(Failure::bad_input(format!(
                 "{} {} is there, and is no {}: it is kept; give another file, or remove it",
                 form.option,
@@ -139,7 +138,10 @@ impl Named {
                 form.name
             )));
         }
-        fs::remove_file(file).map_err(|error| Failure::file("replace", path, &error))
+        match fs::remove_file(file) {
+            Err(error) if !is_gone(&error) => Err(Failure::file("replace", path, &error)),
+            _ => Ok(()),
+        }
     }
 }
 

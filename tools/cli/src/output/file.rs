@@ -27,6 +27,9 @@ impl Destination {
         if STDOUT.iter().any(|name| path.as_os_str() == *name) {
             return Ok(Self::Stdout);
         }
+        if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
         let is_descriptor = ["/dev/fd", "/proc"].iter().any(|folder| path.starts_with(folder));
         match path.metadata() {
             Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
@@ -179,14 +182,14 @@ pub(crate) enum OutputFile {
 impl OutputFile {
     /// Begins an output. Errors: the place cannot be written.
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
-        let create = || match Destination::of(path)? {
-            Destination::Stdout => Ok(Self::Spool(tempfile::tempfile()?, None)),
+        let failed = |error| Failure::write(path, error);
+        match Destination::of(path).map_err(failed)? {
+            Destination::Stdout => Ok(Self::Spool(spool()?, None)),
             Destination::Stream(path) => {
-                Ok(Self::Spool(tempfile::tempfile()?, Some(open_stream(&path)?)))
+                Ok(Self::Spool(spool()?, Some(open_stream(&path).map_err(failed)?)))
             }
-            Destination::File(path) => Partial::of(&path).map(Self::Partial),
-        };
-        create().map_err(|error| Failure::write(path, error))
+            Destination::File(path) => Partial::of(&path).map(Self::Partial).map_err(failed),
+        }
     }
 
     /// Whether a path leads to no pipe, no device and not to stdout. It opens nothing, as opening a pipe
@@ -232,6 +235,13 @@ fn write_at(file: &File, mut bytes: &[u8], mut offset: u64) -> io::Result<()> {
         (bytes, offset) = (&bytes[written..], offset + written as u64);
     }
     Ok(())
+}
+
+/// A file for what goes to a pipe in the end. Errors: the folder for temporary files cannot be written.
+fn spool() -> Result<File, Failure> {
+    let folder = std::env::temp_dir();
+    tempfile::tempfile_in(&folder)
+        .map_err(|error| Failure::file("make a temporary file in", &folder, &error))
 }
 
 fn copy(mut from: File, to: &mut impl Write) -> io::Result<()> {

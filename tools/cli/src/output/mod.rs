@@ -30,7 +30,7 @@ pub(crate) struct OutputArgs {
     ///
     /// A file is written whole or not at all. A link is followed, and a pipe or a device is written
     /// to as it is.
-    #[arg(short = 'o', long = "out", value_name = "FILE", default_value = "-")]
+    #[arg(short = 'o', value_name = "FILE", default_value = "-")]
     pub(crate) file: PathBuf,
 }
 

@@ -70,7 +70,6 @@ fn failing_records_are_kept_and_can_be_asked_again() {
     tess_with_input("check -", &asked.stdout).exits(0); // the model is right
     tess_with_input(&format!("check - --failures {failing}"), &right).exits(0);
     tess(&format!("check {failing}")).exits(2); // no record is left
-    tess(&format!("check {failing} --empty")).exits(0); // which may be asked for
     tess_with_input("check - --failures -", &right).exits(2); // no file
 }
 

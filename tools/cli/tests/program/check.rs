@@ -208,3 +208,28 @@ fn many_differences() {
     let ending = format!("\nand {} more\n100 cases, 100 mismatches\n", 100 - shown);
     assert!(run.stdout.ends_with(&ending), "{}", run.stdout);
 }
+
+/// A malformed answer ends the check, and what differs before it is shown all the same.
+#[test]
+fn malformed_answers() {
+    let folder = directory("malformed-answers");
+    let quad =
+        "case quad integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000 3f800000 3f800000";
+    let right = tess_with_input("patch --cases -", &format!("{quad}\n")).stdout;
+    let wrong = right.replacen("00000 10000", "00000 10001", 1).replace(" count=1", "");
+    assert_ne!(wrong, right, "a fault is planted");
+    let wrong = wrong.trim_end_matches("# end\n");
+    let file = format!("{wrong}{quad}\npoints 0\nindices 24579\n");
+    let report = folder.join("r.jsonl");
+    let run = tess_with_input(&format!("check - --report {}", report.display()), &file);
+    run.exits(2).prints("1 cases, 1 mismatches before the malformed record; there is no verdict\n");
+    run.prints("point 3 v: observed 0x10001, expected 0x10000");
+    run.says("indices: ").says("(record 2, from line ").says(quad);
+    let report = read_to_string(report).expect("a report");
+    assert!(
+        report.contains("\"state\":\"failed\"") && report.contains("\"mismatches\":1"),
+        "{report}"
+    );
+    let run = tess_with_input("check - --rules d3d11", &file);
+    run.exits(2).prints("1 records before the malformed record; there is no verdict\n");
+}

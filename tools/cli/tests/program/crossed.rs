@@ -227,10 +227,10 @@ const KNOWN: &str = "case tri integer point center 40a00000 40a00000 40a00000 40
 #[test]
 fn backends_are_timed_whatever_the_options() {
     let others: [&[&str]; 4] =
-        [&["", "--threads 2"], &["", "--frame 2"], &["", "--order cache"], &["", "--json"]];
+        [&["", "--threads 2"], &["", "--frame 2"], &["", "--index-order cache"], &["", "--json"]];
     let mut values = with_backends(&others);
     values[0].retain(|backend| *backend != "--backend gpu");
-    let of_simd = [(3, "--threads 2"), (4, "--frame 2"), (5, "--order cache")];
+    let of_simd = [(3, "--threads 2"), (4, "--frame 2"), (5, "--index-order cache")];
     let of_simd = of_simd.into_iter().flat_map(|(at, words)| {
         let name = words.split(' ').next().unwrap_or(words);
         ["", "--backend core"].map(|core| ((0, core), (at, words), [name, "--backend"]))
@@ -250,7 +250,7 @@ fn backends_are_timed_whatever_the_options() {
     let refused =
         |words: &[&str], says: [&str; 2]| is_refused(&tess(&line(words)), &line(words), says);
     crossed.run(|_, words| taken(words), |_, words, says| refused(words, says));
-    taken(&["--backend gpu", "--no-copies --order cache --index-type u16 --json"]);
+    taken(&["--backend gpu", "--no-copies --index-order cache --index-type u16 --json"]);
     refused(&["--backend gpu", "--threads 2"], ["--backend", "--threads"]);
     refused(&["--backend gpu", "--frame 2"], ["--backend", "--frame"]);
     refused(&["--backend gpu", "--cpu-level baseline"], ["--backend", "--cpu-level"]);

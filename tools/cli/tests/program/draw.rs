@@ -25,8 +25,14 @@ fn pictures_are_the_recorded_ones() {
         "isoline --outer 3,4",
         "quad --outer 2,3,4,5 --inner 3,2 --output point",
     ];
-    let options =
-        ["", "--indices", "--order", "--rings", "--indices --rings", "--indices --size 200"];
+    let options = [
+        "",
+        "--number-points",
+        "--number-primitives",
+        "--rings",
+        "--number-points --rings",
+        "--number-points --size 200",
+    ];
     let found = patches.map(|patch| {
         options.map(|options| digest(&tess(&format!("draw {patch} {options}")).stdout))
     });
@@ -73,7 +79,9 @@ const RECORDED: [[&str; 6]; 4] = [
 fn png_is_chosen_by_name_and_has_the_size() {
     let directory = directory("png_is_chosen_by_name");
     let file = directory.join("patch.png");
-    for options in ["", "--indices", "--order", "--rings", "--indices --rings"] {
+    for options in
+        ["", "--number-points", "--number-primitives", "--rings", "--number-points --rings"]
+    {
         tess(&format!("draw {PATCH} {options} --size 300 -o {}", file.display())).exits(0);
         let png = fs::read(&file).expect("the picture");
         assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n", "{options}: signature");
@@ -83,7 +91,7 @@ fn png_is_chosen_by_name_and_has_the_size() {
 
 #[test]
 fn numbers_left_out_are_reported() {
-    let run = tess("draw quad --outer 64,64,64,64 --inner 64,64 --indices --size 400");
+    let run = tess("draw quad --outer 64,64,64,64 --inner 64,64 --number-points --size 400");
     run.exits(0).says("4225 numbers left out");
 }
 
@@ -159,7 +167,8 @@ fn overlays_mark_what_cannot_be_drawn() {
 #[test]
 fn order_of_points() {
     let patch = "tri --outer 2,2,2 --inner 2 --output point";
-    let [plain, order] = ["", "--order"].map(|option| tess(&format!("draw {patch} {option}")));
+    let [plain, order] =
+        ["", "--number-primitives"].map(|option| tess(&format!("draw {patch} {option}")));
     order.exits(0);
     assert_eq!(order.stderr, "", "no number is left out");
     let lines = |text: &str| text.matches("<polyline").count();

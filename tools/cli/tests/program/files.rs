@@ -226,13 +226,18 @@ fn shaders_replace_only_shaders() {
     fs::create_dir(folder.join("out")).expect("an empty folder");
     done(&write("--force --target wgsl"));
     write("--target wgsl").exits(2).says("it exists already; --force replaces it");
-    done(&write("--force --target spirv --order cache"));
+    done(&write("--force --target spirv --index-order cache"));
     let written = names(&folder.join("out"));
     assert!(written.contains(&"manifest.json".into()), "{written:?}");
     assert!(written.iter().all(|name| !name.ends_with(".wgsl")), "nothing old stays: {written:?}");
     let manifest = fs::read_to_string(folder.join("out/manifest.json")).expect("a manifest");
     assert!(manifest.contains("\"order\": \"cache\""), "{manifest:.600}");
-    fs::write(folder.join("out/manifest.json"), "{}").expect("another's");
+    // What is not of this command is kept, whatever its manifest quotes.
+    fs::write(folder.join("out/thesis.txt"), "mine").expect("another's");
+    write("--force --target wgsl").exits(2);
+    fs::remove_file(folder.join("out/thesis.txt")).expect("removed");
+    let quoting = r#"{"about": "\"format\": \"tess-shaders 1\"", "format": "other", "stages": []}"#;
+    fs::write(folder.join("out/manifest.json"), quoting).expect("another's");
     write("--force --target wgsl").exits(2);
     assert_eq!((names(&folder), names(&folder.join("out"))), (vec!["out".into()], written));
 }

@@ -142,6 +142,7 @@ fn headers_say_how_a_file_is_made() {
     let noted: Vec<String> = header
         .split(' ')
         .skip(6)
+        .filter(|note| !note.starts_with("level-version="))
         .map(|note| format!("--{}", note.replace("random", "count").replacen('=', " ", 1)))
         .collect();
     assert_eq!(tess(&format!("gen {}", noted.join(" "))).stdout, run.stdout, "the same again");
@@ -157,17 +158,11 @@ fn a_shard_without_cases() {
     run.exits(0); // a file without records
     assert!(run.stdout.starts_with("# tess-vectors 1 kind=patches count=0 "), "{}", run.stdout);
     tess_with_input("check -", &run.stdout).exits(2).prints_nothing();
-    tess_with_input("check - --empty", &run.stdout).exits(0).prints_only("0 cases, 0 mismatches\n");
     let folder = directory("empty-shard");
     let asked = folder.join("asked.csv");
     fs::write(&asked, &run.stdout).expect("written");
     let options = format!("check - --cases {}", asked.display());
     tess_with_input(&options, &run.stdout).exits(2); // no case was asked
-    let checked = tess_with_input(&format!("{options} --empty"), &run.stdout);
-    checked.exits(0).prints_only("0 cases, 0 mismatches\n");
-    let one = tess("gen --level 3 --count 1").stdout;
-    tess_with_input(&format!("{options} --empty"), &one).exits(1); // an answer to nothing
-    tess_with_input("check - --empty", "").exits(2); // nothing at all is no file
     tess("gen --level 3 --count 0 --shard 5/9").exits(2); // no shard has any
     tess("gen --level 3 --count 0").exits(2); // no case at all
 }

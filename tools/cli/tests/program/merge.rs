@@ -28,13 +28,13 @@ fn joined_values_are_other_values() {
     let of =
         |shard, domains: &[&str]| report(shard, 2, value!({ "options": { "domain": domains } }));
     let run = merged(&[of(1, &["tri,quad"]), of(2, &["tri", "quad"])]);
-    run.exits(2).prints("an option is domain=tri domain=quad; in stdin:1 it is domain=tri,quad");
+    run.exits(2).prints(r#"the option domain is ["tri", "quad"]; in stdin:1 it is ["tri,quad"]"#);
     let of = |shard, options: Value| report(shard, 2, value!({ "options": options }));
     let run =
         merged(&[of(1, value!({ "a": ["1 b=2"] })), of(2, value!({ "a": ["1"], "b": ["2"] }))]);
     run.exits(2);
     let run = merged(&[of(1, value!({ "a": ["1 a=2"] })), of(2, value!({ "a": ["1", "2"] }))]);
-    run.prints("an option is a=1 a=2; in stdin:1 it is a='1 a=2'");
+    run.exits(2).prints(r#"the option a is ["1", "2"]; in stdin:1 it is ["1 a=2"]"#);
     merged(&[of(1, value!({ "a": ["1"] })), of(2, value!({ "a": ["1"] }))]).exits(0);
 }
 
@@ -49,7 +49,7 @@ fn baselines_are_compared() {
     let run = merged(&[of(1, "k", "0a"), of(2, "k", "0b"), of(3, "k", "0a")]);
     run.exits(2);
     let why =
-        "stdin:2 is of another campaign: the cases of k have the digest 0b; most reports have 0a";
+        "stdin:2 is of another campaign: the lines of k have the digest 0b; elsewhere it is 0a";
     run.prints(why);
     let run = merged(&[of(1, "k1", "0a"), of(2, "k2", "0b"), of(3, "k3", "0a")]);
     run.exits(0).prints("known differences: 3 of 6 cases of 2 baselines occur\n");
@@ -79,43 +79,27 @@ fn baselines_by_their_cases() {
     assert_ne!(digests[0], digests[2], "fewer cases");
 }
 
-/// Every shard is in the table and in the `JUnit` file, however many are missing.
+/// Every shard is in the `JUnit` file, however many are missing.
 #[test]
 fn every_fault_is_listed() {
     let folder = directory("every_fault_is_listed");
     fs::write(folder.join("r.jsonl"), report(7, 500, value!({}))).expect("written");
-    let run = tess_in(&folder, "merge r.jsonl --csv s.csv --junit s.xml");
+    let run = tess_in(&folder, "merge r.jsonl --junit s.xml");
     run.exits(2);
-    let [csv, xml] =
-        ["s.csv", "s.xml"].map(|name| fs::read_to_string(folder.join(name)).expect(name));
-    assert_eq!(csv.lines().count(), 501, "a heading and every shard");
-    assert_eq!(csv.matches(",missing,").count(), 499, "{csv}");
+    let xml = fs::read_to_string(folder.join("s.xml")).expect("JUnit");
     assert!(xml.contains("tests=\"500\" failures=\"0\" errors=\"499\""), "{}", &xml[..300]);
     run.prints("and more shards\n"); // the text says that it is not all
 }
 
-/// A command that no report shows is not guessed; one that ran before runs again as it did.
+/// A word that a shell would take apart is quoted.
 #[test]
-fn commands_that_are_certain() {
-    let folder = directory("commands_that_are_certain");
-    let words =
-        |d: &str, r: &str| value!(["tess", "check", format!("level1/{d}.txt"), "--report", r]);
-    fs::write(folder.join("a"), report(1, 3, value!({ "words": words("d", "r1") })))
-        .expect("written");
-    let run = tess_in(&folder, "merge a");
-    assert!(!run.stdout.contains("level2") && !run.stdout.contains("level3"), "{}", run.stdout);
-    let shown = "each with files of its own; shard 1/3 was:\n  # tess check level1/d.txt --report r1 --shard 1/3\n";
-    run.prints(shown);
-    let stopped = value!({ "words": words("e", "r2"), "state": "interrupted" });
-    fs::write(folder.join("b"), report(2, 3, stopped)).expect("written");
-    let run = tess_in(&folder, "merge a b");
-    let shown =
-        "run again:\n  tess check level1/e.txt --report r2 --shard 2/3\nrun again what is missing";
-    run.prints(shown);
-    let words =
-        |n: u64| value!(["tess", "check", "--report", format!("r{n}"), "--", format!("d{n}")]);
-    let reports = [1, 2].map(|n| report(n, 3, value!({ "words": words(n) })));
-    merged(&reports).prints("  tess check --report r3 --shard 3/3 -- d3\n");
+fn the_command_of_a_report_is_shown() {
+    let words = value!(["tess", "check", "a b.txt", "--report", "it's"]);
+    let run = merged(&[report(1, 3, value!({ "words": words }))]);
+    let shown = r"shard 1/3 was:
+  # tess check 'a b.txt' --report 'it'\''s'
+";
+    run.exits(2).prints(shown);
 }
 
 /// No sum wraps round.
@@ -151,11 +135,14 @@ fn times_and_stages_are_added_up() {
 fn the_time_grows_with_the_shards_alone() {
     let folder = directory("the_time_grows_with_the_shards_alone");
     let time = |shards: u64| -> Duration {
-        let all: String = (1..=shards).map(|shard| report(shard, shards, value!({}))).collect();
+        // Each with a part of its own.
+        let part = |shard| value!([{ "name": format!("p{shard}"), "cases": 2, "mismatches": 0 }]);
+        let one = |shard| report(shard, shards, value!({ "parts": part(shard) }));
+        let all: String = (1..=shards).map(one).collect();
         fs::write(folder.join("all"), all).expect("written");
         let times = (0..3).map(|_| {
             let start = Instant::now();
-            tess_in(&folder, "merge all --csv s.csv --junit s.xml").exits(0);
+            tess_in(&folder, "merge all --junit s.xml").exits(0);
             start.elapsed()
         });
         times.min().expect("three")
@@ -172,8 +159,8 @@ fn many_files() {
     for shard in 1..=2000 {
         fs::write(name(shard), report(shard, 2000, value!({}))).expect("written");
     }
-    shell("ulimit -n 64; $TESS merge r* --csv s.csv", &folder).exits(0);
-    shell("ulimit -n 64; $TESS merge r* --csv r1", &folder).exits(2).says("are the same file");
+    shell("ulimit -n 64; $TESS merge r* --junit s.xml", &folder).exits(0);
+    shell("ulimit -n 64; $TESS merge r* --junit r1", &folder).exits(2).says("are the same file");
     assert!(fs::read_to_string(name(1)).is_ok_and(|text| text.starts_with('{')), "it is kept");
 }
 

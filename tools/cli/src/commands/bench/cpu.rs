@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 use tess_core::DomainPoint;
 use tess_simd::{IndexFormat, PatchRange};
 use tess_verify::BackendError;
-use tess_verify::generate::{Calls, IndexWidth, Workload};
 use tess_verify::vectors::Fnv1a;
+use tess_verify::workloads::{Calls, IndexWidth, Workload};
 
 /// A backend of the CPU, by what differs between them.
 pub(super) trait Kernel {

@@ -17,7 +17,7 @@ use std::fmt;
 use std::time::Duration;
 use tess_simd::Order;
 use tess_verify::BackendError;
-use tess_verify::generate::Workload;
+use tess_verify::workloads::Workload;
 
 /// A measurement.
 #[derive(Clone, Copy, Debug)]

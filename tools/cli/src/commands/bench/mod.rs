@@ -18,7 +18,7 @@ use measure::{Plan, measure};
 use runner::{Runner, WorkingSet};
 use table::heading;
 use tess_simd::{Level, Order};
-use tess_verify::generate::Workload;
+use tess_verify::workloads::Workload;
 
 /// Time the named workloads against filling the same bytes and against the core
 #[derive(Debug, clap::Args)]
@@ -27,7 +27,7 @@ Examples:
   tess bench --workload uniform-16 --workload uniform-64
   tess bench --backend simd --working-set cache --json > simd.json
   tess bench --backend simd --cpu-level avx2 --workload terrain
-  tess bench --backend simd --order cache --workload uniform-64
+  tess bench --backend simd --index-order cache --workload uniform-64
   tess bench --backend gpu --no-copies --working-set stream --workload uniform
   tess bench --backend simd --threads 8 --frame 16 --workload terrain
 
@@ -65,7 +65,8 @@ pub(crate) struct BenchCommand {
     #[arg(long)]
     no_copies: bool,
     /// Order of the triangles that simd and gpu write
-    #[arg(long, value_name = "NAME", default_value = "specification", value_parser = choice(ORDERS))]
+    #[arg(long = "index-order", value_name = "NAME", default_value = "specification")]
+    #[arg(value_parser = choice(ORDERS))]
     order: Order,
     /// Print one JSON array of objects
     #[arg(long)]
@@ -90,7 +91,7 @@ pub(crate) fn run(args: &BenchCommand) -> Result<Exit, Failure> {
         ));
     }
     if args.order == Order::VertexCache && args.backend == BackendName::Core {
-        return Err(Failure::bad_input("--order cache goes with --backend simd or gpu"));
+        return Err(Failure::bad_input("--index-order cache goes with --backend simd or gpu"));
     }
     if args.frame.is_some()
         && (args.backend != BackendName::Simd || working_sets != [WorkingSet::Cache])

@@ -2,11 +2,8 @@
 
 mod failures;
 mod record;
-pub(crate) mod rules;
+mod rules;
 mod strength;
-
-#[cfg(feature = "probe")]
-pub(crate) use strength::{CONVERSIONS, DENORMALS};
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
@@ -35,35 +32,21 @@ use tess_verify::{Backend, Case, Named};
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The first differences and a summary line go to stdout. Each difference shows the case, the first
-wrong element, what was observed and what is right there in hex, the stage of the specification
-that it points to, and commands that show it again.
+The first differences and a summary line go to stdout. Each difference shows the case, the first wrong element with the observed and the right value in hex, the stage of the specification that it points to, and commands that show it again.
 
-What is tested: with --backend, that backend, and the file is right. Without it, a file of listings
-is what a device under test gave, and the model is right; in a file of any other kind the model is
-tested. Nothing in the file decides this, its source least of all.
+What is tested: with --backend, that backend, and the file is right. Without it, a file of listings holds the answers of a device under test, and the model is right; in a file of any other kind the model is tested. Only the command line decides this, nothing in the file.
 
-A device's listings are compared in a strength: --order, --points, --conversion and --denormals say
-which freedom of the public specification counts as equal (docs/verification.md).
+Listings of a device are compared in a strength: --order, --points, --conversion and --denormals grant freedoms of the public specification (docs/verification.md).
 
-With --cases, the file must answer those cases, one for one and in their order. They are a vector file,
-or lines that begin with `case`. A case without an answer is one difference (`record 9 is missing`), and so is an
-answer to another case; the fewest differences count that explain all answers.
+With --cases, the file must answer those cases, one for one and in their order. They are a vector file, or lines that begin with `case`. A case without an answer is one difference (`record 9 is missing`), and so is an answer to another case; the explanation with the fewest differences counts.
 
-A file may be one shard of a campaign (docs/campaigns.md). Which one is said by --shard, by the batch system, or
-by the note shard=I/N in the first line of --cases or FILE; they may not contradict each other.
+A file may be one shard of a campaign (docs/campaigns.md). Its number comes from --shard, from the batch system, or from the note shard=I/N in the first line of --cases or FILE; they may not contradict each other.
 
-If one mistake explains every difference (triangles turn the other way, u and v are exchanged, u or v
-runs backwards), a line says so, and only the first difference is shown. If a strength that was not asked for
-does (--order any, --denormals flush, --conversion 0.6ulp), a line says that. Of more than 20 differences, a table counts
-those of each stage and configuration, and the one with the smallest case is shown of each.
+If one mistake explains every difference (such as u and v exchanged, or factors rounded to binary16), a line names it, and only the first difference is shown. If a freedom that was not granted explains them (--order any, --denormals flush, --conversion 0.6ulp), a line names its option. More than 20 differences are counted in a table by stage and configuration, with the smallest case of each.
 
-With --rules, listings are judged by what a standard demands of output, without the model: each rule with
-its section, how many patches it judged and broke, and the smallest patches that break it. --cases and --known count. `tess gen --rules`
-makes patches that exercise every rule (docs/rules.md). The last line says how many patches are the model's, in
-its order or another: Direct3D 11 demands that order, Vulkan and OpenGL do not. It does not decide the exit code.
+With --rules, listings are judged by the demands of a standard, without the model: each rule with its section, how many patches it judged and how many broke it, and the smallest patches that break it. --cases and --known count too. `tess gen --rules` makes patches that exercise every rule (docs/rules.md). The last line counts the patches that equal the model's, in its order or another: Direct3D 11 demands that order, Vulkan and OpenGL do not. It does not change the exit code.
 
-Exit code 0: all equal, or no rule broken; 1: differences; 2: malformed, truncated or empty file; 3: no such backend.
+Exit code 0: all equal, or no rule broken; 1: differences; 2: malformed, truncated or empty file, whose differences before that place are shown; 3: the backend is not available.
 
 Examples:
   tess check golden/cases.txt
@@ -89,17 +72,14 @@ pub(crate) struct CheckCommand {
     /// Judge listings by the rules of this standard: vulkan, opengl or d3d11
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
     #[arg(conflicts_with_all = [
-        "backend", "cpu_level", "index_type", "order", "primitives", "points", "conversion",
+        "backend", "cpu_level", "index_type", "order", "points", "conversion",
         "denormals", "failures", "coverage",
     ])]
     rules: Option<Specification>,
-    /// Cases that were asked: records that answer other cases, too few or too many are differences
+    /// Cases that were asked; missing, extra and other answers are differences
     #[arg(long, value_name = "FILE")]
     cases: Option<PathBuf>,
-    /// Accept a FILE and --cases without records: those of an empty shard, or the failures of a run without any
-    #[arg(long)]
-    empty: bool,
-    /// Write the records that differ to this file, in their order, which `tess check` reads; - is no file
+    /// Write the records that differ to this file, in their order; `tess check` reads it
     #[arg(long, value_name = "FILE")]
     failures: Option<PathBuf>,
     /// Add the coverage bins that the file's patches hit to this file of UCIS XML
@@ -127,22 +107,23 @@ pub(crate) fn run(args: &CheckCommand, invocation: &Invocation) -> Result<Exit, 
     args.strength.tested(Kind::Listings, args.backend)?;
     // Before stdin is read, which may take long.
     let backends = backends(args);
-    let read = if args.empty { VectorFile::maybe_empty } else { VectorFile::new };
-    let file = read(args.name(), open(&args.file)?).map_err(|e| failure(e.into()))?;
+    let file =
+        VectorFile::new(args.name(), input::reader(&args.file)?).map_err(|e| failure(e.into()))?;
     let asked = args.asked(file.header().kind)?;
     let asked_header = asked.as_ref().and_then(Cases::header);
     let level = asked_header.or(Some(file.header())).and_then(record::level);
-    let newest = LEVEL_VERSION.to_string();
-    if let Some((level, version)) = level.filter(|(_, version)| *version != newest) {
-        note(&format!("cases of level {level}, version {version}; the newest is {newest}"));
+    let own = LEVEL_VERSION.to_string();
+    if let Some((level, version)) = level.filter(|(_, version)| *version != own) {
+        note(&format!(
+            "cases of level {level}, version {version}; this program makes version {own}"
+        ));
     }
     let placed = record::place(args.shard, file.header(), asked_header)?;
     let known = args.known.read(args.rules)?;
     let recorder = args.report.begin(invocation, placed)?;
     known.note(&recorder);
-    asked_header
-        .into_iter()
-        .for_each(|asked| recorder.update(|report| record::add_asked(report, asked)));
+    let made = asked_header.unwrap_or(file.header());
+    recorder.update(|report| record::add_asked(report, made));
     let ended = match args.rules {
         Some(specification) => rules::run(file, asked, specification, &known.known, &recorder),
         None => backends
@@ -181,20 +162,12 @@ fn compare(
         }
     });
     bar.finish_and_clear();
-    let mut report = report.map_err(failure)?;
+    let (mut report, malformed) = so_far(report)?;
     let right = right.into_inner().unwrap_or_else(PoisonError::into_inner);
     for difference in &mut report.differences {
         difference.passes_alone |= difference.case.is_some_and(|case| right.contains(&case));
     }
     recorder.update(|record| record::finish(record, &report));
-    if let Some(coverage) = coverage {
-        let coverage = coverage.into_inner().unwrap_or_else(PoisonError::into_inner);
-        recorder.update(|record| record.coverage = Some(coverage_file::hits(&coverage.coverage)));
-        coverage.add(|_| Ok(()))?;
-    }
-    if let Some(failures) = failures {
-        failures.finish(&report)?;
-    }
     let backend = backends.first().map_or("core", |backend| backend.name());
     let name = args.name();
     let sides = match tested {
@@ -202,8 +175,22 @@ fn compare(
         _ => format!("tested: the backend {backend}; right: {name}"),
     };
     let backend = args.options.words(backend);
-    show(&report, &sides, &backend, &right)
-        .map_err(|error| Failure::write(Path::new("-"), error))?;
+    let show = |end| {
+        show(&report, &sides, &backend, &right, end)
+            .map_err(|error| Failure::write(Path::new("-"), error))
+    };
+    if let Some(error) = malformed {
+        show(NO_VERDICT)?;
+        return Err(Failure::bad_input(error));
+    }
+    if let Some(coverage) = coverage {
+        let coverage = coverage.into_inner().unwrap_or_else(PoisonError::into_inner);
+        coverage.add(|_| Ok(()))?;
+    }
+    if let Some(failures) = failures {
+        failures.finish(&report)?;
+    }
+    show("")?;
     Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
 }
 
@@ -257,7 +244,7 @@ impl CheckCommand {
         if Role::input("--cases", path).is_same_file(&Role::input("FILE", &self.file)) {
             return Err(Failure::bad_input("--cases is the file to check itself"));
         }
-        open_cases(path, if self.empty { Cases::maybe_empty } else { Cases::new }).map(Some)
+        input::cases(path).map(Some)
     }
 }
 
@@ -272,27 +259,14 @@ fn backends(args: &CheckCommand) -> Result<Vec<Box<dyn Backend>>, Failure> {
     (0..threads).map(|_| args.options.select(name)).collect()
 }
 
-/// The cases of a file; - is stdin.
-///
-/// # Errors
-/// It cannot be read, or begins wrongly.
-pub(crate) fn read_cases(path: &Path) -> Result<Cases<Reader>, Failure> {
-    open_cases(path, Cases::new)
-}
-
-/// The cases of a file, read by either constructor of [`Cases`].
-fn open_cases(
-    path: &Path,
-    read: impl FnOnce(String, Reader) -> Result<Cases<Reader>, VectorError>,
-) -> Result<Cases<Reader>, Failure> {
-    read(input::name(path), open(path)?).map_err(Failure::bad_input)
-}
-
-fn open(path: &Path) -> Result<Reader, Failure> {
-    input::open(path).map_err(|error| Failure::file("read", path, &error))
-}
-
-fn show(report: &Report, sides: &str, backend: &str, right: &HashSet<Case>) -> io::Result<()> {
+/// Prints a report. Its last line has the numbers, and this at its `end`.
+fn show(
+    report: &Report,
+    sides: &str,
+    backend: &str,
+    right: &HashSet<Case>,
+    end: &str,
+) -> io::Result<()> {
     let mut out = stdout();
     if report.mismatches > 0 {
         writeln!(out, "{sides}")?;
@@ -334,7 +308,7 @@ fn show(report: &Report, sides: &str, backend: &str, right: &HashSet<Case>) -> i
     if let Some(period) = report.period() {
         writeln!(out, "{}", period_text(period))?;
     }
-    writeln!(out, "{report}")?;
+    writeln!(out, "{report}{end}")?;
     out.flush()
 }
 
@@ -354,6 +328,21 @@ fn show_one(out: &mut impl Write, difference: &Difference, backend: &str) -> io:
         writeln!(out, "  model: {line}")?;
     }
     difference.commands(backend).iter().try_for_each(|command| writeln!(out, "  again: {command}"))
+}
+
+/// The end of a summary line of what precedes a malformed record.
+const NO_VERDICT: &str = " before the malformed record; there is no verdict";
+
+/// A report, perhaps of the records before one that is malformed: that is shown, and is no verdict.
+///
+/// # Errors
+/// Anything else.
+fn so_far(report: Result<Report, CheckError>) -> Result<(Report, Option<VectorError>), Failure> {
+    match report {
+        Ok(report) => Ok((report, None)),
+        Err(CheckError::Malformed { error, before }) => Ok((*before, Some(error))),
+        Err(error) => Err(failure(error)),
+    }
 }
 
 fn failure(error: CheckError) -> Failure {

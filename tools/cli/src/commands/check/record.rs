@@ -57,10 +57,16 @@ pub(super) fn first(difference: &Difference) -> First {
     First { case, difference, passes_alone }
 }
 
-/// Adds how the cases were made, which shards of one campaign have in common.
+/// The notes of `tess gen` about how cases were made, but for the shard.
+const MADE: [&str; 8] =
+    ["level", VERSION, "seed", "random", "domain", "partitioning", "output", "split"];
+
+/// Adds how the cases were made, which shards of one campaign have in common: as the first line of the cases that were
+/// asked says, or that of the answers.
 pub(super) fn add_asked(report: &mut Report, asked: &Header) {
     let version = level(asked).map(|(_, version)| (VERSION.to_owned(), version.to_owned()));
-    for (key, value) in asked.notes.iter().filter(|(key, _)| key != SHARD).chain(&version) {
+    let made = asked.notes.iter().filter(|(key, _)| MADE.contains(&&**key));
+    for (key, value) in made.chain(&version) {
         report.options.insert(format!("asked {key}"), vec![value.clone()]);
         if key == "seed" {
             report.seed = value.parse().ok();

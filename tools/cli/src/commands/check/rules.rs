@@ -1,19 +1,17 @@
 //! `tess check --rules`: a device's listings, judged by what a standard demands.
 
-use super::{failure, record};
+use super::{NO_VERDICT, record, so_far};
 use crate::campaign::Recorder;
-use crate::campaign::report::{First, ReportPart};
+use crate::campaign::report::ReportPart;
+use crate::comparison::rules::{conclude, print};
 use crate::failure::{Exit, Failure};
 use crate::input::Reader;
-use crate::output::{progress, stdout};
+use crate::output::progress;
 use indicatif::ProgressBar;
-use std::fmt::Display;
-use std::io::Write;
-use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use tess_core::Tessellation;
 use tess_verify::check::{self, Known, ListOrder, Strength, Tested};
-use tess_verify::rules::{Checker, RuleRow, RulesReport, Specification};
+use tess_verify::rules::{Checker, Specification};
 use tess_verify::vectors::{Cases, Kind, Record, VectorFile};
 use tess_verify::{Backend, Case, CoreBackend, Named};
 
@@ -58,7 +56,7 @@ pub(super) fn run(
             bar.inc(checked.records.len() as u64);
         });
     bar.finish_and_clear();
-    let answers = answers.map_err(failure)?;
+    let (answers, malformed) = so_far(answers)?;
     let (checker, beside) = judges.into_inner().unwrap_or_else(PoisonError::into_inner);
     if asked.is_some() {
         let (cases, mismatches) = (answers.cases, answers.mismatches);
@@ -73,6 +71,10 @@ pub(super) fn run(
     print(&format!(
         "patches beside the model: {equal} equal, {reordered} in another order, {different} different\n"
     ))?;
+    if let Some(error) = malformed {
+        print(&format!("{} records{NO_VERDICT}\n", equal + reordered + different))?;
+        return Err(Failure::bad_input(error));
+    }
     Ok(if answers.mismatches > 0 { Exit::Different } else { ended })
 }
 
@@ -83,44 +85,4 @@ fn beside_model(case: &Case, observed: &Tessellation) -> usize {
     let is_equal =
         |order| Strength { order, ..Strength::default() }.equal(case, observed, &expected);
     [ListOrder::Sequence, ListOrder::Any].into_iter().position(is_equal).unwrap_or(2)
-}
-
-/// Prints a report and adds each rule to the run's: how many patches it judged, and how many of them break it.
-/// Different if a rule is broken, unless so often is known.
-///
-/// # Errors
-/// It cannot be written.
-pub(crate) fn conclude(
-    tested: &str,
-    report: &RulesReport,
-    known: &Known,
-    recorder: &Recorder,
-) -> Result<Exit, Failure> {
-    print(report)?;
-    let mut exit = Exit::Done;
-    for row in &report.rows {
-        let (name, RuleRow { broken, judged, .. }) = (row.rule.name(), row);
-        let is_known = known.excuses_rule(row.rule, *broken);
-        if is_known {
-            print(&format!("known: {name} is broken {broken} times\n"))?;
-        } else if *broken > 0 {
-            exit = Exit::Different;
-        }
-        let first = row.smallest.as_ref().map(|example| {
-            let cases: Vec<String> = example.cases.iter().map(ToString::to_string).collect();
-            let difference = example.what.clone();
-            First { case: Some(cases.join("\n")), difference, ..First::default() }
-        });
-        let (name, mismatches) = (format!("{tested} {name}"), if is_known { 0 } else { *broken });
-        let part =
-            ReportPart { name, cases: *judged, mismatches, first: first.filter(|_| !is_known) };
-        recorder.update(|record| record.add_parts([part]));
-    }
-    Ok(exit)
-}
-
-fn print(what: &impl Display) -> Result<(), Failure> {
-    let mut out = stdout();
-    let written = write!(out, "{what}").and_then(|()| out.flush());
-    written.map_err(|error| Failure::write(Path::new("-"), error))
 }

@@ -1,7 +1,8 @@
-//! The options that say what counts as equal in a device's listings.
+//! The options that grant freedoms to a device's listings.
 
 use crate::args::{Choices, choice};
 use crate::backends::BackendName;
+use crate::comparison::{CONVERSIONS, DENORMALS};
 use crate::failure::Failure;
 use tess_verify::Named;
 use tess_verify::check::{Conversion, Denormals, Elements, ListOrder, Strength, Tested};
@@ -14,10 +15,7 @@ pub(crate) struct StrengthArgs {
     /// Order of points and primitives
     #[arg(long, value_name = "NAME", default_value = "exact", value_parser = choice(LIST_ORDERS))]
     order: ListOrder,
-    /// Compare points and primitives (the default)
-    #[arg(long, conflicts_with = "points")]
-    primitives: bool,
-    /// Compare the domain points alone
+    /// Compare only the domain points, not the primitives made of them
     #[arg(long)]
     points: bool,
     /// Conversion of factors to fixed point
@@ -32,16 +30,6 @@ const LIST_ORDERS: Choices<ListOrder> = &[
     ("exact", ListOrder::Exact, "The model's, index for index"),
     ("sequence", ListOrder::Sequence, "The model's, each vertex by its coordinates"),
     ("any", ListOrder::Any, "Any, and any leading vertex of a triangle"),
-];
-
-pub(crate) const CONVERSIONS: Choices<Conversion> = &[
-    ("exact", Conversion::Exact, "To the nearest, ties to even"),
-    ("0.6ulp", Conversion::Within06Ulp, "Either neighbour where the fraction lies in 0.4 to 0.6"),
-];
-
-pub(crate) const DENORMALS: Choices<Denormals> = &[
-    ("keep", Denormals::Keep, "Greater than zero"),
-    ("flush", Denormals::Flush, "Maybe zero, which culls the patch"),
 ];
 
 impl StrengthArgs {

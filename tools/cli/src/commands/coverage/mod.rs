@@ -16,22 +16,19 @@ use tess_verify::generate::configurations_among;
 /// Add coverage files up and report what is missing
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The files are those that `--coverage FILE` of `tess gen` and `check`, `tess merge --coverage` and tess_model write.
-The report has a line for each group of bins by stage of the specification, then every hole: a bin that was never
-hit. The groups are described in docs/verification.md.
+The files are those that `--coverage FILE` of `tess gen` and `check`, and tess_model write.
+The report has a line for each group of bins by stage of the specification, then every hole: a bin that was never hit. docs/verification.md describes the groups.
 
-A device that lacks configurations cannot hit every bin. Say what it has, in the words of `tess gen`, several
-with commas between them: the bins that no such patch can hit are excluded. --exclude names further bins in a
-file, one a line: a bin's path or its first parts, of which each may be * for any.
+A device that lacks configurations cannot hit every bin. Name those that it has, in the words of `tess gen`, several with commas between them: bins that no such patch can hit are excluded. --exclude FILE excludes more, one pattern per line: a bin's path or its first parts, of which each may be * for any.
   transition               # a group
   configuration/*/pow2     # all of its bins with this partitioning
-An excluded bin that was hit all the same is named: the exclusions are wrong.
+An excluded bin that was hit is named: the exclusions are wrong.
 
 Exit code 0: done; 1: with --complete, a hole or a wrong exclusion; 2: malformed or missing files.
 
 Examples:
   tess coverage coverage.xml
-  tess coverage shard-*.xml --merged coverage.xml --html coverage.html
+  tess coverage shard-*.xml --merged coverage.xml
   tess coverage coverage.xml --domain tri,quad --partitioning integer --split ruler
   tess coverage coverage.xml --exclude device.txt --complete
   tess coverage --covergroups bindings/uvm/src/tess_covergroups.svh")]
@@ -39,7 +36,7 @@ pub(crate) struct CoverageCommand {
     /// Coverage files; - is stdin
     #[arg(value_name = "FILE", required_unless_present = "covergroups")]
     files: Vec<PathBuf>,
-    /// Only write the bins to this file, as the covergroups of `tess_uvm` in SystemVerilog
+    /// Write only the bins, to this file, as the covergroups of `tess_uvm` in SystemVerilog
     #[arg(long, value_name = "FILE", exclusive = true)]
     covergroups: Option<PathBuf>,
     /// Domains that the device has [default: all]
@@ -59,15 +56,12 @@ pub(crate) struct CoverageCommand {
     /// Exclude the bins that this file names
     #[arg(long, value_name = "FILE")]
     exclude: Option<PathBuf>,
-    /// End with exit code 1 if a bin is missed that is not excluded, or one is hit that is
+    /// End with exit code 1 if there is a hole, or an excluded bin was hit
     #[arg(long)]
     complete: bool,
     /// Write the sum of the files to this file, as UCIS XML
     #[arg(long, value_name = "FILE")]
     merged: Option<PathBuf>,
-    /// Write the report to this file too, as one page of HTML
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
     #[command(flatten)]
     report: OutputArgs,
 }
@@ -84,7 +78,7 @@ pub(crate) fn run(args: &CoverageCommand) -> Result<Exit, Failure> {
     }
     refuse_shared(&args.roles())?;
     args.refuse_double()?;
-    let outputs = [&args.merged, &args.html].into_iter().flatten().chain([&args.report.file]);
+    let outputs = args.merged.iter().chain([&args.report.file]);
     outputs.cloned().try_for_each(|file| OutputArgs { file }.require_writable())?;
     let exclusions = args.exclusions()?;
     let mut sum = Coverage::default();
@@ -93,11 +87,6 @@ pub(crate) fn run(args: &CoverageCommand) -> Result<Exit, Failure> {
     }
     if let Some(path) = &args.merged {
         coverage_file::write(path, &sum)?;
-    }
-    if let Some(path) = &args.html {
-        let sources: Vec<String> = args.files.iter().map(|file| name(file)).collect();
-        let page = sum.to_html(&exclusions, &sources);
-        OutputArgs { file: path.clone() }.write(page.as_bytes())?;
     }
     args.report.write(sum.report(&exclusions).as_bytes())?;
     Ok(args.judge(&sum, &exclusions))
@@ -108,8 +97,7 @@ impl CoverageCommand {
         let read = self.files.iter().map(|file| Role::input("FILE", file));
         let exclude = self.exclude.iter().map(|file| Role::input("--exclude", file));
         let merged = self.merged.iter().map(|file| Role::output("--merged", file));
-        let html = self.html.iter().map(|file| Role::output("--html", file));
-        read.chain(exclude).chain(merged).chain(html).chain([self.report.role()]).collect()
+        read.chain(exclude).chain(merged).chain([self.report.role()]).collect()
     }
 
     /// Refuses a file that would count twice.

@@ -18,7 +18,7 @@ use tess_verify::vectors::{Record, VectorFile};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  tess draw quad --outer 3,4,5,6 --inner 4,7 --indices -o patch.svg
+  tess draw quad --outer 3,4,5,6 --inner 4,7 --number-points -o patch.svg
   tess draw tri --outer 17,5,9 --inner 3 --rings -o fan.png
   tess draw quad --outer 8,8,8,8 --inner 8,8 --backend simd --against core -o both.png
   tess draw tri --outer 4,4,4 --inner 4 --overlay device.txt -o differences.png")]
@@ -48,12 +48,12 @@ pub(crate) struct DrawCommand {
 struct DrawArgs {
     /// Number the points
     #[arg(long)]
-    indices: bool,
+    number_points: bool,
     /// Colour the primitives by their order and number them
     #[arg(long)]
-    order: bool,
+    number_primitives: bool,
     /// Colour the triangles by the ring that they are stitched to
-    #[arg(long, conflicts_with = "order")]
+    #[arg(long, conflicts_with = "number_primitives")]
     rings: bool,
     /// Width and height in pixels, 64 to 8192
     #[arg(long, value_name = "PIXELS", default_value_t = 800)]
@@ -104,12 +104,12 @@ impl DrawArgs {
     }
 
     fn options(&self) -> DrawOptions {
-        let colours = match (self.order, self.rings) {
+        let colours = match (self.number_primitives, self.rings) {
             (true, _) => Colours::Order,
             (_, true) => Colours::Rings,
             _ => Colours::Plain,
         };
-        DrawOptions { indices: self.indices, colours, size: self.size }
+        DrawOptions { indices: self.number_points, colours, size: self.size }
     }
 }
 

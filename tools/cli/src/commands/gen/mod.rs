@@ -24,10 +24,9 @@ use tess_verify::{Case, Named};
 /// Generate test vectors with expected results; same arguments, same bytes
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Level 1 has every boundary once and hits every coverage bin; level 2 has every boundary in every
-position; level 3 is random. All end with --count random cases (500, 20000 and 1000000 unless said).
---rules has patches that belong together, for `tess check --rules`: pairs that differ in one level, exchanged
-levels, levels just above integers, inner levels up to 1, NaN; a shard of them tears some apart.
+Level 1 has every boundary once and hits every coverage bin of the selected configurations; level 2 has every boundary in every position; level 3 is random. Each ends with --count random cases (500, 20000 and 1000000 by default).
+
+--rules makes families of patches for `tess check --rules`: pairs that differ in one level, exchanged levels, levels just above integers, inner levels up to 1, NaN. A shard separates some families.
 
 Examples:
   tess gen --level 1 | tess check - --backend simd
@@ -42,16 +41,15 @@ Examples:
 pub(crate) struct GenCommand {
     #[command(flatten)]
     selection: SelectionArgs,
-    /// Instead of a level, families of patches that the rules of the standards compare; --count more at
-    /// random
+    /// Instead of a level, families of patches that the rules of the standards compare, and --count random ones
     #[arg(long, conflicts_with = "level")]
     rules: bool,
     /// One split order only
     #[arg(long, value_name = "NAME", value_parser = name_of::<SplitOrder>())]
     split: Option<SplitOrder>,
-    /// Instead of patches, what one stage takes and gives for them: factors, context, place or stitch
+    /// Instead of patches, the inputs and outputs of one stage for them: factors, context, place or stitch
     ///
-    /// For blocks of a circuit: each distinct row once, as CSV or, with --format readmemh, as one image.
+    /// To test a block of a circuit: each distinct row once, as CSV or, with --format readmemh, as one image.
     #[arg(long, value_name = "NAME", value_parser = name_of::<StageBlock>(), conflicts_with = "coverage")]
     stage: Option<StageBlock>,
     /// Form of the vectors
@@ -59,8 +57,7 @@ pub(crate) struct GenCommand {
     format: VectorFormat,
     /// Instead of vectors, report which coverage bins they hit
     ///
-    /// Bins that no selected configuration can hit are excluded. With a FILE, add the hits to what that file holds, as UCIS XML, and report the sum. Shards may
-    /// add to one file, at the same time too.
+    /// Bins that no selected configuration can hit are excluded. With a FILE, the hits are added to that file of UCIS XML, and the sum is reported. Shards may add to one file, also at the same time.
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with = "format")]
     coverage: Option<Option<PathBuf>>,
     #[command(flatten)]
@@ -181,15 +178,15 @@ impl GenCommand {
         let bar = self.progress(count);
         coverage.record_stream(None, bar.wrap_iter(self.cases(placed)));
         bar.finish_and_clear();
-        recorder.update(|report| {
-            report.add_parts([part(count)]);
-            report.coverage = Some(coverage_file::hits(coverage));
-        });
+        recorder.update(|report| report.add_parts([part(count)]));
         // The file may have hits of other configurations too.
         let Selection { domain, partitioning, output, split, .. } = self.selection();
-        let (domain, partitioning) = (domain.as_slice(), partitioning.as_slice());
-        let has = configurations_among(domain, partitioning, output.as_slice(), split.as_slice());
-        let outside = Exclusions::outside(has);
+        let outside = Exclusions::outside(configurations_among(
+            &Vec::from_iter(domain),
+            &Vec::from_iter(partitioning),
+            &Vec::from_iter(output),
+            &Vec::from_iter(split),
+        ));
         let report =
             |sum: &Coverage| self.output.write(sum.report(&outside.not_hit(sum)).as_bytes());
         match file {

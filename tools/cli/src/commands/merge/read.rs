@@ -6,7 +6,7 @@ use crate::input;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The most bytes of one file: a thousand reports with coverage have 20 MB.
+/// The most bytes of one file: a hundred thousand reports have some 100 MB.
 const MAX_BYTES: u64 = 1 << 28;
 
 /// A report, and the file that it stands in.

@@ -64,7 +64,7 @@ pub(crate) struct MeshCommand {
     ///
     /// A .gltf has its binary part beside it in a .bin of the same name. An existing .bin is replaced only if the
     /// existing .gltf refers to it.
-    #[arg(short = 'o', long = "out", value_name = "OUT", required = true)]
+    #[arg(short = 'o', value_name = "OUT", required = true)]
     output: PathBuf,
     /// Form of the result [default: from the file's name]
     #[arg(long, value_name = "NAME")]

@@ -1,10 +1,10 @@
 //! `tess patch`: tessellates one patch, or the cases of a file.
 
-use super::check::read_cases;
 use crate::args::{PatchArgs, note_large_factors};
 use crate::backends::BackendArgs;
 use crate::failure::{Exit, Failure};
 use crate::formats::{Format, OnePatch};
+use crate::input;
 use crate::output::{OutputArgs, Role, form, refuse_shared};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -70,7 +70,7 @@ impl PatchCommand {
             return Err(Failure::bad_input("--cases writes listings, --format text"));
         }
         refuse_shared(&[Role::input("--cases", path), self.output.role()])?;
-        let mut cases = read_cases(path)?;
+        let mut cases = input::cases(path)?;
         let mut backend = self.backend.select()?;
         let source = format!("tess-{}", backend.name());
         let header = Header { kind: Kind::Listings, count: None, source, notes: Vec::new() };

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::output::{OutputArgs, json, progress};
 use std::fmt::Write;
 use tess_probe::{BenchTimes, bench};
-use tess_verify::generate::Workload;
+use tess_verify::workloads::Workload;
 
 /// How often each way runs; the fastest counts.
 const RUNS: u32 = 10;

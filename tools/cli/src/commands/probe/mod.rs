@@ -3,10 +3,10 @@
 #[cfg(feature = "shaders")]
 mod bench;
 
-use super::check::{CONVERSIONS, DENORMALS, rules};
 use crate::args::{Choices, SelectionArgs, choice, name_of};
 use crate::campaign::report::{First as FirstOf, PASSES_ALONE, Report, ReportPart};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs};
+use crate::comparison::{CONVERSIONS, DENORMALS, rules};
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
 use crate::output::form;

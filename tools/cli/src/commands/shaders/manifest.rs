@@ -3,9 +3,11 @@
 use super::plan::{Variant, resource_name, resources};
 use super::structures::Structure;
 use super::translation::Translation;
-use super::{INDEX_TYPES, NUMBERINGS, POINTS};
+use super::{INDEX_TYPES, NUMBERINGS, POINTS, surfaces};
 use crate::args::{ORDERS, name_in};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::Path;
 use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{Resource, Setup};
 use tess_verify::Named;
@@ -16,6 +18,30 @@ pub(super) const FORMAT: &str = "tess-shaders 1";
 
 /// The file of the tables' contents.
 pub(super) const TABLES_FILE: &str = "tables.bin";
+
+/// The file of the manifest for C.
+pub(super) const HEADER_FILE: &str = "tess_shaders.h";
+
+/// The names of the files that this command wrote into a folder; none if it has no manifest of this format.
+pub(super) fn files_of(folder: &Path) -> Vec<String> {
+    #[derive(Deserialize)]
+    struct Written {
+        format: String,
+        stages: Vec<WrittenStage>,
+    }
+    #[derive(Deserialize)]
+    struct WrittenStage {
+        file: String,
+    }
+    let text = fs::read_to_string(folder.join(FILE)).unwrap_or_default();
+    match serde_json::from_str::<Written>(&text) {
+        Ok(written) if written.format == FORMAT => {
+            let own = [FILE, TABLES_FILE, HEADER_FILE, surfaces::FOLDER].map(str::to_owned);
+            own.into_iter().chain(written.stages.into_iter().map(|stage| stage.file)).collect()
+        }
+        _ => Vec::new(),
+    }
+}
 
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Manifest {

@@ -39,7 +39,7 @@ Examples:
   tess shaders --target spirv --domain quad -o shaders/
   tess shaders --target hlsl --domain tri --partitioning fractional_odd --points f32 -o shaders/
   tess shaders --target spirv --checks none -o shaders/   faster; see docs/performance.md
-  tess shaders --target wgsl --order cache --force -o build/shaders/   as a step of a build")]
+  tess shaders --target wgsl --index-order cache --force -o build/shaders/   as a step of a build")]
 pub(crate) struct ShadersCommand {
     /// Language of the shaders
     #[arg(long, value_name = "NAME")]
@@ -69,7 +69,8 @@ pub(crate) struct ShadersCommand {
     #[arg(long, value_name = "NAME", default_value = "per-batch", value_parser = choice(NUMBERINGS))]
     numbering: Numbering,
     /// Order of the triangles
-    #[arg(long, value_name = "NAME", default_value = "specification", value_parser = choice(ORDERS))]
+    #[arg(long = "index-order", value_name = "NAME", default_value = "specification")]
+    #[arg(value_parser = choice(ORDERS))]
     order: Order,
     /// Whether the shaders check every access and every loop
     #[arg(long, value_name = "WHICH", default_value = "full")]
@@ -78,7 +79,7 @@ pub(crate) struct ShadersCommand {
     #[arg(long)]
     force: bool,
     /// New folder to write
-    #[arg(short = 'o', long = "out", value_name = "FOLDER")]
+    #[arg(short = 'o', value_name = "FOLDER")]
     folder: PathBuf,
 }
 
@@ -120,11 +121,19 @@ pub(crate) fn run(args: &ShadersCommand) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Whether a folder has a manifest of this command, or nothing.
+/// Whether a folder has only files that this command wrote, as its manifest lists them, or nothing.
 fn is_ours(folder: &Path) -> bool {
-    let is_empty = fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
-    let manifest = fs::read_to_string(folder.join(manifest::FILE)).unwrap_or_default();
-    is_empty || manifest.contains(&format!("\"format\": \"{}\"", manifest::FORMAT))
+    let surfaces = folder.join(surfaces::FOLDER);
+    has_only(folder, &manifest::files_of(folder))
+        && (!surfaces.exists() || has_only(&surfaces, &surfaces::files()))
+}
+
+/// Whether everything in a folder has one of these names.
+fn has_only(folder: &Path, names: &[String]) -> bool {
+    let is_named = |entry: io::Result<fs::DirEntry>| {
+        entry.is_ok_and(|entry| names.iter().any(|name| entry.file_name() == **name))
+    };
+    fs::read_dir(folder).is_ok_and(|mut entries| entries.all(is_named))
 }
 
 impl ShadersCommand {
@@ -198,6 +207,6 @@ impl Shaders {
         if self.target == Target::Wgsl {
             surfaces::write(folder)?;
         }
-        fs::write(folder.join("tess_shaders.h"), header::text(&self.manifest))
+        fs::write(folder.join(manifest::HEADER_FILE), header::text(&self.manifest))
     }
 }

@@ -19,6 +19,15 @@ struct Entry {
     needs: &'static [&'static str],
 }
 
+const LIST: &str = "modules.json";
+const TABLES: &str = "README.md";
+
+/// The names of its files.
+pub(super) fn files() -> Vec<String> {
+    let modules = MODULES.iter().map(|module| format!("{}.wgsl", module.name));
+    modules.chain([LIST, TABLES].map(str::to_owned)).collect()
+}
+
 /// Writes the folder into another: a file for each module, their list, and the tables of modules and functions.
 ///
 /// # Errors
@@ -32,6 +41,6 @@ pub(super) fn write(folder: &Path) -> io::Result<()> {
         fs::write(folder.join(&file), module.source)?;
         entries.push(Entry { name: module.name, file, needs: module.needs });
     }
-    fs::write(folder.join("modules.json"), json(&entries))?;
-    fs::write(folder.join("README.md"), format!("# Surfaces\n\n{README}"))
+    fs::write(folder.join(LIST), json(&entries))?;
+    fs::write(folder.join(TABLES), format!("# Surfaces\n\n{README}"))
 }

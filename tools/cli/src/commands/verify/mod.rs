@@ -1,10 +1,10 @@
 //! `tess verify`: every backend against the model.
 
-use super::check::rules;
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
 use crate::campaign::report::{First, PASSES_ALONE, Report, ReportPart};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, ShardArgs};
+use crate::comparison::rules;
 use crate::failure::{Exit, Failure};
 use crate::output::{Role, note, print, progress, refuse_shared};
 use std::fmt::Write;
@@ -18,21 +18,13 @@ use tess_verify::{Backend, Named};
 /// Compare every backend with the model, over generated levels or over everything there is
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Without --exhaustive: levels 1 and 2 of `tess gen`; level-2 is what level 2 has beyond level 1. With
-it, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and
-locations, all transitions and all interiors. Shards are disjoint, and together they are
-everything, so any batch system can spread the work. A shard that has nothing of a subject, as
-there are fewer units than shards, says so on stderr; nothing differs then. The rows of a subject are
-printed when it is done.
+Without --exhaustive: levels 1 and 2 of `tess gen`; the row level-2 has the cases of level 2 that level 1 does not have. With it, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and locations, all transitions and all interiors. Shards are disjoint and together are everything, so any batch system can spread the work. A shard without units of a subject says so on stderr, and nothing differs. The rows of a subject are printed when it is done.
 
---random N compares N patches of each configuration (domain, partitioning, output, split order:
-96) instead, all kinds of factors in every position and most of the patches small. The same seed
-gives the same patches; a larger N begins with the patches of a smaller N.
+--random N compares N patches of each of the 96 configurations (domain, partitioning, output, split order) instead: all kinds of factors in every position, most of the patches small. The same seed gives the same patches, and a larger N begins with the patches of a smaller one.
 
---rules NAME judges each backend by what a standard demands of output, without the model, over the
-patches of `tess gen --rules` (docs/rules.md). core is the model itself then.
+--rules NAME judges each backend by the demands of a standard, without the model, over the patches of `tess gen --rules` (docs/rules.md). The backend core is the model itself then.
 
-Exit code 0: all equal, or no rule broken; 1: differences; 3: a backend is not available here.
+Exit code 0: all equal, or no rule broken; 1: differences; 3: a backend is not available.
 
 Examples:
   tess verify
@@ -47,13 +39,13 @@ pub(crate) struct VerifyCommand {
     backend: Vec<BackendName>,
     #[command(flatten)]
     options: BackendOptions,
-    /// Everything that is finite
+    /// Compare everything that is finite
     #[arg(long)]
     exhaustive: bool,
-    /// One subject only: level-1, level-2, transitions, interiors, locations or factors
+    /// Compare only this subject: level-1, level-2, transitions, interiors, locations or factors
     #[arg(long, value_name = "NAME", value_parser = name_of::<Subject>())]
     subject: Vec<Subject>,
-    /// Instead, N random patches of each configuration
+    /// Instead, compare N random patches of each configuration
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     #[arg(conflicts_with_all = ["exhaustive", "subject"])]
     random: Option<u64>,

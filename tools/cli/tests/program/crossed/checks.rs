@@ -37,11 +37,10 @@ const CHECKED_BY: [&str; 5] = [
 const RULES: (usize, &str) = (11, "--rules d3d11");
 
 /// The options that exclude `--rules`, which judges listings without a backend.
-const NOT_JUDGED: [(usize, &str); 7] = [
+const NOT_JUDGED: [(usize, &str); 6] = [
     (2, "--order sequence"),
     (2, "--order any"),
     (3, "--points"),
-    (3, "--primitives"),
     (4, "--conversion 0.6ulp"),
     (5, "--denormals flush"),
     (7, "--failures failures.txt"),
@@ -51,18 +50,18 @@ fn of_checks() -> Crossed {
     let own: [&[&str]; 11] = [
         &["listings", "digests"],
         &["", "--order sequence", "--order any"],
-        &["", "--points", "--primitives"],
+        &["", "--points"],
         &["", "--conversion 0.6ulp"],
         &["", "--denormals flush"],
         &["", "--cases cases.txt"],
         &["", "--failures failures.txt"],
-        &["", "--coverage coverage.xml --shard 2/3", "--shard 1/1 --empty"],
+        &["", "--coverage coverage.xml --shard 2/3", "--shard 1/1"],
         &["", "--known known.txt"],
         &["", "--report report.jsonl --junit report.xml"],
         &["", RULES.1],
     ];
     let name = |words: &'static str| words.split(' ').next().unwrap_or(words);
-    let weaker = NOT_JUDGED.into_iter().take(6).filter(|(_, words)| *words != "--primitives");
+    let weaker = NOT_JUDGED.into_iter().take(5);
     let mut excluded: Vec<Excluded> = Vec::new();
     for (at, words) in weaker.chain([RULES]) {
         for backend in &CHECKED_BY[1..] {

@@ -10,8 +10,8 @@ use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Copies, Setup};
 use tess_verify::BackendError;
-use tess_verify::generate::{Calls, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
+use tess_verify::workloads::{Calls, Totals, Workload};
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
 mod fill;

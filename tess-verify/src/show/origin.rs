@@ -1,8 +1,7 @@
 //! Where the model's side of a difference comes from.
 
-use super::Difference;
-use crate::check::compare::Element;
-use crate::show::{PointReport, PrimitiveReport};
+use super::{PointReport, PrimitiveReport};
+use crate::check::{Difference, Element};
 use tess_core::{Patch, Tessellation};
 
 impl Difference {

@@ -140,7 +140,7 @@ pub(super) fn mosaic() -> Workload {
 pub(super) fn mosaic_even() -> Workload {
     let mut random = SplitMix64::new(SEED);
     let patches = (0..20_000)
-        .map(|_| quad(std::array::from_fn(|_| (1.0 + 5.0 * random.unit()) as f32)))
+        .map(|_| quad(std::array::from_fn(|_| (1.0 + 5.0 * unit(&mut random)) as f32)))
         .collect();
     let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
     Workload::batch("mosaic-even", config, patches)
@@ -174,14 +174,14 @@ fn meshes_of(name: &str, patch: fn(&mut SplitMix64) -> PatchFactors) -> [Workloa
 
 /// A triangle with edge factors log-uniform in 1..8.
 fn character_triangle(random: &mut SplitMix64) -> PatchFactors {
-    let [u0, v0, w0] = std::array::from_fn(|_| power_of_two(3.0 * random.unit()));
+    let [u0, v0, w0] = std::array::from_fn(|_| power_of_two(3.0 * unit(random)));
     let inside = (u0 + v0 + w0) / 3.0;
     TriangleFactors { u0, v0, w0, inside }.map(|factor| factor as f32).into()
 }
 
 /// A quad with edge factors log-uniform in 1..8.
 fn character_quad(random: &mut SplitMix64) -> PatchFactors {
-    let [u0, v0, u1, v1] = std::array::from_fn(|_| power_of_two(3.0 * random.unit()));
+    let [u0, v0, u1, v1] = std::array::from_fn(|_| power_of_two(3.0 * unit(random)));
     let mean = (u0 + v0 + u1 + v1) / 4.0;
     quad([u0, v0, u1, v1, mean, mean].map(|factor| factor as f32))
 }
@@ -191,7 +191,7 @@ fn character_quad(random: &mut SplitMix64) -> PatchFactors {
 pub(super) fn worst() -> Workload {
     let mut random = SplitMix64::new(SEED);
     let patches = (0..1024)
-        .map(|_| quad(std::array::from_fn(|_| (1.0 + 63.0 * random.unit()) as f32)))
+        .map(|_| quad(std::array::from_fn(|_| (1.0 + 63.0 * unit(&mut random)) as f32)))
         .collect();
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     Workload::batch("worst", config, patches)
@@ -220,4 +220,9 @@ fn power_of_two(mut x: f64) -> f64 {
         }
     }
     power
+}
+
+/// A multiple of 2^-24 in `0..1`, evenly distributed.
+fn unit(random: &mut SplitMix64) -> f64 {
+    f64::from(random.next_u32() >> 8) / f64::from(1 << 24)
 }
