@@ -1,15 +1,15 @@
 //! The time that each port of the placed circuit leaves to its user, from the delays that nextpnr writes (SDF).
 //!
-//! `rtl/fpga/tess_registered.sv` has a register `at_PORT` at each port. Of an input, the longest path from that register to one
+//! `rtl/fpga/tess_registered.sv` has a register at each port: the cell that its pad is wired to. Of an input, the longest path from that register to one
 //! of the circuit counts; of an output, the longest one from a register of the circuit. What is left of a clock is the user's:
 //! its register, its logic and the wire to the port.
 //!
 //! ```text
-//! at_point_ready.Q -> wire -> LUT -> wire -> register of the circuit      6.2 ns: 3.8 ns of 10 are left
+//! register of point_ready -> wire -> LUT -> wire -> register of the circuit      6.2 ns: 3.8 ns of 10 are left
 //! ```
 
 use crate::command::{self, in_file};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 /// The clock of `rtl/fpga/ecp5.lpf`, in ps.
@@ -18,7 +18,7 @@ const PERIOD: u64 = 10_000;
 /// The registers at inputs and at outputs.
 const INPUTS: [&str; 6] =
     ["rst", "patch_valid", "patch", "counts_ready", "point_ready", "primitive_ready"];
-const OUTPUTS: [&str; 4] = ["patch_ready", "counts", "point", "primitive"];
+const OUTPUTS: [&str; 4] = ["patch_ready", "counts_out", "point_out", "primitive_out"];
 
 /// Prints the time of each port.
 ///
@@ -53,10 +53,15 @@ struct Delays {
     setup: HashMap<String, u64>,
     /// Clock to output of each register.
     clocked: HashMap<String, u64>,
+    /// All registers.
+    cells: HashSet<String>,
+    /// The registers of each port.
+    registers: HashMap<String, HashSet<String>>,
 }
 
 impl Delays {
     fn read(text: &str) -> Self {
+        let text = text.replace('\\', ""); // before each `[`, `]` and `$` of a name
         let mut delays = Self::default();
         let mut cell = String::new();
         for line in text.lines() {
@@ -66,6 +71,7 @@ impl Delays {
                 ["INSTANCE", name] => cell = name.to_owned(),
                 ["INTERCONNECT", from, to, .., delay] => delays.add(from, to, longest(delay)),
                 ["IOPATH", "CLK", to, .., delay] => {
+                    delays.cells.insert(cell.clone());
                     _ = delays.clocked.insert(format!("{cell}/{to}"), longest(delay));
                 }
                 ["IOPATH", from, to, .., delay] => {
@@ -83,19 +89,27 @@ impl Delays {
     }
 
     fn add(&mut self, from: &str, to: &str, delay: u64) {
+        // A pad is `PORT$tr_io` or `PORT[BIT]$tr_io`.
+        for (pad, register) in [(from, to), (to, from)] {
+            if let Some((bit, _)) = pad.split_once("$tr_io/") {
+                let port = bit.split('[').next().unwrap_or(bit);
+                let registers = self.registers.entry(port.to_owned()).or_default();
+                registers.insert(cell_of(register).to_owned());
+            }
+        }
         self.next.entry(from.to_owned()).or_default().push((to.to_owned(), delay));
     }
 
     /// The longest path of a port: from its register's output on, or to its register's input.
     fn longest(&self, port: &str, direction: Direction) -> Option<u64> {
-        let register = format!("at_{port}_TRELLIS_FF_");
+        let registers = self.registers.get(port)?;
         let mut known = HashMap::new();
-        let is_here = |pin: &str| pin.starts_with(&register);
+        let is_here = |pin: &str| registers.contains(cell_of(pin));
         let starts =
             self.clocked.iter().filter(|(pin, _)| is_here(pin) == (direction == Direction::In));
         let paths = starts.filter_map(|(pin, clock)| {
             let from = match direction {
-                Direction::In => self.from(pin, &|pin| self.setup.get(pin).copied(), &mut known)?,
+                Direction::In => self.from(pin, &|pin| self.rest(pin), &mut known)?,
                 Direction::Out => {
                     clock + self.from(pin, &|pin| is_here(pin).then_some(0), &mut known)?
                 }
@@ -103,6 +117,13 @@ impl Delays {
             Some(from)
         });
         paths.max()
+    }
+
+    /// The time before the clock at which a value must be at a register's pin; 0 for those that SDF has no time of, such as a
+    /// reset.
+    fn rest(&self, pin: &str) -> Option<u64> {
+        let is_register = self.cells.contains(cell_of(pin));
+        self.setup.get(pin).copied().or_else(|| is_register.then_some(0))
     }
 
     /// The longest path from a pin to one that `ends` gives the rest of; `None` if there is none.
@@ -123,6 +144,11 @@ impl Delays {
     }
 }
 
+/// The cell of a pin.
+fn cell_of(pin: &str) -> &str {
+    pin.rsplit_once('/').map_or(pin, |(cell, _)| cell)
+}
+
 /// The largest of `(least:typical:most)`.
 fn longest(delay: &str) -> u64 {
     let numbers = delay.trim_matches(['(', ')']).rsplit(':');
@@ -135,20 +161,22 @@ mod tests {
 
     const SDF: &str = "\
     (INSTANCE )
-        (INTERCONNECT at_rst_TRELLIS_FF_Q/Q lut/A (1:2:100) (1:2:100))
+        (INTERCONNECT rst\\$tr_io/O in/M (1:2:9) (1:2:9))
+        (INTERCONNECT out/Q point_out\\[3\\]\\$tr_io/I (1:2:9) (1:2:9))
+        (INTERCONNECT in/Q lut/A (1:2:100) (1:2:100))
         (INTERCONNECT lut/F one/M (1:2:50) (1:2:50))
         (INTERCONNECT lut/F two/CE (1:2:70) (1:2:70))
-        (INTERCONNECT one/Q at_point_TRELLIS_FF_Q_3/M (5:6:9) (5:6:9))
+        (INTERCONNECT one/Q out/M (5:6:9) (5:6:9))
     (INSTANCE lut)
         (IOPATH A F (1:2:30) (1:2:30))
-    (INSTANCE at_rst_TRELLIS_FF_Q)
+    (INSTANCE in)
         (IOPATH CLK Q (1:2:500) (1:2:500))
     (INSTANCE one)
         (IOPATH CLK Q (1:2:400) (1:2:400))
       (SETUPHOLD (posedge M) (posedge CLK) (1:2:8) (1:2:3))
     (INSTANCE two)
       (SETUPHOLD (posedge CE) (posedge CLK) (1:2:4) (1:2:3))
-    (INSTANCE at_point_TRELLIS_FF_Q_3)
+    (INSTANCE out)
         (IOPATH CLK Q (1:2:500) (1:2:500))
       (SETUPHOLD (posedge M) (posedge CLK) (1:2:8) (1:2:3))
 ";
@@ -158,7 +186,7 @@ mod tests {
         let delays = Delays::read(SDF);
         let input = delays.longest("rst", Direction::In);
         assert_eq!(input, Some(100 + 30 + 70 + 4), "to the register that is furthest");
-        let output = delays.longest("point", Direction::Out);
+        let output = delays.longest("point_out", Direction::Out);
         assert_eq!(output, Some(400 + 9), "from the register's clock on");
         assert_eq!(delays.longest("patch", Direction::In), None, "no such register");
     }
