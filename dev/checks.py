@@ -1,4 +1,4 @@
-"""Checks of texts: `checks.py traceability`, `checks.py public`.
+"""Checks of texts: `checks.py traceability`, `checks.py public`, `checks.py width`.
 
 traceability: each row of docs/traceability.md is a demand of the specification, with the tests, recorded results, rules or
 proofs that see a violation. Every numbered section has a row, and everything that a row names exists.
@@ -7,6 +7,9 @@ public: an item of a published library that nobody outside uses is a promise tha
 paths: an item counts as used where its name stands in the code of a test, an example, a bench, a tool, a binding or
 another crate. A type may also come with its caller: it stands in a signature or a field. The lint `unreachable_pub` sees
 to it that what is `pub` can be reached.
+
+width: a comment of Rust has at most 100 columns, as `rustfmt.toml` says of code. Listings, tables and words that cannot be
+broken are left out.
 """
 
 import re
@@ -98,6 +101,25 @@ def public(libraries, files):
     return count, unused
 
 
+WIDTH = int(re.search(r"max_width = (\d+)", read("rustfmt.toml"))[1])
+
+
+def width(path, text):
+    """The lines of comments that are too long and could be broken."""
+    is_listing, found = False, []
+    for number, line in enumerate(text.splitlines(), 1):
+        comment = re.match(r"\s*//[/!]? ?(.*)", line)
+        if not comment:
+            is_listing = False
+            continue
+        is_fence = comment[1].lstrip().startswith(("```", "~~~"))
+        is_listing ^= is_fence
+        is_prose = not (is_listing or is_fence or comment[1].startswith(("|", "    ", ">>>", "[")))
+        if len(line) > WIDTH and is_prose and " " in comment[1].strip().lstrip("-*# "):
+            found.append(f"{path}:{number}: {len(line)} columns")
+    return found
+
+
 def main(words):
     if words == ["traceability"]:
         count, faults = traceability(read("docs/specification.md"), read("docs/traceability.md"), read)
@@ -106,6 +128,11 @@ def main(words):
         known = subprocess.run(["git", "ls-files", "--", "*.rs"], cwd=ROOT, check=True, capture_output=True, text=True)
         count, faults = public(LIBRARIES, {path: read(path) for path in known.stdout.splitlines()})
         print(f"{count} public items of the published libraries, each with a user outside their own crate's src")
+    elif words == ["width"]:
+        known = subprocess.run(["git", "ls-files", "--", "*.rs"], cwd=ROOT, check=True, capture_output=True, text=True)
+        files = [path for path in known.stdout.splitlines() if not (ROOT / path).is_symlink()]
+        count, faults = len(files), [fault for path in files for fault in width(path, read(path))]
+        print(f"{count} files of Rust, whose comments have at most {WIDTH} columns")
     else:
         sys.exit(__doc__)
     if faults:

@@ -1,6 +1,6 @@
 """The faults that the checks of texts must see."""
 
-from checks import public, traceability
+from checks import WIDTH, public, traceability, width
 
 
 def test_traceability():
@@ -47,6 +47,21 @@ def test_public():
     types = "pub struct Result;\npub struct Nobody;\npub fn f() -> Result {}\n"
     found = public(["lib"], {"lib/src/lib.rs": types, "lib/tests/a.rs": "f()"})
     assert found == (3, ["lib/src/lib.rs:2: Nobody"]), "a type comes with its caller"
+
+
+def test_width():
+    long, word = "word " * 30, "w" * (WIDTH + 9)
+    for line, expected in [
+        (f"/// {long}", 1),
+        (f"    // {long}", 1),
+        (f"//! {long[: WIDTH - 4]}", 0),
+        (f"//! ```text\n//! {long}\n//! ```", 0),
+        (f"//! ```text\n//! ```\n//! {long}", 1),
+        (f"/// | {long} |", 0),
+        (f"/// {word}", 0),
+        (f"let text = \"{long}\";", 0),
+    ]:
+        assert len(width("a.rs", line)) == expected, line
 
 
 if __name__ == "__main__":
