@@ -1,24 +1,27 @@
 """Measurements as data, `records/NAME.json`, and what is made of them: tables of docs/performance.md and charts.
 
-    records.py record NAME [--machine TEXT] [--rows FILE] -- BENCH-ARGUMENT...
-    records.py performance
-    records.py check
+    records.py performance    write tables and charts
+    records.py check          they are those of the records
+    records.py fresh          every record is of the code that is here; `cargo xtask ci` asks
+
+measure.py takes the measurements.
 """
 
-import argparse
-import datetime
+import io
 import json
 import math
-import os
 import re
 import subprocess
 import sys
+import tarfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 RECORDS = ROOT / "benches/records"
 RESULTS = ROOT / "docs/performance.md"
 EXPERIMENTS = ROOT / "docs/experiments.md"
+# Records that may be older than the code, and why.
+EXCEPTIONS = ROOT / "benches/exceptions.json"
 
 # Columns of rows of `tess bench --json`: key, title, and what a value is divided by.
 RATES = {
@@ -123,8 +126,8 @@ LEFT, LONGEST, WIDTH, BAR, GAP, HEAD = 180, 500, 760, 13, 9, 62
 
 def charts():
     """Each chart's file, title, scale, series, and for each label a value for each series, where there is one."""
-    cpu = {row["workload"]: row for row in read("simd-xeon")["rows"]}
-    gpu = {row["workload"]: row for row in read("gpu-h200")["rows"]}
+    cpu = {row["workload"]: row for row in read("simd")["rows"]}
+    gpu = {row["workload"]: row for row in read("gpu")["rows"]}
     of_both = lambda key: {name: [cpu[name].get(key), gpu.get(name, {}).get(key)] for name in cpu}
     series = ["CPU: tess-simd, one thread, AVX-512, cache", "GPU: tess-gpu, H200, stream"]
     title = "Speed of writing the output, as a part of a fill of as many bytes"
@@ -132,12 +135,12 @@ def charts():
     yield "core", "Patches a second, as a multiple of the model's on one thread", True, series, of_both("core_ratio")
 
     keys = ["stage_drawn", "compute_drawn", "in_vertex_cache_order_drawn"]
-    bars = {row["workload"]: [float(row[key]) for key in keys] for row in read("probe-h200")["rows"]}
+    bars = {row["workload"]: [float(row[key]) for key in keys] for row in read("drawn")["rows"]}
     title = "Factors to pixels on an H200, thousands of millions of triangles a second"
     yield "drawn", title, False, ["fixed-function stage", "compute", "compute, vertex-cache order"], bars
 
     bars = {}
-    for row in read("stage-h200")["rows"]:
+    for row in read("stage")["rows"]:
         bars.setdefault(f"{digits(row['triangles'] / 1e6)} M triangles", []).append(row["G_triangles/s"])
     title = "Terrain by the stage of tess-wgpu on an H200, thousands of millions of triangles a second"
     yield "pixels", title, False, ["points stored", "points pulled", "pulled without indices"], bars
@@ -205,34 +208,56 @@ def performance():
             print(f"{path} is new")
 
 
-def record(arguments):
-    """Runs `tess bench --json` and writes its rows."""
-    parser = argparse.ArgumentParser(prog="cargo xtask record", usage="%(prog)s NAME [options] -- BENCH-ARGUMENT...")
-    parser.add_argument("name", help="lower-case letters, digits and hyphens")
-    parser.add_argument("--machine", help="what ran it, instead of this machine's processor")
-    parser.add_argument("--rows", help="a file of rows that `tess bench --json` printed elsewhere")
-    at = arguments.index("--") if "--" in arguments else parser.error("no `--` before the arguments of `tess bench`")
-    options, command = parser.parse_args(arguments[:at]), f"run --release -- bench --json {' '.join(arguments[at + 1 :])}"
-    if not re.fullmatch("[a-z][a-z0-9-]*", options.name):
-        parser.error(f"`{options.name}`: a name has lower-case letters, digits and hyphens")
+def fresh():
+    """Sees to it that each record's commit exists and has the code that is here, except those that EXCEPTIONS names."""
+    from measure import MEASUREMENTS
 
-    def output(*words):
-        return subprocess.run(words, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
+    exceptions = json.loads(EXCEPTIONS.read_text())
+    names = {path.stem for path in RECORDS.glob("*.json")}
+    problems = [f"{EXCEPTIONS}: there is no record {name}" for name in sorted(exceptions.keys() - names)]
+    here = {}
+    for name in sorted(names):
+        measurement, commit = MEASUREMENTS.get(name), read(name)["commit"]
+        if measurement is None:
+            problem = "measure.py does not take it"
+        elif run_git("cat-file", "-e", f"{commit}^{{commit}}") is None:
+            problem = f"its commit {commit} does not exist"
+        else:
+            sources = tuple(measurement.sources)
+            if sources not in here:
+                here[sources] = code_of("HEAD", sources)
+            now = here[sources]
+            then = code_of(commit, sources)
+            changed = sorted(path for path in now.keys() | then.keys() if now.get(path) != then.get(path))
+            problem = f"{changed[0]} has changed since {commit}" if changed else None
+        if problem and name not in exceptions:
+            problems.append(f"benches/records/{name}.json: {problem}: cargo xtask records {getattr(measurement, 'set', '')}")
+        elif name in exceptions and not problem:
+            problems.append(f"{EXCEPTIONS}: {name} needs no exception")
+    if problems:
+        sys.exit("\n".join(problems))
+    print(f"{len(names)} records, {len(exceptions)} exceptions")
 
-    if changed := output("git", "status", "--porcelain", "--", ".", ":!benches/records", ":!docs"):
-        sys.exit(f"a record names a commit; commit these first:\n{changed}")
-    commit = output("git", "rev-parse", "--short=10", "HEAD").strip()
-    machine = options.machine or f"{processor()}, {os.cpu_count()} processors"
-    rows = Path(options.rows).read_text() if options.rows else output("cargo", *command.split())
-    date = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d")
-    new = {"command": f"cargo {command}", "machine": machine, "date": date, "commit": commit, "rows": json.loads(rows)}
-    (RECORDS / f"{options.name}.json").write_text(text_of(new))
-    performance()
+
+def run_git(*words):
+    """What git prints; `None` if it fails."""
+    done = subprocess.run(["git", *words], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    return None if done.returncode else done.stdout
 
 
-def processor():
-    found = re.search(r"^model name\s*: (.*)", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
-    return found[1] if found else sys.exit("what machine is this? Say it with --machine TEXT")
+def code_of(commit, folders):
+    """The code of each file of some folders at a commit."""
+    there = [folder for folder in folders if run_git("cat-file", "-e", f"{commit}:{folder}") is not None]
+    with tarfile.open(fileobj=io.BytesIO(run_git("archive", commit, "--", *there))) as files:
+        sources = [file for file in files if file.name.endswith((".rs", ".wgsl"))]
+        return {file.name: code_in(files.extractfile(file).read().decode()) for file in sources}
+
+
+def code_in(text):
+    """The lines of Rust or WGSL that a program is made of: no comments, empty lines or unit tests."""
+    text = text.split("#[cfg(test)]\nmod tests {")[0]
+    lines = (re.sub(r"\s//.*", "", line).strip() for line in text.splitlines())
+    return [line for line in lines if line and not line.startswith("//")]
 
 
 def check():
@@ -244,10 +269,7 @@ def check():
 
 
 if __name__ == "__main__":
-    words = sys.argv[1:]
-    if words[:1] == ["record"]:
-        record(words[1:])
-    elif words in (["performance"], ["check"]):
-        {"performance": performance, "check": check}[words[0]]()
-    else:
+    commands = {"performance": performance, "check": check, "fresh": fresh}
+    if len(sys.argv) != 2 or sys.argv[1] not in commands:
         sys.exit(__doc__)
+    commands[sys.argv[1]]()

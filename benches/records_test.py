@@ -1,6 +1,7 @@
 """Tests of the tables and charts of records, and of the faults that must be seen."""
 
-from records import digits, svg, table, with_tables
+from measure import MEASUREMENTS, of_ablation, of_crossover, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
+from records import code_in, digits, svg, table, with_tables
 
 
 def test_three_digits_count():
@@ -34,6 +35,42 @@ def test_bars_are_as_long_as_their_values():
     for picture in (linear, logarithmic):
         assert 'width="250.0"' in picture and 'width="500.0"' in picture, picture
     assert "logarithmic" in logarithmic and fails(svg, "", False, ["a", "b"], {"one": [2.0, None]})
+
+
+def test_comments_and_tests_are_no_code():
+    text = "//! head\nuse a; // why\n\n    /// doc\nfn f() {}\n#[cfg(test)]\nmod tests {\n    fn g() {}\n}\n"
+    assert code_in(text) == ["use a;", "fn f() {}"], code_in(text)
+    assert code_in(text.replace("f()", "h()")) != code_in(text)
+
+
+def test_rows_of_each_program():
+    threads = of_threads(['[{"workload":"worst","bytes_per_s":2e9,"fill_ratio":0.5}]'] * 5)
+    assert threads == [{"workload": "worst", **{n: "2.0 / 0.50" for n in ("1", "2", "4", "8", "16")}}], threads
+    times = {"fixed": 1, "compute": 2, "ordered": 4, "fixed_drawn": 1, "compute_drawn": 1, "ordered_drawn": 0.5}
+    (probed,) = of_probe([f'[{{"workload":"w","triangles":1000000,{str(times)[1:-1]}}}]'.replace("'", '"')])
+    assert (probed["stage_alone"], probed["compute_alone"], probed["in_vertex_cache_order_drawn"]) == (1.0, 0.5, 2.0), probed
+    variant = "{:<26}  152.3 G/s    445 factors 12 expand_points 94 expand_primitives 327{}\n"
+    ablation = "NVIDIA\nuniform-16, 8 triangles\n" + variant.format("as they are", "") + variant.format("one thread a patch", " (wrong results)")
+    assert of_ablation([ablation]) == [{"shaders": "as they are", "uniform-16": "445 / 94 / 327"}]
+    assert of_one_thread([ablation])[0]["times_as_fast"] == 1.0
+    groups = of_groups(["NVIDIA\ncharacter: 9 patches in 256 meshes, microseconds\none batch         49.1\nbatches         2861.7\n"])
+    assert groups == [{"meshes": "one batch without groups", "microseconds": 49.1}, {"meshes": "256 batches", "microseconds": 2861.7}]
+    lines = "".join(f"{1 << k:>6} {0.3:>9.1f} {13.4:>9.1f} {102.2:>9.1f}\n" for k in range(13))
+    crossover = of_crossover(["NVIDIA; CPU level avx512\nuniform-1: patches, microseconds: CPU, device, both\n" + lines])
+    assert crossover[0] == {"patches": 1, "uniform-1": "0.3 / 13 / 102"} and len(crossover) == 6, crossover
+    stage = of_stage(["head\npoints  triangles  prepare us  draw us  G\nstored     994756         118      802    1.081\n"])
+    assert stage == [{"points": "stored", "triangles": 994756, "prepare_us": 118, "draw_us": 802, "G_triangles/s": 1.081}], stage
+    criterion = "surface/fill            time:   [1 ns 2 ns 3 ns]\n                        thrpt:  [1.0 Gelem/s 2.0000 Gelem/s 3.0 Gelem/s]\n"
+    criterion += "surface/PN triangle/avx2\n                        time:   [1 us 2 us 3 us]\n                        thrpt:  [1.0 Melem/s 50.0 Melem/s 60.0 Melem/s]\n"
+    assert of_surface([criterion]) == [{"surface": "PN triangle", "level": "avx2", "ns a vertex": "20.0", "fills": "40"}], of_surface([criterion])
+
+
+def test_a_record_has_its_command():
+    measured = {"machine": "m", "date": "2026-01-02", "rows": [{}]}
+    record = record_of("simd-threads", measured, "abc")
+    assert record["command"].startswith("cargo run --release -- bench --json --backend simd --threads N --frame 64"), record
+    assert list(record) == ["command", "machine", "date", "commit", "columns", "rows"]
+    assert all(record_of(name, measured, "abc")["command"] for name in MEASUREMENTS)
 
 
 def fails(function, *arguments):

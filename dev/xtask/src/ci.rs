@@ -13,6 +13,7 @@ pub(crate) fn run() -> Result<(), String> {
     command::run(&mut cargo("fmt --all --check"))?;
     script::run(script::CHECKS, &["traceability"])?;
     script::run(script::CHECKS, &["public"])?;
+    script::run(script::RECORDS, &["fresh"])?;
     command::run(
         cargo("clippy --workspace --all-targets --all-features").args(["--", "-D", "warnings"]),
     )?;

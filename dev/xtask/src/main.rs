@@ -91,7 +91,7 @@ usage: cargo xtask <command>
           Vulkan and OpenGL on the patched drivers
   models [FOLDER...]
           run `tess mesh` on the models in these folders, or on small ones of every kind that a script makes, and
-          judge the outputs by other programs: trimesh, pygltflib, Khronos' glTF validator
+          judge the outputs by other programs: pygltflib, scipy, Khronos' glTF validator
   public  name the public items of the published libraries that nothing outside uses
   traceability
           check that docs/traceability.md has each section of docs/specification.md and that the evidence it names exists
@@ -118,8 +118,9 @@ usage: cargo xtask <command>
           check the licences and sources of dependencies, and known vulnerabilities on request
   semver REVISION
           compare the libraries' interfaces with those of a commit or tag
-  record NAME [--machine TEXT] [--rows FILE] -- BENCH-ARGUMENT...
-          run `tess bench` and keep its rows in benches/records/NAME.json
+  records cpu|gpu
+          measure all that docs/performance.md says of this machine's CPU or GPU, in ten minutes: builds the programs
+          and writes benches/records, the tables and the charts. `ci` fails if a record is older than what it measures
   performance
           write the tables of docs/performance.md and the charts from the records";
 
@@ -177,7 +178,8 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),
         ["semver", baseline] => publish::semver(baseline),
-        ["record", ..] | ["performance"] => script::run(script::RECORDS, words),
+        ["records", set] => script::run(script::MEASURE, &["here", set]),
+        ["performance"] => script::run(script::RECORDS, words),
         ["help" | "--help" | "-h"] => {
             println!("{USAGE}");
             Ok(())

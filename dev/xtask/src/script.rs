@@ -3,8 +3,11 @@
 use crate::command::{self, workspace};
 use crate::setup::{self, PYTHON};
 
-/// Measurements as data: takes them, and makes tables and charts of them.
+/// Measurements as data, and what is made of them: tables and charts.
 pub(crate) const RECORDS: &str = "benches/records.py";
+
+/// Takes the measurements.
+pub(crate) const MEASURE: &str = "benches/measure.py";
 
 /// Checks of texts.
 pub(crate) const CHECKS: &str = "dev/checks.py";

@@ -1,0 +1,364 @@
+"""Takes the measurements of benches/records: a set is one call on one machine.
+
+    measure.py here cpu|gpu
+    measure.py run cpu|gpu FOLDER [--programs FOLDER] [--only NAME...]
+    measure.py take FOLDER --commit HASH [--machine TEXT]
+
+`here`, which is `cargo xtask records`, builds the programs and does both of the others. `run` needs no repository and
+no compiler, so that another machine can do it: it starts the programs, writes their rows to FOLDER/NAME.json and what
+they printed to FOLDER/NAME.txt. `take` makes records of the rows, and tables and charts of the records.
+"""
+
+import argparse
+import datetime
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Callable, NamedTuple
+
+from records import RECORDS, ROOT, performance, text_of
+
+CORE = ["tess-core/src", "tess-verify/src/generate"]
+CPU = [*CORE, "tess-simd/src"]
+GPU = [*CORE, "tess-gpu/src", "tess-gpu/shaders", "tess-wgpu/src"]
+SURFACES = ["tess-core/src", "tess-surface/src"]
+
+UNLIKE = ["terrain", "character", "mosaic", "mosaic-even"]
+ALL = ["uniform", *UNLIKE, "meshes", "worst"]
+
+
+class Measurement(NamedTuple):
+    """Some commands of one set, of whose output `rows` makes the rows of a record."""
+
+    set: str
+    # The folders whose code is measured.
+    sources: list
+    commands: list
+    rows: Callable
+    # The keys of the rows in the order of the table; none of rows of `tess bench`.
+    columns: list = []
+
+
+def bench(*arguments, workloads):
+    return ["tess", "bench", "--json", *arguments, *(word for name in workloads for word in ("--workload", name))]
+
+
+def objects(outputs):
+    """The rows of commands that print JSON arrays."""
+    return [row for output in outputs for row in json.loads(output)]
+
+
+def simd(*arguments, workloads, samples=21, working_set="cache"):
+    options = ["--backend", "simd", *arguments, "--samples", str(samples), "--working-set", working_set]
+    return Measurement("cpu", CPU, [bench(*options, workloads=workloads)], objects)
+
+
+def gpu(*arguments, workloads):
+    options = ["--backend", "gpu", *arguments, "--working-set", "stream", "--samples", "5"]
+    return Measurement("gpu", GPU, [bench(*options, workloads=workloads)], objects)
+
+
+THREADS = [1, 2, 4, 8, 16]
+
+
+def of_threads(outputs):
+    """GB/s and the part of a fill, a column for each number of threads."""
+    rows = {}
+    for threads, output in zip(THREADS, outputs):
+        for row in json.loads(output):
+            cell = f"{row['bytes_per_s'] / 1e9:.1f} / {row['fill_ratio']:.2f}"
+            rows.setdefault(row["workload"], {})[str(threads)] = cell
+    return [{"workload": name, **cells} for name, cells in rows.items()]
+
+
+def of_probe(outputs):
+    """Billions of triangles a second instead of milliseconds."""
+    keys = {
+        "stage_alone": "fixed",
+        "compute_alone": "compute",
+        "in_vertex_cache_order_alone": "ordered",
+        "stage_drawn": "fixed_drawn",
+        "compute_drawn": "compute_drawn",
+        "in_vertex_cache_order_drawn": "ordered_drawn",
+    }
+    return [
+        {
+            "workload": row["workload"],
+            "triangles": row["triangles"],
+            **{key: round(row["triangles"] / row[ms] * 1e-6, 2) for key, ms in keys.items()},
+        }
+        for row in objects(outputs)
+    ]
+
+
+def ablations(output):
+    """For each workload and variant of `gpu ablation`: G triangles/s, and microseconds of all, points and triangles."""
+    workload, found = None, {}
+    for line in output.splitlines()[1:]:
+        if head := re.fullmatch(r"(\S+), \d+ triangles", line):
+            workload = found.setdefault(head[1], {})
+        elif row := re.match(r"(\S.*?) +(\d+\.\d) G/s +(\d+)((?: \w+ \d+)*)", line):
+            stages = dict(re.findall(r"(\w+) (\d+)", row[4]))
+            points = int(stages["expand_points"])
+            workload[row[1]] = (float(row[2]), int(row[3]), points, int(stages["expand_primitives"]))
+        else:
+            sys.exit(f"gpu ablation: not understood: {line}")
+    return found
+
+
+ONE_THREAD = "one thread a patch"
+
+
+def of_ablation(outputs):
+    """Microseconds of each variant, a column for each workload."""
+    found = ablations(outputs[0])
+    variants = [name for name in next(iter(found.values())) if name != ONE_THREAD]
+    cell = lambda times: "{} / {} / {}".format(*times[1:])
+    return [{"shaders": name, **{workload: cell(times[name]) for workload, times in found.items()}} for name in variants]
+
+
+def of_one_thread(outputs):
+    """The shaders as they are beside those with a thread for each patch."""
+    rows = []
+    for workload, variants in ablations(outputs[0]).items():
+        (ours, *_), (one, *_) = variants["as they are"], variants[ONE_THREAD]
+        rows.append({"workload": workload, "G_triangles/s": ours, "one_thread_a_patch": one, "times_as_fast": round(ours / one, 1)})
+    return rows
+
+
+def of_groups(outputs):
+    names = {"one batch": "one batch without groups", "one group": "one batch, one group"}
+    names |= {"groups": "one batch, 256 groups", "batches": "256 batches"}
+    lines = re.findall(r"^(one batch|one group|groups|batches) +([\d.]+)$", outputs[0], re.MULTILINE)
+    return [{"meshes": names[name], "microseconds": float(time)} for name, time in lines]
+
+
+def of_crossover(outputs):
+    """Microseconds of CPU, device, device and host, a column for each workload."""
+    rows, workload = {}, None
+    for line in outputs[0].splitlines()[1:]:
+        if head := re.match(r"(\S+): patches, microseconds", line):
+            workload = head[1]
+        else:
+            patches, *times = line.split()
+            cell = " / ".join(f"{float(time):.1f}" if float(time) < 10 else f"{float(time):.0f}" for time in times)
+            rows.setdefault(int(patches), {})[workload] = cell
+    return [{"patches": patches, **rows[patches]} for patches in (1, 16, 128, 256, 1024, 4096)]
+
+
+def of_stage(outputs):
+    lines = re.findall(r"^(stored|pull|none) +(\d+) +(\d+) +(\d+) +([\d.]+)$", outputs[0], re.MULTILINE)
+    keys = ["points", "triangles", "prepare_us", "draw_us", "G_triangles/s"]
+    return [dict(zip(keys, [points, int(drawn), int(prepare), int(draw), float(rate)])) for points, drawn, prepare, draw, rate in lines]
+
+
+def of_surface(outputs):
+    """Criterion's middle estimate of the throughput as nanoseconds a vertex, and as a multiple of a fill."""
+    found = re.findall(r"^surface/(.+?)(?:/(\w+))?\s+time:.*?thrpt: +\[\S+ \S+ (\S+) (\S)elem/s", outputs[0], re.MULTILINE | re.DOTALL)
+    scale = {"K": 1e3, "M": 1e6, "G": 1e9}
+    times = {(name, level): 1e9 / (float(rate) * scale[unit]) for name, level, rate, unit in found}
+    fill = times.pop(("fill", ""))
+    order = ["bicubic", "PN triangle", "bicubic, displaced"]
+    rows = sorted(times.items(), key=lambda row: order.index(row[0][0]))
+    return [{"surface": name, "level": level, "ns a vertex": f"{time:.1f}", "fills": f"{time / fill:.0f}"} for (name, level), time in rows]
+
+
+EDITS = ["gpu", "ablation", "benches/edits"]
+BATCHES = ["uniform", *UNLIKE, "meshes/triangles-at-once", "meshes/quads-at-once", "worst"]
+DRAWN = ["uniform", *UNLIKE, "worst"]
+FRAMES = ["uniform-16", "terrain", "character"]
+
+MEASUREMENTS = {
+    "simd": simd(workloads=ALL),
+    "simd-avx2": simd("--cpu-level", "avx2", workloads=ALL),
+    "simd-baseline": simd("--cpu-level", "baseline", workloads=ALL),
+    "single": simd(workloads=["single"]),
+    "single-avx2": simd("--cpu-level", "avx2", workloads=["single"]),
+    "single-baseline": simd("--cpu-level", "baseline", workloads=["single"]),
+    "simd-stream": simd(workloads=FRAMES, samples=5, working_set="stream"),
+    "simd-cache-order": simd("--order", "cache", workloads=["uniform", "terrain", "character", "worst"], samples=9),
+    "simd-threads": Measurement(
+        "cpu",
+        CPU,
+        [
+            bench("--backend", "simd", "--threads", str(n), "--frame", "64", "--samples", "9", "--working-set", "cache", workloads=FRAMES)
+            for n in THREADS
+        ],
+        of_threads,
+        ["workload", *map(str, THREADS)],
+    ),
+    "surface": Measurement("cpu", SURFACES, [["surface", "--bench"]], of_surface, ["surface", "level", "ns a vertex", "fills"]),
+    "gpu": gpu(workloads=ALL),
+    "gpu-u16": gpu("--index-type", "u16", workloads=["uniform-1", "uniform-16", "uniform-64"]),
+    "gpu-no-copies": gpu("--no-copies", workloads=["uniform"]),
+    "gpu-ablation": Measurement(
+        "gpu",
+        GPU,
+        [[*EDITS, "terrain", "character", "uniform-16"]],
+        of_ablation,
+        ["shaders", "terrain", "character", "uniform-16"],
+    ),
+    "gpu-one-thread": Measurement(
+        "gpu", GPU, [[*EDITS, *BATCHES]], of_one_thread, ["workload", "G_triangles/s", "one_thread_a_patch", "times_as_fast"]
+    ),
+    "gpu-groups": Measurement("gpu", GPU, [["gpu", "groups"]], of_groups, ["meshes", "microseconds"]),
+    "gpu-crossover": Measurement(
+        "gpu",
+        [*GPU, "tess-simd/src"],
+        [["gpu", "crossover"]],
+        of_crossover,
+        ["patches", "uniform-1", "uniform-4", "uniform-16", "uniform-64", "character"],
+    ),
+    "drawn": Measurement(
+        "gpu",
+        [*GPU, "tools/probe/src"],
+        [["tess", "probe", "--bench", "--json", *(word for name in DRAWN for word in ("--workload", name))]],
+        of_probe,
+        [
+            "workload",
+            "triangles",
+            "stage_alone",
+            "compute_alone",
+            "in_vertex_cache_order_alone",
+            "stage_drawn",
+            "compute_drawn",
+            "in_vertex_cache_order_drawn",
+        ],
+    ),
+    "stage": Measurement(
+        "gpu",
+        [*GPU, "tess-wgpu/examples"],
+        [["terrain", "--bench", "50", "--triangles", "1000000,10000000,50000000", "--points", "stored,pull,none"]],
+        of_stage,
+        ["points", "triangles", "prepare_us", "draw_us", "G_triangles/s"],
+    ),
+}
+
+
+# What builds the programs of a set.
+BUILDS = {
+    "cpu": ["build --release -p tess-program", "bench --no-run -p tess-benches --bench surface"],
+    "gpu": [
+        "build --release -p tess-program",
+        "build --release -p tess-benches --features gpu --bin gpu",
+        "build --release -p tess-wgpu --example terrain",
+    ],
+}
+
+
+def here(arguments):
+    """Measures a set on this machine and makes records of it."""
+    if changed := output("git", "status", "--porcelain", "--", ".", ":!benches/records", ":!docs"):
+        sys.exit(f"a record names a commit; commit these first:\n{changed}")
+    for build in BUILDS[arguments.set]:
+        subprocess.run(["cargo", *build.split()], cwd=ROOT, check=True)
+    with tempfile.TemporaryDirectory() as folder:
+        run(argparse.Namespace(set=arguments.set, folder=folder, programs=ROOT / "target/release", only=None))
+        commit = output("git", "rev-parse", "--short=10", "HEAD").strip()
+        take(argparse.Namespace(folder=folder, commit=commit, machine=None))
+
+
+def output(*words):
+    return subprocess.run(words, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
+
+
+def program(folder, name):
+    """The file of a program among what cargo built, or in a folder of programs."""
+    built = sorted(folder.glob(f"deps/{name}-*"), key=lambda path: path.stat().st_mtime, reverse=True)
+    files = [folder / name, folder / "examples" / name, *(path for path in built if path.suffix == "")]
+    return next((path for path in files if path.exists()), folder / name)
+
+
+def run(arguments):
+    """Runs the commands of a set, and leaves each measurement's rows in a folder as soon as it is done."""
+    into, programs = Path(arguments.folder).resolve(), Path(arguments.programs).resolve()
+    into.mkdir(parents=True, exist_ok=True)
+    failed = []
+    for name, measurement in MEASUREMENTS.items():
+        if measurement.set != arguments.set or arguments.only and name not in arguments.only:
+            continue
+        try:
+            outputs = []
+            for command, *words in measurement.commands:
+                print(f"{name}: {command} {' '.join(words)}", flush=True)
+                done = subprocess.run([program(programs, command), *words], cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE)
+                outputs.append(done.stdout)
+            (into / f"{name}.txt").write_text("\n".join(outputs))
+            measured = {"machine": machine(), "date": f"{datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d}"}
+            (into / f"{name}.json").write_text(json.dumps({**measured, "rows": measurement.rows(outputs)}))
+        except (OSError, subprocess.CalledProcessError, ValueError, LookupError) as error:
+            print(f"{name}: {error!r}", flush=True)
+            failed.append(name)
+    if failed:
+        sys.exit(f"not measured: {' '.join(failed)}")
+
+
+def machine():
+    """The processor, and the first GPU of NVIDIA's driver if there is one."""
+    found = re.search(r"^model name\s*: (.*)", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    cores = len(re.findall(r"^processor\s*:", Path("/proc/cpuinfo").read_text(), re.MULTILINE))
+    try:
+        query = ["nvidia-smi", "--query-gpu=name,driver_version", "--format=csv,noheader"]
+        card = subprocess.run(query, check=True, text=True, stdout=subprocess.PIPE).stdout.splitlines()[0].replace(", ", ", driver ")
+    except (OSError, subprocess.CalledProcessError, IndexError):
+        card = None
+    processor = f"{found[1] if found else 'unknown processor'}, {cores} cores"
+    return f"{card}; {processor}" if card else processor
+
+
+def command_of(measurement):
+    """The commands as one line, typed in the folder of the workspace."""
+    in_workspace = {
+        "tess": "cargo run --release --",
+        "gpu": "cargo run --release -p tess-benches --features gpu --bin gpu --",
+        "terrain": "cargo example --release terrain",
+        "surface": "cargo bench -p tess-benches --bench surface",
+    }
+    command, *words = measurement.commands[0]
+    if len(measurement.commands) > 1:
+        words = ["N" if word == str(THREADS[0]) else word for word in words]
+    return f"{in_workspace[command]} {' '.join(word for word in words if command != 'surface')}".strip()
+
+
+def record_of(name, measured, commit):
+    """The record of what `run` left."""
+    measurement = MEASUREMENTS[name]
+    head = {"command": command_of(measurement), "machine": measured["machine"], "date": measured["date"], "commit": commit}
+    columns = {"columns": measurement.columns} if measurement.columns else {}
+    return {**head, **columns, "rows": measured["rows"]}
+
+
+def take(arguments):
+    """Makes records of what `run` left in a folder."""
+    for path in sorted(Path(arguments.folder).glob("*.json")):
+        measured = json.loads(path.read_text())
+        measured["machine"] = arguments.machine or measured["machine"]
+        (RECORDS / path.name).write_text(text_of(record_of(path.stem, measured, arguments.commit)))
+    performance()
+
+
+def main(words):
+    parser = argparse.ArgumentParser(prog="measure.py")
+    commands = parser.add_subparsers(required=True)
+    whole = commands.add_parser("here", help="build the programs, run a set here, and make its records")
+    running = commands.add_parser("run", help="run a set of measurements here")
+    for one in (whole, running):
+        one.add_argument("set", choices=["cpu", "gpu"])
+    running.add_argument("folder", help="receives NAME.json and NAME.txt")
+    running.add_argument("--programs", default=ROOT / "target/release", help="the folder of tess, gpu, terrain, surface")
+    running.add_argument("--only", nargs="+", choices=sorted(MEASUREMENTS), help="these measurements of the set")
+    taking = commands.add_parser("take", help="make records of what `run` left")
+    taking.add_argument("folder")
+    taking.add_argument("--commit", required=True, help="the commit that the programs were built from")
+    taking.add_argument("--machine", help="instead of what `run` found")
+    for one, does in ((whole, here), (running, run), (taking, take)):
+        one.set_defaults(does=does)
+    arguments = parser.parse_args(words)
+    arguments.does(arguments)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
