@@ -8,8 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Packages of the virtual environment.
-const PACKAGES: &[&str] =
-    &["numpy>=1.24", "pillow>=10", "pygltflib>=1.16,<2", "scipy>=1.10", "trimesh>=4.4,<6"];
+const PACKAGES: &[&str] = &["numpy>=1.24", "pillow>=10", "pygltflib>=1.16,<2", "scipy>=1.10"];
 
 /// Khronos' validator of glTF files.
 const VALIDATOR: &str = "gltf-validator@2.0.0-dev.3.10";

@@ -3,8 +3,8 @@
 
     judge.py TESS FOLDER... [--validator FOLDER] [--made] [--limit SECONDS]
 
-Nothing here is shared with the program: files are read by trimesh and pygltflib, poses are computed with numpy, and
-outputs are checked by Khronos' glTF validator if FOLDER has it as an npm package. A file must be read (exit code 0) or
+Nothing here is shared with the program: pygltflib and numpy read files and compute
+poses, and Khronos' glTF validator checks outputs if FOLDER has it as an npm package. A file must be read (exit code 0) or
 refused (2); with --made, those whose name begins with `refused-` must be refused and all others read. Of each output:
 
 - it loads, its numbers are finite, its normals have unit length;
@@ -25,9 +25,8 @@ import sys
 import tempfile
 
 import numpy as np
-import trimesh
 from PIL import Image
-from posed import posed_triangles
+from posed import Gltf, posed_triangles
 from scipy.spatial import cKDTree
 
 SUFFIXES = {".obj", ".gltf", ".glb", ".bpt"}
@@ -39,10 +38,11 @@ class Mesh:
     """Triangles of an output: positions of corners, and their normals."""
 
     def __init__(self, path):
-        loaded = trimesh.load(path, process=False, maintain_order=True, force="mesh", skip_materials=True)
-        corners = np.asarray(loaded.faces)
-        self.positions = np.asarray(loaded.vertices, dtype=np.float32)[corners]
-        self.normals = np.asarray(loaded.vertex_normals)[corners]
+        file = Gltf(path)
+        primitive = file.gltf.meshes[0].primitives[0]
+        corners = file.accessor(primitive.indices).reshape(-1, 3)
+        self.positions = file.accessor(primitive.attributes.POSITION)[corners]
+        self.normals = file.accessor(primitive.attributes.NORMAL).astype(float)[corners]
 
 
 def areas(triangles):

@@ -1,4 +1,4 @@
-"""The triangles of a model file as its standard poses it, by trimesh, pygltflib and numpy."""
+"""The triangles of a model file as its standard poses it, by pygltflib and numpy."""
 
 import base64
 import json
@@ -8,7 +8,7 @@ import urllib.parse
 
 import numpy as np
 import pygltflib
-import trimesh
+from scipy.spatial.transform import Rotation
 
 DTYPES = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
@@ -86,9 +86,8 @@ class Gltf:
         if node.matrix:
             return np.array(node.matrix, float).reshape(4, 4).T
         matrix = np.eye(4)
-        x, y, z, w = node.rotation or [0, 0, 0, 1]
-        rotation = trimesh.transformations.quaternion_matrix([w, x, y, z])
-        matrix[:3, :3] = rotation[:3, :3] * np.array(node.scale or [1, 1, 1], float)
+        rotation = Rotation.from_quat(node.rotation or [0, 0, 0, 1]).as_matrix()
+        matrix[:3, :3] = rotation * np.array(node.scale or [1, 1, 1], float)
         matrix[:3, 3] = node.translation or [0, 0, 0]
         return matrix
 

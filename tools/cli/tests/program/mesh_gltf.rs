@@ -76,6 +76,7 @@ fn check(name: &str, cases: &[Broken]) {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table of cases")]
 fn types_that_attributes_must_not_have() {
     let cases: &[Broken] = &[
         (
@@ -190,6 +191,7 @@ fn sparse(byte_offset: u32) -> Value {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table of cases")]
 fn bytes_that_are_not_there() {
     let cases: &[Broken] = &[
         (

@@ -1,4 +1,5 @@
 //! `tess mesh` on right glTF files: poses, and the forms that triangles and numbers may have.
+#![expect(clippy::float_arithmetic, reason = "poses are made of floats")]
 
 use crate::mesh::{counts, mesh, write};
 use crate::mesh_gltf::{triangle, write_gltf};
@@ -86,6 +87,9 @@ fn assert_near(found: &[[f32; 3]], expected: &[[f32; 3]], what: &str) {
 
 const REST: [[f32; 3]; 3] = [[0., 0., 0.], [0., 1., 0.], [1., 0., 0.]];
 
+/// A change of a right file.
+type Change = fn(&mut Value);
+
 #[test]
 fn morph_targets_have_the_weights_of_the_node_or_the_mesh() {
     let mut file = Builder::new("mesh_morph");
@@ -152,7 +156,7 @@ fn joints_move_vertices_and_the_node_does_not() {
 
 #[test]
 fn skins_that_are_wrong() {
-    let cases: &[(fn(&mut Value), &str)] = &[
+    let cases: &[(Change, &str)] = &[
         (
             |gltf| gltf["nodes"][0]["skin"] = json!(3),
             "nodes[0].skin: 3 is out of range: there are 1 skins",
@@ -248,7 +252,7 @@ fn strips_fans_lines_and_points() {
 /// Changes that leave the triangle as it is.
 #[test]
 fn files_that_mean_the_same() {
-    let cases: &[(fn(&mut Value), &str)] = &[
+    let cases: &[(Change, &str)] = &[
         (|gltf| gltf["accessors"][0]["count"] = json!(3.0), "a whole number with a point"),
         (|gltf| gltf["scenes"][0]["nodes"] = json!([0.0]), "a node's number with a point"),
         (
