@@ -9,7 +9,7 @@
 //! ```
 
 use crate::command::{self, in_file};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 /// The clock of `rtl/fpga/ecp5.lpf`, in ps.
@@ -52,7 +52,7 @@ struct Delays {
     /// Of the pins where a path ends: the time before the clock at which a value must be there.
     setup: HashMap<String, u64>,
     /// Clock to output of each register.
-    clocked: HashMap<String, u64>,
+    clocked: BTreeMap<String, u64>,
     /// All registers.
     cells: HashSet<String>,
     /// The registers of each port.
