@@ -16,7 +16,7 @@ pub fn check(data: &[u8]) -> Result<(), String> {
     let reduction = bytes.one_of([Reduction::Min, Reduction::Max, Reduction::Average]);
     let axes = bytes.one_of([QuadAxes::One, QuadAxes::Two]);
     let factors = bytes.factors(domain);
-    let prepared = prepare(config.partitioning, reduction, Request::new(factors, axes));
+    let prepared = prepare(config.partitioning, reduction, Request::from_record(factors, axes));
     let second = Second { partitioning: config.partitioning, reduction, axes };
     let [unrounded, rounded] = second.prepare(domain, &factors.iter().collect::<Vec<_>>());
     for (result, observed, expected) in [

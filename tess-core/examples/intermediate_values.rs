@@ -14,7 +14,7 @@ pub(crate) fn main() {
     }
 
     let tess_core::PatchFactors::Quad(quad) = processed else { unreachable!("it is a quad") };
-    let steps = place::steps(&quad.v0.context, 3);
+    let steps = place::placement(&quad.v0.context, 3);
     println!("point 3 of the edge v = 0: {steps:?}");
     if let Some(blend) = steps.blend {
         assert_eq!(blend.half_location(), steps.half_location, "the blend gives the location");

@@ -1,15 +1,16 @@
 //! The vertex-cache order: the same triangles, in an order in which a vertex is used again soon.
 //!
-//! The specification walks around a patch ring by ring, so nearly every vertex is used twice with a whole
-//! ring in between: a GPU that keeps the last 32 shaded vertices shades it twice. This order cuts the rings
-//! across into columns and walks each column from the outer edge inwards. No specification asks for it; it
-//! serves renderers. `Patch::tessellate_in` and `tess-simd` write it, and `tess-gpu`'s shaders invert the
-//! formulas below.
+//! The specification walks around a patch ring by ring, so nearly every vertex is used twice with a
+//! whole ring in between: a GPU that keeps the last 32 shaded vertices shades it twice. This order
+//! cuts the rings across into columns and walks each column from the outer edge inwards. No
+//! specification asks for it; it serves renderers. `Patch::tessellate_in` and `tess-simd` write it,
+//! and `tess-gpu`'s shaders invert the formulas below.
 //!
 //! # The data
 //!
-//! Each outer edge owns a *sector*: its transition and the stitches of the rings further in. Cells are
-//! counted along the edge from the patch's corner, [`COLUMN`] to a column. Ring `k` begins `k` cells in.
+//! Each outer edge owns a *sector*: its transition and the stitches of the rings further in. Cells
+//! are counted along the edge from the patch's corner, [`COLUMN`] to a column. Ring `k` begins `k`
+//! cells in.
 //!
 //! ```text
 //!            column 0        column 1
@@ -19,15 +20,15 @@
 //!   ring 3         \ 0 . 1 /               2 triangles
 //! ```
 //!
-//! The numbers are the steps of each stitch. A column's part of a stitch is a run of steps, so the whole order
-//! is a list of ranges of the specification's triangle numbers ([`CacheOrder::runs`]), and the place of a
-//! triangle is a sum of borders in closed form (`CacheOrder::position`).
+//! The numbers are the steps of each stitch. A column's part of a stitch is a run of steps, so the
+//! whole order is a list of ranges of the specification's triangle numbers ([`CacheOrder::runs`]),
+//! and the place of a triangle is a sum of borders in closed form (`CacheOrder::position`).
 //!
 //! # One patch
 //!
 //! A quad whose factors are all 6 has 7 points on each edge, hence the sectors above. In the
-//! specification's order ring 1 has the triangles 0 to 39, ten an edge; ring 2 has 40 to 63, ring 3 has
-//! 64 to 71. The first edge's runs:
+//! specification's order ring 1 has the triangles 0 to 39, ten an edge; ring 2 has 40 to 63, ring 3
+//! has 64 to 71. The first edge's runs:
 //!
 //! ```
 //! use tess_core::cache_order::CacheOrder;
@@ -42,35 +43,25 @@
 //!
 //! # What holds
 //!
-//! - Every triangle up to the innermost ring is in exactly one run: borders grow with the column, begin at
-//!   0 and end at the stitch's size. Otherwise triangles would be lost or drawn twice.
+//! - Every triangle up to the innermost ring is in exactly one run: borders grow with the column,
+//!   begin at 0 and end at the stitch's size. Otherwise triangles would be lost or drawn twice.
 //! - `position` is the inverse of the list of runs. Backends use one or the other.
-//! - What is inside the innermost ring comes last and keeps its numbers, which callers do not look up.
+//! - What is inside the innermost ring comes last and keeps its numbers, which callers do not look
+//!   up.
 //! - Points keep their numbers, so points of both orders are the same.
 //!
 //! # Why not simpler
 //!
-//! Strips from one side of the patch to the other need no sectors. At factor 64 an NVIDIA H200 draws 1.61
-//! thousand million triangles a second of them at best, 1.63 of columns of four and 1.50 of the
-//! specification's order; at factor 8 it draws 1.58, 1.71 and 1.49. Columns of other widths lose up to 15 %.
-//! A cache of 32 vertices misses 0.64 to 0.67 times a triangle with columns of four, and 0.9 to 1.0 times
-//! with the specification's order.
+//! Strips from one side of the patch to the other need no sectors. At factor 64 an NVIDIA H200
+//! draws 1.61 thousand million triangles a second of them at best, 1.63 of columns of four and 1.50
+//! of the specification's order; at factor 8 it draws 1.58, 1.71 and 1.49. Columns of other widths
+//! lose up to 15 %. A cache of 32 vertices misses 0.64 to 0.67 times a triangle with columns of
+//! four, and 0.9 to 1.0 times with the specification's order.
 
 use crate::closed_form::locate::origin::PrimitiveOrigin;
 use crate::model::factors::ProcessedPatch;
 use crate::model::patch_factors::PatchFactors;
 use core::ops::Range;
-
-/// An order in which a patch's triangles are written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Order {
-    /// The specification's order (sections 7 and 8).
-    #[default]
-    Specification,
-    /// The same triangles, ordered for a vertex cache. Points keep their order and numbers; lines and
-    /// points are written as the specification says.
-    VertexCache,
-}
 
 /// The most rings that have stitches.
 const MAX_RINGS: usize = 32;
@@ -99,7 +90,8 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
     /// The order of a patch with these points along each outer edge, and along each inside axis:
     /// u and v of a quad, the one of a triangle twice.
     ///
-    /// Total: outer edges have 2 to 65 points, inside axes 3 to 65. Any other number counts as the nearest.
+    /// Total: outer edges have 2 to 65 points, inside axes 3 to 65. Any other number counts as the
+    /// nearest.
     #[must_use]
     pub fn new(outer: [u32; EDGES], inside: [u32; 2]) -> Self {
         let outer = outer.map(|points| points.clamp(2, 65));
@@ -124,8 +116,8 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
         before + self.sectors[edge].position(ring, step)
     }
 
-    /// Sends all triangles up to the innermost ring to `emit`, in this order, as ranges of their numbers
-    /// in the specification's order. No range is empty.
+    /// Sends all triangles up to the innermost ring to `emit`, in this order, as ranges of their
+    /// numbers in the specification's order. No range is empty.
     pub fn runs(&self, mut emit: impl FnMut(Range<u32>)) {
         for (edge, sector) in self.sectors.iter().enumerate() {
             let mut first = [0; MAX_RINGS];
@@ -170,7 +162,7 @@ impl Sector {
     /// The first step of a stitch that belongs to `column` or to a later one.
     ///
     /// Cells are counted from the patch's corner in steps of the inside axis, and the inner row of
-    /// ring `k` begins `k` of them in. A ring stitch has two triangles a cell behind its first one;
+    /// ring `k` begins `k` of them in. A ring stitch has two triangles per cell after its first one;
     /// a transition has as many as its outer edge asks for, and is cut in proportion.
     fn border(&self, ring: u32, column: u32) -> u32 {
         let regular = (2 * COLUMN * column + 1).saturating_sub(2 * ring);
@@ -180,8 +172,8 @@ impl Sector {
         (regular * self.transition / (2 * self.along - 4)).min(self.transition)
     }
 
-    /// The sum of [`Self::border`] over the rings `2..end`: of `2 COLUMN column + 1 - 2 ring` while that is
-    /// positive and within the stitch, then of whole stitches.
+    /// The sum of [`Self::border`] over the rings `2..end`: of `2 COLUMN column + 1 - 2 ring` while
+    /// that is positive and within the stitch, then of whole stitches.
     fn borders(&self, end: u32, column: u32) -> u32 {
         let (first, whole) = (2 * COLUMN * column + 1, 2 * self.along);
         let half = (whole + 1).saturating_sub(first) / 2;

@@ -13,7 +13,7 @@ pub enum Buffer {
 
 /// A buffer of the caller is too small; nothing was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BufferTooSmall {
+pub struct BufferTooSmallError {
     /// The buffer.
     pub buffer: Buffer,
     /// Elements that the output needs.
@@ -22,7 +22,7 @@ pub struct BufferTooSmall {
     pub got: usize,
 }
 
-impl fmt::Display for BufferTooSmall {
+impl fmt::Display for BufferTooSmallError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let what = match self.buffer {
             Buffer::Points => "point",
@@ -36,4 +36,4 @@ impl fmt::Display for BufferTooSmall {
     }
 }
 
-impl core::error::Error for BufferTooSmall {}
+impl core::error::Error for BufferTooSmallError {}

@@ -11,21 +11,51 @@ mod model;
 mod patch;
 pub mod prepare;
 
-pub use cache_order::Order;
-pub use closed_form::counts::{self, Counts, MAX_INDICES, MAX_POINTS};
+// What a patch is made of and gives.
+pub use closed_form::counts::{Counts, MAX_INDICES, MAX_POINTS};
 pub use closed_form::locate::origin::{PointOrigin, PrimitiveOrigin};
-pub use error::{Buffer, BufferTooSmall};
-pub use fixed;
-pub use model::factor_context::{self, FactorContext};
-pub use model::factors::{self, ProcessedFactor, ProcessedPatch};
-pub use model::fixed_point::{self, FixedFactor};
+pub use error::{Buffer, BufferTooSmallError};
 pub use model::output::{DomainPoint, Primitive};
-pub use model::patch_factors::{self, IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
-pub use model::place::{self, place};
+pub use model::patch_factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
 #[cfg(feature = "alloc")]
 pub use model::sink::Tessellation;
 pub use model::sink::{Counter, Sink};
-pub use model::state::{self, Config, Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
-pub use model::stitch::{self, Side, Step, Stitch, StitchKind};
+pub use model::state::{Config, Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
+pub use patch::{Order, Patch};
+
+// The stages on the way, and the types of their numbers.
+pub use model::factor_context::FactorContext;
+pub use model::factors::{ProcessedFactor, ProcessedPatch};
+pub use model::fixed_point::FixedFactor;
+pub use model::place::place;
+pub use model::stitch::{Side, Step, Stitch, StitchKind};
 pub use model::{reciprocal, row, ruler};
-pub use patch::Patch;
+
+pub use fixed;
+
+/// Factor processing: from raw binary32 factors to contexts (spec section 3).
+pub mod factors {
+    pub use crate::model::factors::process;
+}
+
+/// Output sizes by formula (spec section 12.6).
+pub mod counts {
+    pub use crate::closed_form::counts::counts;
+}
+
+/// Constants and roundings of 16.16 numbers (spec section 2).
+pub mod fixed_point {
+    pub use crate::model::fixed_point::{
+        HALF, ONE, ONE_THIRD, TWO_THIRDS, ceil, coordinate_to_f32, floor,
+    };
+}
+
+/// The values on the way to a location (spec section 5).
+pub mod place {
+    pub use crate::model::place::{Blend, Placement, placement};
+}
+
+/// The steps of each kind of stitch (spec sections 7.2 to 7.4).
+pub mod stitch {
+    pub use crate::model::stitch::{Diagonals, centre_triangle, ring, strip, transition};
+}

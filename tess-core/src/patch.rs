@@ -1,13 +1,11 @@
 //! One patch: the model's front door.
 
 use crate::cache_order;
-#[cfg(feature = "alloc")]
-use crate::cache_order::Order;
 use crate::closed_form::counts::{Counts, counts};
 use crate::closed_form::locate;
 use crate::closed_form::locate::origin::PointOrigin;
 use crate::closed_form::locate::origin::PrimitiveOrigin;
-use crate::error::{Buffer, BufferTooSmall};
+use crate::error::{Buffer, BufferTooSmallError};
 use crate::model::factors::{ProcessedPatch, process};
 use crate::model::output::DomainPoint;
 use crate::model::output::Primitive;
@@ -16,6 +14,17 @@ use crate::model::sink::{Sink, Slices};
 use crate::model::state::Config;
 use crate::model::stitch::Stitch;
 use crate::model::{connect, points};
+
+/// An order in which a patch's triangles are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Order {
+    /// The specification's order (sections 7 and 8).
+    #[default]
+    Specification,
+    /// The same triangles, ordered for a vertex cache ([`cache_order`]). Points keep their order
+    /// and numbers; lines and points are written in the specification's order.
+    VertexCache,
+}
 
 /// A patch whose factors have been processed, ready to be tessellated or probed.
 ///
@@ -60,8 +69,8 @@ impl Patch {
         connect::emit(self.config, &self.processed, self.counts.points, sink);
     }
 
-    /// Sends the stitches of a triangle or quad patch to `emit`, in order: the two rows of each, and
-    /// the rule of its steps. A minimum patch and an isoline patch have none.
+    /// Sends the stitches of a triangle or quad patch to `emit`, in order: the two rows of each,
+    /// and the rule of its steps. A minimum patch and an isoline patch have none.
     pub fn stitches(&self, emit: impl FnMut(Stitch)) {
         if let ProcessedPatch::Regular(factors) = &self.processed {
             connect::stitches(factors, emit);
@@ -71,13 +80,13 @@ impl Patch {
     /// Writes points and indices to the start of the caller's buffers.
     ///
     /// # Errors
-    /// [`BufferTooSmall`] if either buffer is shorter than [`Self::counts`] says; then nothing is
+    /// [`BufferTooSmallError`] if either buffer is shorter than [`Self::counts`]; then nothing is
     /// written.
     pub fn write(
         &self,
         points: &mut [DomainPoint],
         indices: &mut [u32],
-    ) -> Result<Counts, BufferTooSmall> {
+    ) -> Result<Counts, BufferTooSmallError> {
         let points = prefix(points, self.counts.points, Buffer::Points)?;
         let indices = prefix(indices, self.counts.indices, Buffer::Indices)?;
         self.emit(&mut Slices::new(points, indices));
@@ -138,8 +147,8 @@ impl Patch {
         locate::primitive::primitive(self.config, &self.processed, location)
     }
 
-    /// Where primitive `t` is in the [vertex-cache order](crate::cache_order); `None` if the patch has no such
-    /// primitive. Constant time.
+    /// Where primitive `t` is in the [vertex-cache order](crate::cache_order); `None` if the patch
+    /// has no such primitive. Constant time.
     #[must_use]
     pub fn cache_position(&self, t: u32) -> Option<u32> {
         Some(cache_order::position(&self.processed, self.locate_primitive(t)?, t))
@@ -157,7 +166,11 @@ impl Patch {
 }
 
 /// The first `needed` elements of a caller's buffer.
-fn prefix<T>(slice: &mut [T], needed: u32, buffer: Buffer) -> Result<&mut [T], BufferTooSmall> {
+fn prefix<T>(
+    slice: &mut [T],
+    needed: u32,
+    buffer: Buffer,
+) -> Result<&mut [T], BufferTooSmallError> {
     let (needed, got) = (needed as usize, slice.len());
-    slice.get_mut(..needed).ok_or(BufferTooSmall { buffer, needed, got })
+    slice.get_mut(..needed).ok_or(BufferTooSmallError { buffer, needed, got })
 }

@@ -36,26 +36,44 @@ pub enum QuadAxes {
     Two,
 }
 
-/// Factors of one patch as a hull shader hands them over. The inside factors are yet to come: their fields hold scales, 0 to 1,
-/// as in C and in vector files.
+/// Factors of one patch as a hull shader hands them over: outer factors, and scales for the inside
+/// factors, which are yet to be computed. A scale outside `0..=1` counts as the nearest end, NaN as
+/// 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Request {
     /// Density and detail, as they are.
     Isoline(IsolineFactors),
-    /// Outer factors; [`TriangleFactors::inside`] is the scale of the inside factor.
-    Triangle(TriangleFactors),
-    /// Outer factors; the inside fields are the scales of the inside factors.
-    Quad(QuadFactors, QuadAxes),
+    /// A triangle patch.
+    Triangle {
+        /// Outer factors in edge order: u = 0, v = 0, w = 0.
+        outer: [f32; 3],
+        /// Scale of the inside factor.
+        scale: f32,
+    },
+    /// A quad patch.
+    Quad {
+        /// Outer factors in edge order: u = 0, v = 0, u = 1, v = 1.
+        outer: [f32; 4],
+        /// Scales of the inside factors along u and along v.
+        scales: [f32; 2],
+        /// How the inside factors are reduced.
+        axes: QuadAxes,
+    },
 }
 
 impl Request {
-    /// The request for these factors, which hold scales inside; the axes are a quad's.
+    /// The request of a record that keeps the scales in the places of the inside factors, as C
+    /// structures and vector files do. The axes matter only for a quad.
     #[must_use]
-    pub const fn new(factors: PatchFactors, axes: QuadAxes) -> Self {
-        match factors {
+    pub const fn from_record(record: PatchFactors, axes: QuadAxes) -> Self {
+        match record {
             PatchFactors::Isoline(factors) => Self::Isoline(factors),
-            PatchFactors::Triangle(factors) => Self::Triangle(factors),
-            PatchFactors::Quad(factors) => Self::Quad(factors, axes),
+            PatchFactors::Triangle(record) => {
+                Self::Triangle { outer: record.outer(), scale: record.inside }
+            }
+            PatchFactors::Quad(record) => {
+                Self::Quad { outer: record.outer(), scales: record.inside(), axes }
+            }
         }
     }
 }
@@ -77,8 +95,12 @@ pub struct Prepared {
 pub fn prepare(partitioning: Partitioning, reduction: Reduction, request: Request) -> Prepared {
     match request {
         Request::Isoline(factors) => prepare_isoline(partitioning, factors),
-        Request::Triangle(factors) => prepare_triangle(partitioning, reduction, factors),
-        Request::Quad(factors, axes) => prepare_quad(partitioning, reduction, factors, axes),
+        Request::Triangle { outer, scale } => {
+            prepare_triangle(partitioning, reduction, outer, scale)
+        }
+        Request::Quad { outer, scales, axes } => {
+            prepare_quad(partitioning, reduction, outer, scales, axes)
+        }
     }
 }
 
@@ -106,18 +128,19 @@ fn prepare_isoline(partitioning: Partitioning, factors: IsolineFactors) -> Prepa
 fn prepare_triangle(
     partitioning: Partitioning,
     reduction: Reduction,
-    factors: TriangleFactors,
+    outer @ [u0, v0, w0]: [f32; 3],
+    scale: f32,
 ) -> Prepared {
-    if is_culled(factors.outer().into_iter()) {
+    if is_culled(outer.into_iter()) {
         return Prepared {
-            unrounded: PatchFactors::Triangle(TriangleFactors { inside: 0.0, ..factors }),
+            unrounded: PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside: 0.0 }),
             rounded: PatchFactors::uniform(Domain::Triangle, 0.0),
         };
     }
-    let [u0, v0, w0] = factors.outer().map(clean);
-    let inside = inside(partitioning, reduction, &[u0, v0, w0], factors.inside);
+    let outer @ [u0, v0, w0] = outer.map(clean);
+    let inside = inside(partitioning, reduction, &outer, scale);
     let unrounded = TriangleFactors { u0, v0, w0, inside };
-    let [u0, v0, w0] = unrounded.outer().map(|factor| round_outer(partitioning, factor));
+    let [u0, v0, w0] = outer.map(|factor| round_outer(partitioning, factor));
     let inside = round_up(partitioning, inside);
     Prepared {
         unrounded: PatchFactors::Triangle(unrounded),
@@ -128,29 +151,31 @@ fn prepare_triangle(
 fn prepare_quad(
     partitioning: Partitioning,
     reduction: Reduction,
-    factors: QuadFactors,
+    outer @ [u0, v0, u1, v1]: [f32; 4],
+    [scale_u, scale_v]: [f32; 2],
     axes: QuadAxes,
 ) -> Prepared {
-    if is_culled(factors.outer().into_iter()) {
+    if is_culled(outer.into_iter()) {
+        let (inside_u, inside_v) = (0.0, 0.0);
         return Prepared {
-            unrounded: PatchFactors::Quad(QuadFactors { inside_u: 0.0, inside_v: 0.0, ..factors }),
+            unrounded: PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v }),
             rounded: PatchFactors::uniform(Domain::Quad, 0.0),
         };
     }
-    let [u0, v0, u1, v1] = factors.outer().map(clean);
+    let outer @ [u0, v0, u1, v1] = outer.map(clean);
     let (inside_u, inside_v) = match axes {
         QuadAxes::One => {
-            let both = inside(partitioning, reduction, &[v0, v1, u0, u1], factors.inside_u);
+            let both = inside(partitioning, reduction, &[v0, v1, u0, u1], scale_u);
             (both, both)
         }
         QuadAxes::Two => widen_narrower_axis(
             partitioning,
-            inside(partitioning, reduction, &[v0, v1], factors.inside_u),
-            inside(partitioning, reduction, &[u0, u1], factors.inside_v),
+            inside(partitioning, reduction, &[v0, v1], scale_u),
+            inside(partitioning, reduction, &[u0, u1], scale_v),
         ),
     };
     let unrounded = QuadFactors { u0, v0, u1, v1, inside_u, inside_v };
-    let [u0, v0, u1, v1] = unrounded.outer().map(|factor| round_outer(partitioning, factor));
+    let [u0, v0, u1, v1] = outer.map(|factor| round_outer(partitioning, factor));
     let [inside_u, inside_v] = unrounded.inside().map(|factor| round_up(partitioning, factor));
     Prepared {
         unrounded: PatchFactors::Quad(unrounded),
@@ -209,7 +234,7 @@ fn round_outer(partitioning: Partitioning, factor: f32) -> f32 {
     clamp(round_up(partitioning, factor), partitioning.range())
 }
 
-/// Rounds a factor of at least 1 up to what the partitioning can show.
+/// Rounds a factor of at least 1 up to the next that the partitioning has.
 fn round_up(partitioning: Partitioning, factor: f32) -> f32 {
     match partitioning {
         Partitioning::Integer => ceil(factor),

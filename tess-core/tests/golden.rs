@@ -1,5 +1,5 @@
-//! Recorded results of the reference model, in both formulations: enough of `golden/` for the core's
-//! tests to stand alone. All of it goes through `tess-verify`.
+//! Recorded results of the reference model, in both formulations: enough of `golden/` for the
+//! core's tests to stand alone. All of it goes through `tess-verify`.
 
 mod recorded;
 #[path = "common/shown.rs"]
@@ -114,7 +114,7 @@ fn corners() {
 fn contexts_and_locations() {
     for row in text("place.csv").lines().skip(2).step_by(11) {
         let fields: Vec<&str> = row.split(',').collect();
-        let split = if fields[0] == "ruler" { SplitOrder::Ruler } else { SplitOrder::Center };
+        let split = if fields[0] == "ruler" { SplitOrder::Ruler } else { SplitOrder::Centre };
         let parity = if fields[1] == "odd" { Parity::Odd } else { Parity::Even };
         let first = fields[2].parse::<u32>().expect("an integer part") << 16;
         let highest = (64 - parity.odd()) << 16;
@@ -144,7 +144,7 @@ fn factor_preparation() {
         };
         let input: Vec<&str> = fields[5].split(' ').collect();
         let axes = if axis == "1" { QuadAxes::One } else { QuadAxes::Two };
-        let request = Request::new(factors(domain, &input), axes);
+        let request = Request::from_record(factors(domain, &input), axes);
         let prepared = prepare(config.partitioning, reduction, request);
         assert_eq!(hex_words(&prepared.unrounded), fields[6], "{row}: unrounded");
         assert_eq!(hex_words(&prepared.rounded), fields[7], "{row}: rounded");

@@ -1,13 +1,13 @@
-//! Section 14 of the specification, "For hardware": every number in it is computed here, and every formula
-//! compared with the model.
+//! Section 14 of the specification, "For hardware": every number in it is computed here, and every
+//! formula compared with the model.
 
 use std::fmt::Write as _;
-use tess_core::place::steps;
+use tess_core::place::placement;
 use tess_core::ruler::rank;
-use tess_core::stitch::{Side, Step, transition};
+use tess_core::stitch::transition;
 use tess_core::{
     Config, Domain, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, Patch,
-    PatchFactors, PointOrigin, QuadFactors, SplitOrder, TriangleFactors,
+    PatchFactors, PointOrigin, QuadFactors, Side, SplitOrder, Step, TriangleFactors,
 };
 
 const ONE: u32 = 0x10000;
@@ -82,18 +82,18 @@ fn contexts_have_the_widths_that_the_specification_says() {
     }
 }
 
-/// 14.1, the placer. Within a half edge `a` and `b` do not decrease, so the last position of the half edge has
-/// the greatest value of each, and of their weighted sum.
+/// 14.1, the placer. Within a half edge `a` and `b` do not decrease, so the last position of the
+/// half edge has the greatest value of each, and of their weighted sum.
 #[test]
 fn placements_have_the_widths_that_the_specification_says() {
     let [mut a, mut b, mut sum, mut x] = [Range::NONE; 4];
     let [mut position, mut mirrored] = [Range::NONE; 2];
     every_context(|_, context| {
         position.see(context.points - 1);
-        mirrored.see(steps(context, context.half_points).position);
-        mirrored.see(steps(context, context.points / 2).position);
+        mirrored.see(placement(context, context.half_points).position);
+        mirrored.see(placement(context, context.points / 2).position);
         for p in [0, context.half_points - 1] {
-            let blend = steps(context, p).blend.expect("a position before the middle");
+            let blend = placement(context, p).blend.expect("a position before the middle");
             a.see(blend.coarse);
             b.see(blend.fine);
             let weighted = blend.coarse * (ONE - blend.fraction) + blend.fine * blend.fraction;
@@ -116,7 +116,7 @@ fn places_do_not_decrease_along_a_half_edge() {
             for bits in (least * ONE..=most * ONE).step_by(0x155) {
                 let context = FactorContext::new(FixedFactor::from_bits(bits), parity, split);
                 let places: Vec<_> =
-                    (0..context.half_points).filter_map(|p| steps(&context, p).blend).collect();
+                    (0..context.half_points).filter_map(|p| placement(&context, p).blend).collect();
                 assert!(
                     places.is_sorted_by(
                         |one, next| one.coarse <= next.coarse && one.fine <= next.fine
@@ -140,7 +140,7 @@ fn ring_locations_have_the_widths_that_the_specification_says() {
         for ring in 1..context.points / 2 {
             // Rings lie on the first half of the edge, where places do not decrease.
             if ring == 1 || ring + 1 == context.points / 2 {
-                let place = steps(context, ring).location.to_bits();
+                let place = placement(context, ring).location.to_bits();
                 let location = (place * 0xAAAA + ONE / 2) >> 16;
                 perp.see(location);
                 shift.see(location.div_ceil(2));
@@ -208,7 +208,8 @@ fn rings_begin_where_the_specification_says() {
     assert!(rings_seen > 5000, "only {rings_seen} rings were compared");
 }
 
-/// 14.2, from a point's number to its origin: five comparisons find the ring, subtractions the edge and the position.
+/// 14.2, from a point's number to its origin: five comparisons find the ring, subtractions the edge
+/// and the position.
 fn origin(domain: Domain, counts: [u32; 2], outer: u32, number: u32) -> PointOrigin {
     let rings = counts[0].min(counts[1]) / 2 - 1;
     if rings == 0 {
@@ -285,11 +286,12 @@ fn masks_are_those_of_the_specification() {
             assert_eq!(mask(split, n).count_ones(), n.saturating_sub(1), "bits of mask({n})");
         }
         let center = 1_u32.checked_shl(n.saturating_sub(1)).map_or(u32::MAX, |bit| bit - 1);
-        assert_eq!(mask(SplitOrder::Center, n), center, "the first n - 1 bits");
+        assert_eq!(mask(SplitOrder::Centre, n), center, "the first n - 1 bits");
     }
 }
 
-/// The rows that advance in a transition, found by the next set bit: one triangle for each turn of a loop.
+/// The rows that advance in a transition, found by the next set bit: one triangle for each turn of
+/// a loop.
 fn by_next_bit(split: SplitOrder, outer_points: u32, inside_points: u32) -> Vec<Side> {
     let [oh, ih] = [outer_points, inside_points].map(|points| (points - 1) / 2);
     let [outer_mask, inner_mask] = [oh, ih].map(|half| mask(split, half));
@@ -333,8 +335,8 @@ fn the_next_set_bit_walks_every_transition() {
     }
 }
 
-/// Points, primitives and indices of the largest patch: whatever the factors, no count exceeds that of the
-/// largest ones, as every formula of section 12.6 grows with each count.
+/// Points, primitives and indices of the largest patch: whatever the factors, no count exceeds that
+/// of the largest ones, as every formula of section 12.6 grows with each count.
 #[test]
 fn the_largest_outputs_are_those_of_the_specification() {
     let names = ["isoline", "triangle", "quad"];

@@ -110,12 +110,12 @@ fn center_even() {
         furthest_back: 10,
         ..EVERY
     };
-    check(SplitOrder::Center, Parity::Even, &expected);
+    check(SplitOrder::Centre, Parity::Even, &expected);
 }
 
 #[test]
 fn center_odd() {
-    check(SplitOrder::Center, Parity::Odd, &Exceptions { equal: 1042, ..EVERY });
+    check(SplitOrder::Centre, Parity::Odd, &Exceptions { equal: 1042, ..EVERY });
 }
 
 #[test]

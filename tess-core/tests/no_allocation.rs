@@ -66,9 +66,9 @@ fn preparation_allocates_nothing() {
         for reduction in [Reduction::Min, Reduction::Max, Reduction::Average] {
             let count = allocations(|| {
                 for request in [
-                    Request::Triangle(TRIANGLE),
-                    Request::Quad(QUAD, QuadAxes::One),
-                    Request::Quad(QUAD, QuadAxes::Two),
+                    Request::from_record(PatchFactors::Triangle(TRIANGLE), QuadAxes::One),
+                    Request::from_record(PatchFactors::Quad(QUAD), QuadAxes::One),
+                    Request::from_record(PatchFactors::Quad(QUAD), QuadAxes::Two),
                 ] {
                     std::hint::black_box(prepare(partitioning, reduction, request));
                 }

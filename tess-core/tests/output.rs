@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{
-    Buffer, BufferTooSmall, Config, Counter, Counts, DomainPoint, MAX_INDICES, MAX_POINTS,
+    Buffer, BufferTooSmallError, Config, Counter, Counts, DomainPoint, MAX_INDICES, MAX_POINTS,
     OutputPrimitive, Partitioning, Patch, PatchFactors, QuadFactors,
 };
 use tess_testkit::strategies;
@@ -37,7 +37,7 @@ fn check_buffers(config: Config, factors: PatchFactors) -> Result<(), TestCaseEr
 fn check_too_small(
     patch: &Patch,
     (points, indices): (usize, usize),
-    expected: BufferTooSmall,
+    expected: BufferTooSmallError,
 ) -> Result<(), TestCaseError> {
     let (mut points, mut indices) = (vec![POINT; points], vec![INDEX; indices]);
     prop_assert_eq!(patch.write(&mut points, &mut indices), Err(expected), "the error");
@@ -50,7 +50,10 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn sinks_slices_vectors_and_counts(config in strategies::config(), factors in strategies::factors()) {
+    fn sinks_slices_vectors_and_counts(
+        config in strategies::config(),
+        factors in strategies::factors(),
+    ) {
         check_buffers(config, factors)?;
     }
 
@@ -64,13 +67,13 @@ proptest! {
         let (n, m) = (patch.counts().points as usize, patch.counts().indices as usize);
         for less in [1, n * fraction as usize / 100, n] {
             if let Some(got) = n.checked_sub(less).filter(|&got| got < n) {
-                let error = BufferTooSmall { buffer: Buffer::Points, needed: n, got };
+                let error = BufferTooSmallError { buffer: Buffer::Points, needed: n, got };
                 check_too_small(&patch, (got, m), error)?;
             }
         }
         for less in [1, m * fraction as usize / 100, m] {
             if let Some(got) = m.checked_sub(less).filter(|&got| got < m) {
-                let error = BufferTooSmall { buffer: Buffer::Indices, needed: m, got };
+                let error = BufferTooSmallError { buffer: Buffer::Indices, needed: m, got };
                 check_too_small(&patch, (n, got), error)?;
             }
         }
@@ -81,7 +84,9 @@ proptest! {
     #[test]
     fn prepared_factors_are_in_range(
         partitioning in prop::sample::select(&Partitioning::ALL[..]),
-        reduction in prop::sample::select(&[Reduction::Min, Reduction::Max, Reduction::Average][..]),
+        reduction in prop::sample::select(
+            &[Reduction::Min, Reduction::Max, Reduction::Average][..]
+        ),
         axes in prop::sample::select(&[QuadAxes::One, QuadAxes::Two][..]),
         factors in strategies::factors(),
     ) {
@@ -91,7 +96,7 @@ proptest! {
             PatchFactors::Quad(_) => 4,
         };
         let raw = list(&factors);
-        let prepared = prepare(partitioning, reduction, Request::new(factors, axes));
+        let prepared = prepare(partitioning, reduction, Request::from_record(factors, axes));
         let (unrounded, rounded) = (list(&prepared.unrounded), list(&prepared.rounded));
         if raw[..outer_count].iter().any(|factor| factor.is_nan() || *factor <= 0.0) {
             let bits = |factors: &[f32]| factors.iter().map(|f| f.to_bits()).collect::<Vec<_>>();
@@ -119,7 +124,7 @@ fn list(factors: &PatchFactors) -> Vec<f32> {
 
 #[test]
 fn the_error_says_what_was_needed() {
-    let error = BufferTooSmall { buffer: Buffer::Indices, needed: 66, got: 65 };
+    let error = BufferTooSmallError { buffer: Buffer::Indices, needed: 66, got: 65 };
     assert_eq!(
         error.to_string(),
         "the index buffer holds 65 elements, but the patch needs 66",

@@ -36,7 +36,8 @@ impl Elements {
     }
 }
 
-/// The first element that random access gives differently, one past the ends included, with where it comes from.
+/// The first element that random access gives differently, one past the ends included, with where
+/// it comes from.
 fn first_difference(patch: &Patch, sequential: &Elements) -> Option<String> {
     fn differ<T: Copy + PartialEq>(
         sequential: &[T],
@@ -126,14 +127,17 @@ fn every_quad_topology_ruler() {
 
 #[test]
 fn every_quad_topology_center() {
-    every_quad_topology(SplitOrder::Center);
+    every_quad_topology(SplitOrder::Centre);
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
     #[test]
-    fn any_factors_in_any_configuration(config in strategies::config(), factors in strategies::factors()) {
+    fn any_factors_in_any_configuration(
+        config in strategies::config(),
+        factors in strategies::factors(),
+    ) {
         assert_equal(config, factors);
     }
 }

@@ -2,13 +2,13 @@
 
 use proptest::prelude::*;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS, ceil, floor};
-use tess_core::place::steps;
+use tess_core::place::placement;
 use tess_core::reciprocal::reciprocal;
 use tess_core::row::Row;
 use tess_core::ruler::{has_point, rank};
 use tess_core::{
     Config, Domain, DomainPoint, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning,
-    Patch, PatchFactors, ProcessedPatch, SplitOrder, Tessellation, place,
+    Patch, PatchFactors, Primitive, ProcessedPatch, SplitOrder, Tessellation, place,
 };
 use tess_testkit::strategies::{self, from_fixed};
 
@@ -21,15 +21,22 @@ proptest! {
 
     /// Section 1: pow2 is integer.
     #[test]
-    fn pow2_is_integer(config in strategies::config(), factors in strategies::factors()) {
-        let [pow2, integer] = [Partitioning::Pow2, Partitioning::Integer]
-            .map(|partitioning| Patch::new(Config { partitioning, ..config }, factors).tessellate());
+    fn pow2_is_integer(
+        config in strategies::config(),
+        factors in strategies::factors(),
+    ) {
+        let [pow2, integer] = [Partitioning::Pow2, Partitioning::Integer].map(|partitioning| {
+            Patch::new(Config { partitioning, ..config }, factors).tessellate()
+        });
         prop_assert!(pow2 == integer, "{config:?} {factors:?}");
     }
 
     /// Section 12: what a checker may demand of patches that are far from the table's exceptions.
     #[test]
-    fn areas_are_positive_far_above_integers(config in strategies::config(), factors in strategies::factors()) {
+    fn areas_are_positive_far_above_integers(
+        config in strategies::config(),
+        factors in strategies::factors(),
+    ) {
         let config = Config { output: OutputPrimitive::TriangleCw, ..config };
         let patch = Patch::new(config, factors);
         let processed = patch.processed().factors().copied();
@@ -130,6 +137,47 @@ fn inside_factors_have_the_least_points_that_are_said() {
     }
 }
 
+/// Section 7.4 and step 8 of section 3: the vertices of a centre triangle and of a minimum patch,
+/// in their order.
+#[test]
+fn centre_triangles_and_minimum_patches_have_the_vertices_that_are_said() {
+    let cases = [
+        (PatchFactors::uniform(Domain::Triangle, 1.0), &[[0, 1, 2]][..]),
+        (PatchFactors::uniform(Domain::Quad, 1.0), &[[0, 1, 3], [1, 2, 3]]),
+        // Nine points on the outer ring, three on the inner one.
+        (PatchFactors::uniform(Domain::Triangle, 3.0), &[[9, 10, 11]]),
+    ];
+    for (factors, last) in cases {
+        for output in [OutputPrimitive::TriangleCw, OutputPrimitive::TriangleCcw] {
+            let patch = Patch::new(Config::new(Partitioning::Integer, output), factors);
+            let wound = |[a, b, c]: [u32; 3]| match output {
+                OutputPrimitive::TriangleCcw => [a, c, b],
+                _ => [a, b, c],
+            };
+            let expected: Vec<_> =
+                last.iter().copied().map(wound).map(Primitive::Triangle).collect();
+            let first = patch.counts().primitives as usize - last.len();
+            let walked: Vec<u32> = patch.tessellate().indices.split_off(3 * first);
+            assert_eq!(
+                walked
+                    .as_chunks::<3>()
+                    .0
+                    .iter()
+                    .copied()
+                    .map(Primitive::Triangle)
+                    .collect::<Vec<_>>(),
+                expected,
+                "{factors:?}, {output:?}"
+            );
+            assert_eq!(
+                patch.primitives().skip(first).collect::<Vec<_>>(),
+                expected,
+                "{factors:?}, {output:?}"
+            );
+        }
+    }
+}
+
 /// Section 7.1: a row runs up or down, and closes at one entry.
 #[test]
 fn rows_run_both_ways_and_close() {
@@ -153,12 +201,13 @@ fn positions_have_points_by_rank() {
 /// Section 5: how far `a` exceeds a half, for every factor.
 #[test]
 fn coarse_places_exceed_a_half_by_what_is_said() {
-    for (split, expected) in [(SplitOrder::Ruler, 7), (SplitOrder::Center, 10)] {
+    for (split, expected) in [(SplitOrder::Ruler, 7), (SplitOrder::Centre, 10)] {
         let (mut a, mut b) = (0, 0);
         for (parity, least, most) in [(Parity::Odd, 1, 63), (Parity::Even, 2, 64)] {
             for bits in least * ONE..=most * ONE {
                 let context = FactorContext::new(FixedFactor::from_bits(bits), parity, split);
-                let blend = steps(&context, context.half_points - 1).blend.expect("not the middle");
+                let blend =
+                    placement(&context, context.half_points - 1).blend.expect("not the middle");
                 a = a.max(blend.coarse);
                 b = b.max(blend.fine);
             }
@@ -205,8 +254,9 @@ fn table_of_section_12(context: &FactorContext) -> [bool; 2] {
     [any(|pair| pair[0] == pair[1]), any(|pair| pair[0] > pair[1])]
 }
 
-/// Calls `see` with each factor that exceeds an integer of its parity by less than 0.02, whether the table of
-/// section 12 has it as equal or backwards, and a function from domains to outputs with all factors this one.
+/// Calls `see` with each factor that exceeds an integer of its parity by less than 0.02, whether
+/// the table of section 12 has it as equal or backwards, and a function from domains to outputs
+/// with all factors this one.
 fn every_factor_just_above(
     split: SplitOrder,
     parity: Parity,
@@ -228,7 +278,8 @@ fn every_factor_just_above(
     }
 }
 
-/// Section 12: the exceptions with all factors equal. On triangles there are `further` ones outside the table.
+/// Section 12: the exceptions with all factors equal. On triangles there are `further` ones outside
+/// the table.
 fn check_exceptions(split: SplitOrder, parity: Parity, further: u32, flips_on_triangles: bool) {
     let (mut found, mut flipped) = (0, false);
     every_factor_just_above(split, parity, |bits, [equal, backwards], output| {
@@ -262,10 +313,10 @@ fn exceptions_ruler_even() {
 
 #[test]
 fn exceptions_center_odd() {
-    check_exceptions(SplitOrder::Center, Parity::Odd, 678, true);
+    check_exceptions(SplitOrder::Centre, Parity::Odd, 678, true);
 }
 
 #[test]
 fn exceptions_center_even() {
-    check_exceptions(SplitOrder::Center, Parity::Even, 0, true);
+    check_exceptions(SplitOrder::Centre, Parity::Even, 0, true);
 }

@@ -180,7 +180,7 @@ const VALUES: [(&str, u32); 19] = [
     ("OUTPUT_TRIANGLE_CW", OutputPrimitive::TriangleCw as u32),
     ("OUTPUT_TRIANGLE_CCW", OutputPrimitive::TriangleCcw as u32),
     ("RULER", SplitOrder::Ruler as u32),
-    ("CENTER", SplitOrder::Center as u32),
+    ("CENTER", SplitOrder::Centre as u32),
     ("PACKED", PointFormat::Packed as u32),
     ("F32", PointFormat::F32 as u32),
     ("SPECIFICATION", Order::Specification as u32),

@@ -1,8 +1,8 @@
 //! The constants that shaders look up: reciprocals, and the steps of every stitch.
 
-use tess_core::SplitOrder;
 use tess_core::reciprocal::reciprocal;
-use tess_core::stitch::{Diagonals, Side, Step, ring, strip, transition};
+use tess_core::stitch::{Diagonals, ring, strip, transition};
+use tess_core::{Side, SplitOrder, Step};
 
 /// The word of the first reciprocal: those of 1..=64 follow one another.
 pub(crate) const RECIPROCALS_AT: u32 = 0;

@@ -51,13 +51,19 @@ at_each_level! {
 
 at_each_level! {
     /// [`OnePatch::process`] at a level.
-    fn process_one(one: &mut OnePatch, config: Config, domain: Domain, a: u64, b: u64, c: u64) -> Counts
-        = OnePatch::process;
+    fn process_one(
+        one: &mut OnePatch,
+        config: Config,
+        domain: Domain,
+        a: u64,
+        b: u64,
+        c: u64,
+    ) -> Counts = OnePatch::process;
 }
 
 at_each_level! {
-    /// [`kernels::emit::emit`] at a level: points of compact patches by permutes where the level has
-    /// them, otherwise by look-up.
+    /// [`kernels::emit::emit`] at a level: points of compact patches by permutes where the level
+    /// has them, otherwise by look-up.
     fn emit<W: PointWriter, I: IndexFormat>(
         settings: &Settings,
         packets: Packets<'_>,
@@ -149,7 +155,10 @@ mod taps {
 
     at_each_level! {
         /// [`kernels::taps::locations`] at a level.
-        fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) = kernels::taps::locations;
+        fn locations(
+            contexts: &[FactorContext],
+            locations: &mut Vec<u32>,
+        ) = kernels::taps::locations;
     }
 }
 
@@ -166,12 +175,20 @@ mod alone {
 
     at_each_level! {
         /// [`kernel_taps::of_numbers`] at a level.
-        fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool = kernel_taps::of_numbers;
+        fn of_numbers(
+            kernel: Kernel,
+            work: &TapInput,
+            made: &mut TapOutput,
+        ) -> bool = kernel_taps::of_numbers;
     }
 
     at_each_level! {
         /// [`kernel_taps::of_patches`] at a level.
-        fn of_patches(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool = kernel_taps::of_patches;
+        fn of_patches(
+            kernel: Kernel,
+            work: &TapInput,
+            made: &mut TapOutput,
+        ) -> bool = kernel_taps::of_patches;
     }
 
     at_each_level! {

@@ -14,7 +14,7 @@ mod threads;
 #[cfg(test)]
 mod tour;
 
-pub use cpu::level::{Level, LevelUnavailable};
+pub use cpu::level::{Level, LevelUnavailableError};
 pub use data::batch::Batch;
 pub use data::error::{BatchBuffer, Error};
 pub use data::format::{IndexFormat, OutputPoint};
@@ -22,7 +22,7 @@ pub use data::format::{IndexFormat, OutputPoint};
 pub use data::output::ApartBuffers;
 pub use data::output::{BatchCounts, Buffers, ExactOutput, Numbering, Output, PatchRange};
 pub use interface::counted::Counted;
-pub use interface::groups::{BadGroup, group_ranges};
+pub use interface::groups::{BadGroupError, group_ranges};
 #[cfg(all(feature = "taps", feature = "apart"))]
 #[doc(hidden)]
 pub use interface::kernel_taps::{Format, Input, KernelTap};

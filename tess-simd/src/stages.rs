@@ -1,4 +1,5 @@
-//! The stages of one patch, under the core's names, for one packet of patches or for one patch of it.
+//! The stages of one patch, under the core's names, for one packet of patches or for one patch of
+//! it.
 
 pub(crate) mod connect;
 pub(crate) mod counts;

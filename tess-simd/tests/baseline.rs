@@ -1,5 +1,5 @@
-//! Every stage at the baseline level: a small test program that sees a fault anywhere soon. The other
-//! tests have every level and combination of formats and numberings.
+//! Every stage at the baseline level: a small test program that sees a fault anywhere soon. The
+//! other tests have every level and combination of formats and numberings.
 
 #[path = "common/patches.rs"]
 mod patches;
@@ -10,7 +10,7 @@ use tess_core::{
     Config, Counts, Domain, DomainPoint, IsolineFactors, MAX_INDICES, MAX_POINTS, OutputPrimitive,
     Partitioning, PatchFactors, QuadFactors, SplitOrder,
 };
-use tess_simd::{Batch, BatchBuffer, Error, Level, LevelUnavailable, Numbering, Tessellator};
+use tess_simd::{Batch, BatchBuffer, Error, Level, LevelUnavailableError, Numbering, Tessellator};
 
 /// One test, the fastest parts first, so that it ends at the first difference.
 #[test]
@@ -131,11 +131,11 @@ fn messages() {
     let message = "patch 3 has the domain Quad, its batch Triangle; a batch has one domain";
     assert_eq!(Error::MixedDomains { patch: 3, found, expected }.to_string(), message, "domains");
     let message = "this machine cannot run the CPU level avx512";
-    assert_eq!(LevelUnavailable(Level::Avx512).to_string(), message, "a level");
+    assert_eq!(LevelUnavailableError(Level::Avx512).to_string(), message, "a level");
 }
 
-/// `Tessellator::memory` is the memory that a tessellator allocates, and a little more for itself. Tables
-/// that it shares are there before.
+/// `Tessellator::memory` is the memory that a tessellator allocates, and a little more for itself.
+/// Tables that it shares are there before.
 fn memory() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     drop(Tessellator::new(config));

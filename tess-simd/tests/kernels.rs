@@ -1,6 +1,7 @@
 //! Every kernel at every level beside the model's stage: see `kernels/table.rs`.
 //!
-//! `TESS_KERNEL="stages/points/quad 6"` runs one entry in one round, as a message says; a name alone runs all its rounds.
+//! `TESS_KERNEL="stages/points/quad 6"` runs one entry in one round, as a message says; a name
+//! alone runs all its rounds.
 
 #[path = "kernels/table.rs"]
 mod table;
@@ -11,7 +12,8 @@ use table::{Entry, SEED, TABLE};
 use tess_simd::{Kernel, Level};
 use tess_testkit::levels::levels;
 
-/// Rounds in which every partitioning, output and split order occurs, with random inputs and with extreme ones.
+/// Rounds in which every partitioning, output and split order occurs, with random inputs and with
+/// extreme ones.
 const ROUNDS: u32 = 64;
 
 /// The first difference of an entry, if there is one.

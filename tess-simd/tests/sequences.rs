@@ -1,12 +1,12 @@
 //! Any sequence of calls on one tessellator, compared with the core after every call.
 //!
-//! A sequence is drawn from every call there is: batches of runs in every layout, buffers with and without ranges that
-//! fit, are larger or lack an element, both numberings up to the largest index, outputs that are kept, single
-//! patches, and what changes the tessellator between. A failure shrinks to the smallest sequence and prints it as a
-//! test for `sequences/found.rs`.
+//! A sequence is drawn from every call there is: batches of runs in every layout, buffers with and
+//! without ranges that fit, are larger or lack an element, both numberings up to the largest index,
+//! outputs that are kept, single patches, and what changes the tessellator between. A failure
+//! shrinks to the smallest sequence and prints it as a test for `sequences/found.rs`.
 //!
-//! `TESS_LONG_SECONDS=600` draws other sequences in every run, for so many seconds at each level, and prints how
-//! many there were.
+//! `TESS_LONG_SECONDS=600` draws other sequences in every run, for so many seconds at each level,
+//! and prints how many there were.
 #![cfg(not(target_family = "wasm"))]
 
 #[path = "sequences/buffers.rs"]

@@ -3,7 +3,7 @@
 use crate::displaced::{self, DisplacedPatch};
 use crate::patch::{Sample, SurfacePatch};
 use crate::samples;
-use tess_simd::{Level, LevelUnavailable, at_each_level};
+use tess_simd::{Level, LevelUnavailableError, at_each_level};
 
 at_each_level! {
     /// [`samples::samples`] at a level.
@@ -26,13 +26,13 @@ impl SurfacePatch {
     /// [`SurfacePatch::samples`] with the instructions of a CPU level, which gives the same bits as every other.
     ///
     /// # Errors
-    /// [`LevelUnavailable`] if this machine cannot run the level.
+    /// [`LevelUnavailableError`] if this machine cannot run the level.
     pub fn samples_at_level(
         &self,
         level: Level,
         points: &[[f32; 2]],
         samples: &mut [Sample],
-    ) -> Result<(), LevelUnavailable> {
+    ) -> Result<(), LevelUnavailableError> {
         level.require()?;
         plain(level, self, points, samples);
         Ok(())
@@ -57,13 +57,13 @@ impl DisplacedPatch<'_> {
     /// [`DisplacedPatch::samples`] with the instructions of a CPU level, which gives the same bits as every other.
     ///
     /// # Errors
-    /// [`LevelUnavailable`] if this machine cannot run the level.
+    /// [`LevelUnavailableError`] if this machine cannot run the level.
     pub fn samples_at_level(
         &self,
         level: Level,
         points: &[[f32; 2]],
         samples: &mut [Sample],
-    ) -> Result<(), LevelUnavailable> {
+    ) -> Result<(), LevelUnavailableError> {
         level.require()?;
         of_displaced(level, self, points, samples);
         Ok(())

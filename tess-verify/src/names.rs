@@ -85,7 +85,7 @@ named!(OutputPrimitive: "output primitive" {
     TriangleCw = "triangle_cw",
     TriangleCcw = "triangle_ccw",
 });
-named!(SplitOrder: "split order" { Ruler = "ruler", Center = "center", });
+named!(SplitOrder: "split order" { Ruler = "ruler", Centre = "center", });
 named!(Parity: "parity" { Even = "even", Odd = "odd", });
 named!(Reduction: "reduction" { Min = "min", Max = "max", Average = "average", });
 named!(QuadAxes: "axis" { One = "1", Two = "2", });

@@ -81,14 +81,6 @@ impl<R: BufRead> VectorFile<R> {
         Self::open(name.as_ref(), reader, Emptiness::Refused)
     }
 
-    /// [`Self::new`], for a file that may have no record: an empty shard's, or the failures of a run without any.
-    ///
-    /// # Errors
-    /// As for [`Self::new`].
-    pub fn maybe_empty(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
-        Self::open(name.as_ref(), reader, Emptiness::Accepted)
-    }
-
     fn open(name: &str, reader: R, emptiness: Emptiness) -> Result<Self, VectorError> {
         let mut lines = Lines::new(name, reader);
         let header = match lines.next()? {

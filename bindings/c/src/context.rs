@@ -41,7 +41,7 @@ pub(crate) fn place_steps(context: &FactorContext, p: u32) -> Result<[u32; 6], T
     if p >= context.points {
         return Err(TESS_OUT_OF_RANGE);
     }
-    let steps = place::steps(context, p);
+    let steps = place::placement(context, p);
     let (coarse, fine) = steps.blend.map_or((0, 0), |blend| (blend.coarse, blend.fine));
     let (flip, location) = (u32::from(steps.flip), steps.location.to_bits());
     Ok([flip, steps.position, coarse, fine, steps.half_location, location])

@@ -67,7 +67,7 @@ pub unsafe extern "C" fn tess_prepare(
         let requested = unsafe { types::factors(domain, requested, factor_count) }?;
         boundary::check(unrounded)?;
         boundary::check(rounded)?;
-        let prepared = prepare(partitioning, reduction, Request::new(requested, axes));
+        let prepared = prepare(partitioning, reduction, Request::from_record(requested, axes));
         // SAFETY: writable for the factors of the domain, which `factor_count` was checked to be.
         unsafe { store(prepared.unrounded, unrounded) }?;
         // SAFETY: as above.

@@ -239,7 +239,7 @@ mod tests {
                 expected(
                     Partitioning::FractionalEven,
                     OutputPrimitive::TriangleCcw,
-                    SplitOrder::Center
+                    SplitOrder::Centre
                 ),
                 Domain::Quad
             )),

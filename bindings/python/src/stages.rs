@@ -111,5 +111,5 @@ pub(crate) fn placed(context: &FactorContext, p: u32) -> PyResult<tess_core::pla
         let message = format!("there is no point {p}: the edge has {points} points, from 0");
         return Err(crate::errors::no_such_element(message));
     }
-    Ok(tess_core::place::steps(context, p))
+    Ok(tess_core::place::placement(context, p))
 }

@@ -81,8 +81,8 @@ fn a_known_difference_is_no_mismatch() {
         let known = Known::read("known", line.as_bytes(), None, "2026-01-01").expect("a baseline");
         let rows = verify(&mut [faulty()], subject, Shard::WHOLE, &known, &|_, _| {});
         let row = rows.expect("the backend runs").remove(0);
-        let (_, gone, wrong) = known.outcome(true);
-        (row.mismatches, row.known, gone.len() + wrong.len())
+        let outcome = known.outcome(true);
+        (row.mismatches, row.known, outcome.gone.len() + outcome.faults.len())
     };
     assert_eq!(with(line), (0, 1, 0), "excused");
     let other = "case isoline integer point ruler 12345678 3f800000";

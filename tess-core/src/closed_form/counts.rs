@@ -45,7 +45,7 @@ pub fn counts(config: Config, patch: &ProcessedPatch) -> Counts {
 /// Points, lines that join them, and triangles.
 type Sizes = [u32; 3];
 
-/// Each line of an isoline patch is joined alone.
+/// The lines of an isoline patch are not joined to each other.
 fn isoline(factors: &IsolineFactors<ProcessedFactor>) -> Sizes {
     let lines = line_count(factors);
     let points = factors.detail.context.points;
@@ -68,7 +68,8 @@ fn quad(factors: &QuadFactors<ProcessedFactor>) -> Sizes {
     of_disc(boundary, (u - 2) * (v - 2))
 }
 
-/// Euler's formula for a disc: triangles = 2 * points - 2 - boundary. One line joins all points in order.
+/// Euler's formula for a disc: triangles = 2 * points - 2 - boundary. One line joins all points in
+/// order.
 const fn of_disc(boundary: u32, interior: u32) -> Sizes {
     let points = boundary + interior;
     [points, points - 1, 2 * points - 2 - boundary]

@@ -1,14 +1,15 @@
-//! The random-access formulation: any point or primitive from its number alone, in constant time.
+//! The random-access formulation: any point or primitive from only its number, in constant time.
 //!
-//! Parallel hardware and shaders make element `i` without making those before it. `Patch::locate_point`,
-//! `point`, `locate_primitive` and `primitive` call this module, and `tess-gpu`'s shaders have the same
-//! stages. It is written from closed forms, not from the sequential walks of `model::points` and `model::connect`, and a
-//! test compares the two on every topology.
+//! Parallel hardware and shaders make element `i` without making those before it.
+//! `Patch::locate_point`, `point`, `locate_primitive` and `primitive` call this module, and
+//! `tess-gpu`'s shaders have the same stages. It is written from closed forms, not from the
+//! sequential walks of `model::points` and `model::connect`, and a test compares the two on every
+//! topology.
 //!
 //! # The data
 //!
-//! A patch's points and triangles are lists of slots whose sizes follow from point counts. With `n` the
-//! points of an outer edge and `u`, `v` those of the inside factors, a quad has:
+//! A patch's points and triangles are lists of slots whose sizes follow from point counts. With `n`
+//! the points of an outer edge and `u`, `v` those of the inside factors, a quad has:
 //!
 //! ```text
 //! points      | outer edge 0..4    | ring 1: edges 0..4  | ring 2 ... | centre row
@@ -19,31 +20,34 @@
 //! ```
 //!
 //! The sizes of a ring are an arithmetic progression, so the elements before a ring are a product
-//! (`quad_points_before`, `triangles_before`). A number is located in three steps: outer part or not; the
-//! ring, by a binary search over these products; the slot in the ring, by at most three subtractions.
+//! (`quad_points_before`, `triangles_before`). A number is located in three steps: outer part or
+//! not; the ring, by a binary search over these products; the slot in the ring, by at most three
+//! subtractions.
 //!
 //! # One patch
 //!
-//! The quad (3, 4.5, 5, 6; 4, 7), fractional even, has 5, 7, 7, 7 points on its edges, and u = 5, v = 9. Its
-//! outer ring has 4 + 6 + 6 + 6 = 22 points, ring 1 has 6 + 2 + 6 + 2 = 16, the centre row 5. Point 30 is
-//! number 8 of the interior: ring 1, and behind the 6 + 2 points of edges 0 and 1, so the first of edge 2.
-//! The transitions have 10, 8, 12 and 8 triangles, ring 2 has 10, 2, 10 and 2. Triangle 45 is number 7 behind
-//! the 38 of the transitions: ring 2, edge 0, step 7. The test `the_worked_patch` has these numbers.
+//! The quad (3, 4.5, 5, 6; 4, 7), fractional even, has 5, 7, 7, 7 points on its edges, and u = 5, v
+//! = 9. Its outer ring has 4 + 6 + 6 + 6 = 22 points, ring 1 has 6 + 2 + 6 + 2 = 16, the centre row
+//! 5. Point 30 is number 8 of the interior: ring 1, and after the 6 + 2 points of edges 0 and 1,
+//! so the first of edge 2. The transitions have 10, 8, 12 and 8 triangles, ring 2 has 10, 2, 10 and
+//! 2. Triangle 45 is number 7 after the 38 of the transitions: ring 2, edge 0, step 7. The test
+//! `the_worked_patch` has these numbers.
 //!
 //! # What holds
 //!
-//! - The callers have checked that the number is below the patch's count. Beyond it the last slot would take
-//!   what is left, and the origin would be of no element.
-//! - The products grow with the ring, and the first is at most the number. The search relies on both.
+//! - The callers have checked that the number is below the patch's count. Beyond it the last slot
+//!   would take what is left, and the origin would be of no element.
+//! - The products grow with the ring, and the first is at most the number. The search relies on
+//!   both.
 //! - Nothing overflows: counts are below 2^15, and products of a ring and a count below 2^13.
-//! - Origins are pure values. `point` and `primitive` take any of them, and give `None` for one that
-//!   `locate` never gives for this patch.
+//! - Origins are pure values. `point` and `primitive` take any of them, and give `None` for one
+//!   that `locate` never gives for this patch.
 //!
 //! # Why not simpler
 //!
-//! Walking to element `i` takes as many steps as there are elements before it, up to 4225 for a point. Solving
-//! the quadratic for the ring would take a square root, which this crate and WGSL without floats lack. The
-//! search has five steps, as a patch has at most 32 rings.
+//! Walking to element `i` takes as many steps as there are elements before it, up to 4225 for a
+//! point. Solving the quadratic for the ring would take a square root, which this crate and WGSL
+//! without floats lack. The search has five steps, as a patch has at most 32 rings.
 
 mod centre_strip;
 pub(crate) mod origin;
@@ -52,8 +56,8 @@ pub(crate) mod primitive;
 mod rings;
 mod stitch;
 
-/// The largest `ring` in `1..end` with `first(ring) <= target`, found bit by bit: five steps for
-/// the at most 32 rings of a patch. `first` grows with the ring and `first(1) <= target`.
+/// The largest `ring` in `1..end` with `first(ring) <= target`, found bit by bit: five steps, because
+/// a patch has at most 32 rings. `first` grows with the ring and `first(1) <= target`.
 fn last_ring_at_or_before(target: u32, end: u32, first: impl Fn(u32) -> u32) -> u32 {
     let mut ring = 1;
     for step in [16, 8, 4, 2, 1] {

@@ -67,7 +67,7 @@ pub(crate) fn stitches(factors: &PatchFactors<ProcessedFactor>, emit: impl FnMut
 }
 
 /// The triangles of a minimum patch (spec section 3, step 8). Isolines have none.
-const fn minimum_triangles(domain: Domain) -> &'static [Triangle] {
+pub(crate) const fn minimum_triangles(domain: Domain) -> &'static [Triangle] {
     match domain {
         Domain::Isoline => &[],
         Domain::Triangle => &[[0, 1, 2]],

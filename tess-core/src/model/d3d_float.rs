@@ -1,8 +1,9 @@
 //! The few binary32 operations that factors go through before they become integers.
 //!
-//! Comparisons are made on bit patterns, which order as numbers do where they are not negative. A NaN is
-//! not greater than anything. Float comparisons would not do: compilers may turn them into maximum
-//! instructions, and `fmaxnm` of ARM returns a signalling NaN where a comparison takes the other number.
+//! Comparisons are made on bit patterns, which order as numbers do where they are not negative. A
+//! NaN is not greater than anything. Float comparisons would not do: compilers may turn them into
+//! maximum instructions, and `fmaxnm` of ARM returns a signalling NaN where a comparison takes the
+//! other number.
 
 /// The bit pattern of infinity. Greater patterns are NaNs or have a sign.
 const INFINITY: u32 = f32::INFINITY.to_bits();

@@ -47,7 +47,7 @@ impl FactorContext {
         }
     }
 
-    /// The half points that a transition stitch walks: [`Self::half_points`], less one if odd.
+    /// Positions of the half edge that a transition visits: [`Self::half_points`], less one if odd.
     #[must_use]
     pub const fn half_steps(&self) -> u32 {
         self.half_points - self.parity.odd()
@@ -62,8 +62,8 @@ const fn segment_length(segments: u32) -> u32 {
     }
 }
 
-/// The range that factor processing guarantees already; it makes every reciprocal below exist. Legal even
-/// factors are 1 (treated as 2) and 2..=64.
+/// The range that factor processing guarantees already; it makes every reciprocal below exist.
+/// Legal even factors are 1 (treated as 2) and 2..=64.
 const fn clamp_to_range(factor: FixedFactor, parity: Parity) -> FixedFactor {
     let lowest = if factor.to_bits() <= ONE { ONE } else { (2 - parity.odd()) << 16 };
     let highest = (64 - parity.odd()) << 16;
@@ -91,8 +91,8 @@ const fn split_position(
         (SplitOrder::Ruler, Parity::Odd) if floor_points == 1 => 0,
         (SplitOrder::Ruler, Parity::Odd) => 2 * drop_most_significant_bit(floor_points - 1) + 1,
         (SplitOrder::Ruler, Parity::Even) => 2 * drop_most_significant_bit(floor_points) + 1,
-        (SplitOrder::Center, Parity::Odd) => ceil_points - 2,
-        (SplitOrder::Center, Parity::Even) => ceil_points - 1,
+        (SplitOrder::Centre, Parity::Odd) => ceil_points - 2,
+        (SplitOrder::Centre, Parity::Even) => ceil_points - 1,
     }
 }
 

@@ -19,7 +19,7 @@ pub struct ProcessedFactor {
     pub context: FactorContext,
 }
 
-/// A patch behind factor processing.
+/// A patch after factor processing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProcessedPatch {
     /// An outer factor is zero, negative or NaN: no points, no indices.
@@ -109,7 +109,8 @@ fn process_isoline(config: Config, raw: IsolineFactors) -> ProcessedPatch {
     }))
 }
 
-/// Factors of one role, at least one. Equal neighbours, which most patches have, are processed once.
+/// Factors of one role, at least one. Equal neighbours, which most patches have, are processed
+/// once.
 fn process_each<const N: usize>(
     config: Config,
     role: Role,
@@ -128,7 +129,7 @@ fn process_each<const N: usize>(
 }
 
 /// Steps 2 or 5, with this lower bound, then 3, 6 and 7.
-#[inline(always)] // written in place; a copy of what was just written would wait for it
+#[inline(always)] // built in place: a copy would stall on store forwarding
 fn process_factor(config: Config, role: Role, low: f32, raw: f32) -> ProcessedFactor {
     let (_, high) = config.partitioning.range();
     let clamped = clamp(raw, (low, high));

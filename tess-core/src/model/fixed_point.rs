@@ -21,7 +21,7 @@ pub struct FixedFactor(u32);
 impl FixedFactor {
     /// The factor 1.
     pub const ONE: Self = Self(ONE);
-    /// All 31 bits set: what factors of 2^15 and more saturate to.
+    /// All 31 bits set. Factors of 2^15 and more saturate to it.
     pub const MAX: Self = Self(0x7FFF_FFFF);
 
     /// The factor with these 15.16 bits. The top bit is ignored.
@@ -42,9 +42,10 @@ impl FixedFactor {
         U16F16::from_bits(self.0)
     }
 
-    /// Rounds a binary32 to the nearest multiple of 2^-16, ties to even, by its bits alone.
+    /// Rounds a binary32 to the nearest multiple of 2^-16, ties to even, using only its bits.
     ///
-    /// NaN, negative numbers and -0 give 0; 2^15 and more give [`FixedFactor::MAX`]. Spec section 2.
+    /// NaN, negative numbers and -0 give 0; 2^15 and more give [`FixedFactor::MAX`]. Spec section
+    /// 2.
     #[must_use]
     pub const fn from_f32(value: f32) -> Self {
         let bits = value.to_bits();
@@ -89,8 +90,8 @@ pub const fn ceil(x: u32) -> u32 {
     floor(x + 0xFFFF)
 }
 
-/// The binary32 value of a domain coordinate, `bits / 65536`: exact below 256, and coordinates are at most one.
-/// A larger number is rounded toward zero.
+/// The binary32 value of a domain coordinate, `bits / 65536`: exact below 256, and coordinates are
+/// at most one. A larger number is rounded toward zero.
 ///
 /// Built from the bits: a number of at most 24 bits fits a binary32 mantissa.
 #[must_use]

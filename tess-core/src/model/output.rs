@@ -20,7 +20,8 @@ impl DomainPoint {
         Self { u: U16F16::from_bits(u), v: U16F16::from_bits(v) }
     }
 
-    /// The coordinates as binary32, exactly; what is 256 and more, and so no coordinate, is rounded toward zero.
+    /// The coordinates as binary32, exactly. Values of 256 or more, which are not coordinates, are
+    /// rounded toward zero.
     #[must_use]
     pub const fn to_f32(self) -> [f32; 2] {
         [coordinate_to_f32(self.u), coordinate_to_f32(self.v)]

@@ -1,4 +1,4 @@
-//! The raw factors of a patch: which there are, and in which order (spec section 1).
+//! The raw factors of each domain, and their order (spec section 1).
 
 use crate::model::state::Domain;
 
@@ -56,7 +56,7 @@ pub enum PatchFactors<T = f32> {
 }
 
 /// The conversions between a domain's factors and an array in the specification's order (section
-/// 1): this list of fields is the one place that says what that order is.
+/// 1): this list of fields is the one definition of that order.
 macro_rules! factor_order {
     ($factors:ident, $domain:ident, $count:literal, [$($field:ident),*]) => {
         impl<T> From<[T; $count]> for $factors<T> {
@@ -204,7 +204,7 @@ impl<T: Copy> PatchFactors<T> {
     /// The factors in the specification's order: outer, then inside.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = T> + Clone + use<T> {
         let (array, count) = match *self {
-            // What fills the array up is not taken.
+            // `take` drops the padding.
             Self::Isoline(IsolineFactors { density, detail }) => {
                 ([density, detail, detail, detail, detail, detail], 2)
             }

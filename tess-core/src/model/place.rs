@@ -1,4 +1,4 @@
-//! Where a point lies along one dimension (spec section 5).
+//! The location of a point along one dimension (spec section 5).
 
 use crate::model::factor_context::FactorContext;
 use crate::model::fixed_point::{HALF, ONE};
@@ -12,7 +12,8 @@ pub struct Placement {
     pub flip: bool,
     /// The position on the half edge, `0..=half_points`.
     pub position: u32,
-    /// The two locations that are blended on the half edge; `None` in the exact middle of an even edge.
+    /// The two locations that are blended on the half edge; `None` in the exact middle of an even
+    /// edge.
     pub blend: Option<Blend>,
     /// The location on the half edge, before mirroring, 16 fraction bits.
     pub half_location: u32,
@@ -50,7 +51,7 @@ impl Blend {
     /// sum stays below 2^31 + 2^20 + `HALF`.
     ///
     /// # Panics
-    /// Where overflow is checked, if a place or the weight is larger than its field says.
+    /// Where overflow is checked, if a place or the weight exceeds its field's range.
     #[must_use]
     pub const fn half_location(self) -> u32 {
         let Self { coarse, fine, fraction } = self;
@@ -60,15 +61,15 @@ impl Blend {
 
 /// The location of point `p` of an edge, as the split order places it.
 ///
-/// In: a context that [`FactorContext::new`] made, and `p < context.points`; a larger `p` counts as the last point.
-/// Out: 16.16 in `0..=ONE`, symmetric: `place(c, p) + place(c, c.points - 1 - p) == ONE`. Spec section 5 (D3D11.3
-/// 11.7.13, 11.7.14).
+/// In: a context that [`FactorContext::new`] made, and `p < context.points`; a larger `p` counts as
+/// the last point. Out: 16.16 in `0..=ONE`, symmetric: `place(c, p) + place(c, c.points - 1 - p) ==
+/// ONE`. Spec section 5 (D3D11.3 11.7.13, 11.7.14).
 ///
 /// # Panics
 /// Where overflow is checked, if no factor has this context.
 #[must_use]
 pub const fn place(context: &FactorContext, p: u32) -> U16F16 {
-    steps(context, p).location
+    placement(context, p).location
 }
 
 /// [`place`] with every intermediate value.
@@ -76,7 +77,7 @@ pub const fn place(context: &FactorContext, p: u32) -> U16F16 {
 /// # Panics
 /// As [`place`].
 #[must_use]
-pub const fn steps(context: &FactorContext, p: u32) -> Placement {
+pub const fn placement(context: &FactorContext, p: u32) -> Placement {
     let p = if p < context.points { p } else { context.points - 1 };
     let flip = p >= context.half_points;
     // p < points = 2 * half_points + 1 - odd, so the mirrored position is not negative.

@@ -25,7 +25,7 @@ pub(crate) fn emit(patch: &ProcessedPatch, sink: &mut impl Sink) {
 }
 
 /// The corners of a minimum patch (spec section 3, step 8). Isolines have none.
-const fn minimum_corners(domain: Domain) -> &'static [DomainPoint] {
+pub(crate) const fn minimum_corners(domain: Domain) -> &'static [DomainPoint] {
     const TRIANGLE: [DomainPoint; 3] = [
         DomainPoint::from_bits(0, ONE),
         DomainPoint::from_bits(0, 0),

@@ -8,8 +8,8 @@ const RULER: [u8; 33] = [
     1, 24, 12, 25, 6, 26, 13, 27, 3, 28, 14, 29, 7, 30, 15, 31,
 ];
 
-/// Row `half`: the positions in 1..=32 of ruler order whose rank is below `half`, ascending. Each rank in
-/// 1..=32 has one position, so there are `half - 1`; zeros fill the row up.
+/// Row `half`: the positions in 1..=32 of ruler order whose rank is below `half`, ascending. Each
+/// rank in 1..=32 has one position, so the first `half - 1` entries are used; the rest are 0.
 const POSITIONS: [[u8; 32]; 34] = {
     let mut rows = [[0; 32]; 34];
     let mut half = 0;
@@ -36,7 +36,7 @@ pub const fn rank(split: SplitOrder, k: u32) -> Option<u32> {
     }
     Some(match split {
         SplitOrder::Ruler => RULER[k as usize] as u32,
-        SplitOrder::Center => k,
+        SplitOrder::Centre => k,
     })
 }
 
@@ -46,7 +46,7 @@ pub const fn has_point(split: SplitOrder, k: u32, half: u32) -> bool {
     k <= 32
         && match split {
             SplitOrder::Ruler => (RULER[k as usize] as u32) < half,
-            SplitOrder::Center => k < half,
+            SplitOrder::Centre => k < half,
         }
 }
 
@@ -56,7 +56,7 @@ pub fn positions(split: SplitOrder, half: u32) -> &'static [u8] {
     let half = half.min(33) as usize;
     let row = match split {
         SplitOrder::Ruler => half,
-        SplitOrder::Center => 33, // all positions
+        SplitOrder::Centre => 33, // all positions
     };
     &POSITIONS[row][..half.saturating_sub(1)]
 }

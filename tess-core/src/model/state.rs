@@ -25,7 +25,7 @@ pub enum Partitioning {
     FractionalEven,
 }
 
-/// The elements of the index list. Clockwise is seen with v pointing down (spec section 7).
+/// The elements of the index list. Clockwise as seen with v pointing down (spec section 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum OutputPrimitive {
     /// One index per domain point.
@@ -58,7 +58,7 @@ pub enum SplitOrder {
     #[default]
     Ruler,
     /// From the centre outwards, as the Xbox 360 does (spec section 10).
-    Center,
+    Centre,
 }
 
 /// Whether an edge has an odd or an even number of segments.
@@ -134,5 +134,5 @@ impl OutputPrimitive {
 
 impl SplitOrder {
     /// Both split orders.
-    pub const ALL: [Self; 2] = [Self::Ruler, Self::Center];
+    pub const ALL: [Self; 2] = [Self::Ruler, Self::Centre];
 }

@@ -1,7 +1,7 @@
 //! Stitching two rows with triangles (spec sections 7.2 to 7.4).
 //!
 //! A stitch is a sequence of steps. Each step is one triangle, clockwise, and moves on by one entry
-//! of one of the two rows; it depends on point counts alone, never on what the rows hold.
+//! of one of the two rows; it depends only on point counts, never on the entries of the rows.
 
 use crate::model::row::Row;
 use crate::model::ruler::{has_point, positions};
@@ -66,7 +66,7 @@ const fn index((outer, inner): (&Row, &Row), (side, entry): (Side, u32)) -> u32 
     }
 }
 
-/// A stitch of a patch: two rows, and what is between them.
+/// A stitch of a patch: two rows, and the triangles between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stitch {
     /// Where it is, and by which rule its steps are made.
@@ -103,6 +103,18 @@ pub enum StitchKind {
 }
 
 impl Stitch {
+    /// The centre triangle of the innermost ring with this first index: its first edge, and the
+    /// corner opposite.
+    pub(crate) const fn centre_triangle(first: u32) -> Self {
+        Self {
+            kind: StitchKind::CentreTriangle,
+            outer: Row::ascending(first),
+            outer_points: 2,
+            inner: Row::ascending(first.wrapping_add(2)),
+            inner_points: 1,
+        }
+    }
+
     /// Sends the steps to `to`, in order.
     pub fn steps(&self, split: SplitOrder, to: impl FnMut(Step)) {
         match self.kind {
@@ -121,6 +133,15 @@ impl Stitch {
         let Self { outer, inner, .. } = *self;
         self.steps(split, |step| emit(step.triangle(&outer, &inner)));
     }
+}
+
+/// The innermost ring of a triangle patch whose inside factor is odd, a single triangle: its
+/// vertices, clockwise, from its first index. Spec section 7.4.
+#[must_use]
+pub const fn centre_triangle(first: u32) -> [u32; 3] {
+    let step = Step { outer: 0, inner: 0, advances: Side::Outer, begins: Side::Outer };
+    let Stitch { outer, inner, .. } = Stitch::centre_triangle(first);
+    step.triangle(&outer, &inner)
 }
 
 /// How far a stitch has come along its two rows, and where its steps go.

@@ -29,7 +29,7 @@ pub(crate) fn config(names: &[&str]) -> Config {
     };
     let split = match names[2] {
         "ruler" => SplitOrder::Ruler,
-        "center" => SplitOrder::Center,
+        "center" => SplitOrder::Centre,
         name => panic!("no split order: {name}"),
     };
     Config { partitioning, output, split }

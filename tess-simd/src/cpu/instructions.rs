@@ -1,5 +1,5 @@
-//! The instructions of each level, in three forms: as the machine is asked for them, as the functions that use
-//! intrinsics are given them, and as `multiversion` is told them.
+//! The instructions of each level, in three forms: as the machine is asked for them, as the
+//! functions that use intrinsics are given them, and as `multiversion` is told them.
 
 use super::level::Level;
 
@@ -11,8 +11,9 @@ macro_rules! all_of {
     };
 }
 
-/// Whether this machine can run a level: it has the target's instructions and those that `multiversion` asks for
-/// beside them. On a processor that lacks one of these it would run what was compiled for the baseline.
+/// Whether this machine can run a level: it has the target's instructions and those that
+/// `multiversion` asks for beside them. On a processor that lacks one of these it would run what
+/// was compiled for the baseline.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub(super) fn has(level: Level) -> bool {
     match level {
@@ -20,8 +21,9 @@ pub(super) fn has(level: Level) -> bool {
         Level::Avx2 => all_of!("avx2" "bmi1" "bmi2" "lzcnt" "popcnt"),
         Level::Avx512 => {
             has(Level::Avx2)
-                && all_of!("avx512f" "avx512bw" "avx512cd" "avx512dq" "avx512vl" "gfni" "vaes" "vpclmulqdq")
-                && all_of!("avx512bitalg" "avx512ifma" "avx512vbmi" "avx512vbmi2" "avx512vnni" "avx512vpopcntdq")
+                && all_of!("avx512f" "avx512bw" "avx512cd" "avx512dq" "avx512vl")
+                && all_of!("gfni" "vaes" "vpclmulqdq" "avx512bitalg" "avx512ifma")
+                && all_of!("avx512vbmi" "avx512vbmi2" "avx512vnni" "avx512vpopcntdq")
         }
     }
 }
@@ -32,7 +34,8 @@ pub(super) const fn has(level: Level) -> bool {
     matches!(level, Level::Baseline)
 }
 
-/// Defines functions that may call the intrinsics of AVX-512. Only functions of that level may call them.
+/// Defines functions that may call the intrinsics of AVX-512. Only functions of that level may call
+/// them.
 #[cfg(target_arch = "x86_64")]
 macro_rules! with_avx512 {
     ($($function:item)*) => {
@@ -51,7 +54,7 @@ pub(crate) use with_avx512;
 /// availability was checked for ([`Level::is_available`] asks for the same instructions). With
 /// `avx512 = $special`, that level runs `$special` instead, a function of `with_avx512`.
 ///
-/// For this project's crates alone; one that uses it depends on `multiversion`.
+/// Only for this project's crates; one that uses it depends on `multiversion`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! at_each_level {
@@ -76,8 +79,8 @@ macro_rules! at_each_level {
             fn avx2 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
                 multiversion::target::match_target! {
                     "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt" => $kernel($($arg),*),
-                    // For processors without the level's instructions. It never runs, so it need not be
-                    // an instance of the kernel.
+                    // For processors without the level's instructions. It never runs, so it need
+                    // not be an instance of the kernel.
                     _ => self::$name($crate::Level::Baseline, $($arg),*),
                 }
             }

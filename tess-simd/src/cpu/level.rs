@@ -11,7 +11,7 @@ pub enum Level {
     Baseline,
     /// AVX2 on x86-64.
     Avx2,
-    /// AVX-512 on x86-64, as processors have it from Ice Lake and Zen 4 on.
+    /// AVX-512 on x86-64, as processors have it since Ice Lake and Zen 4.
     Avx512,
 }
 
@@ -39,9 +39,9 @@ impl Level {
     /// Nothing if this machine can run the level.
     ///
     /// # Errors
-    /// [`LevelUnavailable`] if it, or this build, cannot.
-    pub fn require(self) -> Result<(), LevelUnavailable> {
-        if self.is_available() { Ok(()) } else { Err(LevelUnavailable(self)) }
+    /// [`LevelUnavailableError`] if it, or this build, cannot.
+    pub fn require(self) -> Result<(), LevelUnavailableError> {
+        if self.is_available() { Ok(()) } else { Err(LevelUnavailableError(self)) }
     }
 
     /// The most capable level that this machine can run.
@@ -59,12 +59,12 @@ impl fmt::Display for Level {
 
 /// This machine, or this build, cannot run a CPU level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LevelUnavailable(pub Level);
+pub struct LevelUnavailableError(pub Level);
 
-impl fmt::Display for LevelUnavailable {
+impl fmt::Display for LevelUnavailableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "this machine cannot run the CPU level {}", self.0)
     }
 }
 
-impl core::error::Error for LevelUnavailable {}
+impl core::error::Error for LevelUnavailableError {}

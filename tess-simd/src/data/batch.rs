@@ -5,8 +5,9 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use tess_core::{Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
 
-/// The raw factors of patches of one domain, in one of three layouts: one structure a patch, as a hull shader
-/// writes them; the core's [`PatchFactors`]; or one slice a factor (columns). `From` converts each of them.
+/// The raw factors of patches of one domain, in one of three layouts: one structure a patch, as a
+/// hull shader writes them; the core's [`PatchFactors`]; or one slice a factor (columns). `From`
+/// converts each of them.
 ///
 /// Every bit pattern of every factor is valid. The patches must have one domain, and the columns
 /// one length: [`Tessellator::count`](crate::Tessellator::count) returns an error otherwise.
@@ -78,8 +79,8 @@ from_columns!(QuadFactors<&'a [f32]>);
 from_columns!(PatchFactors<&'a [f32]>);
 
 impl Batch<'_> {
-    /// The domain of its patches. For [`PatchFactors`] it is the first patch's domain, and quad if there is no
-    /// patch.
+    /// The domain of its patches. For [`PatchFactors`] it is the first patch's domain, and quad if
+    /// there is no patch.
     #[must_use]
     pub fn domain(&self) -> Domain {
         match self {
@@ -134,7 +135,7 @@ impl Batch<'_> {
         }
     }
 
-    /// The patches of a range; `None` if it does not lie within the batch.
+    /// The patches of a range; `None` if it exceeds the batch.
     ///
     /// ```
     /// # use tess_simd::Batch;
@@ -149,8 +150,8 @@ impl Batch<'_> {
         (range.start <= range.end && range.end <= self.len()).then(|| self.slice(&range))
     }
 
-    /// Length of the run of patches with the same factors, bit for bit, that begins with patch `first`. 0 if there is
-    /// no such patch.
+    /// Length of the run of patches with the same factors, bit for bit, that begins with patch
+    /// `first`. 0 if there is no such patch.
     #[inline(always)]
     pub(crate) fn run(&self, first: usize) -> usize {
         let quads = |a: &QuadFactors, b: &QuadFactors| differ(*a, *b);
@@ -168,7 +169,7 @@ impl Batch<'_> {
         }
     }
 
-    /// The patches of a range that lies within it.
+    /// The patches of a range within it.
     pub(crate) fn slice(&self, range: &Range<usize>) -> Self {
         match *self {
             Self::Isolines(patches) => Self::Isolines(part(patches, range)),
@@ -210,8 +211,8 @@ fn differ<const N: usize>(a: impl Into<[f32; N]>, b: impl Into<[f32; N]>) -> u32
     different
 }
 
-/// How many patches, from the first on, are like it in every column. Looks twice as far as the columns
-/// have agreed so far: one of them may stay the same where another one does not.
+/// How many patches, from the first on, are like it in every column. Looks twice as far as the
+/// columns have agreed so far: one of them may stay the same where another one does not.
 fn run_of_columns(columns: &PatchFactors<&[f32]>, first: usize) -> usize {
     let mut sight = 16;
     loop {

@@ -6,8 +6,8 @@ use tess_core::{Domain, PatchFactors};
 
 /// The factors of up to [`Chunk::PATCHES`] patches, factor by factor.
 ///
-/// Packets are read from here and not from the batch: a wide load stalls if narrow stores of its elements are
-/// recent.
+/// Packets are read from here and not from the batch: a wide load stalls if narrow stores of its
+/// elements are recent.
 #[derive(Clone, Debug)]
 pub(crate) struct Chunk([[f32; Self::PATCHES]; MAX_FACTORS]);
 

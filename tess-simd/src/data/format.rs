@@ -2,10 +2,12 @@
 
 use tess_core::DomainPoint;
 
-/// A type that points are written as: `[f32; 2]`, or [`DomainPoint`] with two 16.16 numbers. Both are exact.
+/// A type that points are written as: `[f32; 2]`, or [`DomainPoint`] with two 16.16 numbers. Both
+/// are exact.
 ///
-/// `tess-gpu` calls the first `PointFormat::F32`. C calls them `TESS_POINT_F32` and `TESS_POINT_FIXED`. The shaders'
-/// packed format, which has the patch's number in each point, does not exist here.
+/// `tess-gpu` calls the first `PointFormat::F32`. C calls them `TESS_POINT_F32` and
+/// `TESS_POINT_FIXED`. The shaders' packed format, which has the patch's number in each point, does
+/// not exist here.
 pub trait OutputPoint: sealed::Point + Copy + Default + Send + Sync + 'static {
     /// The point with these 16.16 coordinates, each in `0..=ONE`. Exact; beyond that range
     /// unspecified.
@@ -18,10 +20,11 @@ pub trait OutputPoint: sealed::Point + Copy + Default + Send + Sync + 'static {
 /// `tess-gpu` calls them `IndexType::U16` and `IndexType::U32`; C calls them `TESS_INDEX_U16` and
 /// `TESS_INDEX_U32`.
 ///
-/// The largest index, 65535 or 2^32 - 1, restarts primitives in WebGL 2, and in other interfaces where
-/// primitive restart is on. Batches write it like any other index. To do without it, keep a batch that
-/// is numbered through ([`Numbering::PerBatch`](crate::Numbering::PerBatch)) to
-/// [`IndexFormat::POINTS_WITHOUT_RESTART`] points, its `base_vertex` included. No single patch has it.
+/// The largest index, 65535 or 2^32 - 1, restarts primitives in WebGL 2, and in other interfaces
+/// where primitive restart is on. Batches write it like any other index. To do without it, keep a
+/// batch that is numbered through ([`Numbering::PerBatch`](crate::Numbering::PerBatch)) to
+/// [`IndexFormat::POINTS_WITHOUT_RESTART`] points, its `base_vertex` included. No single patch has
+/// it.
 pub trait IndexFormat: sealed::Index + Copy + Default + Send + Sync + 'static {
     /// The largest index.
     const LARGEST: u64;
@@ -34,7 +37,8 @@ pub trait IndexFormat: sealed::Index + Copy + Default + Send + Sync + 'static {
     fn wrapping_from(index: u32) -> Self;
 }
 
-/// Methods of the formats for the kernels. The module keeps them to those that are compared with the core.
+/// Methods of the formats for the kernels. The module keeps them to those that are compared with
+/// the core.
 mod sealed {
     use tess_core::DomainPoint;
 
@@ -88,7 +92,8 @@ mod sealed {
 pub(crate) use sealed::{AnyIndices, AnyPoints};
 
 impl sealed::Point for [f32; 2] {
-    /// From 128 on binary32 numbers are the multiples of 2^-16: the mantissa of `128 + x` is `x` in 16.16.
+    /// From 128 on binary32 numbers are the multiples of 2^-16: the mantissa of `128 + x` is `x` in
+    /// 16.16.
     #[inline(always)]
     #[expect(
         clippy::float_arithmetic,

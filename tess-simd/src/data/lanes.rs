@@ -46,7 +46,8 @@ pub(crate) fn set_rows<const L: usize>(column: &mut Column, lane: usize, rows: &
     }
 }
 
-/// Element `i` of all rows. Loops over it become vectors, of one row or of several; a loop of a row's sixteen is unrolled.
+/// Element `i` of all rows. Loops over it become vectors, of one row or of several; a loop of a
+/// row's sixteen is unrolled.
 #[inline(always)]
 pub(crate) const fn at<T: Copy, const L: usize, const F: usize>(rows: &[[T; L]; F], i: usize) -> T {
     if L == 1 { rows[i][0] } else { rows.as_flattened()[i] }

@@ -1,4 +1,4 @@
-//! Output: points, indices, and where each patch's part of them lies.
+//! Output: points, indices, and each patch's ranges of them.
 
 use crate::data::format::{IndexFormat, OutputPoint};
 use alloc::vec::Vec;
@@ -12,8 +12,8 @@ use tess_core::DomainPoint;
 pub enum Numbering {
     /// Indices count from each patch's first point, as in the core. 16 bits are always enough.
     PerPatch,
-    /// Indices count from the batch's first point, so that all patches share one vertex buffer. Where
-    /// primitive restart is on, see [`IndexFormat`] for the number of points.
+    /// Indices count from the batch's first point, so that all patches share one vertex buffer.
+    /// Where primitive restart is on, see [`IndexFormat`] for the number of points.
     PerBatch {
         /// Number of the first point of the batch.
         base_vertex: u32,
@@ -40,7 +40,7 @@ impl Numbering {
     }
 }
 
-/// Where one patch's output lies. A culled patch has no points and no indices.
+/// The range of one patch's output. A culled patch has no points and no indices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(C)]
 pub struct PatchRange {
@@ -65,7 +65,8 @@ pub struct BatchCounts {
     pub indices: usize,
 }
 
-/// The caller's buffers. They may be larger than needed; elements behind the output keep their values.
+/// The caller's buffers. They may be larger than needed; elements after the output keep their
+/// values.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Buffers<'a, P = [f32; 2], I = u32> {
@@ -91,8 +92,8 @@ impl<'a, P: OutputPoint, I: IndexFormat> Buffers<'a, P, I> {
     }
 }
 
-/// [`Buffers`] whose points are in two arrays: u of each, and v of each, as binary32. Points are those of
-/// [`Buffers`] with `[f32; 2]`.
+/// [`Buffers`] whose points are in two arrays: u of each, and v of each, as binary32. Points are
+/// those of [`Buffers`] with `[f32; 2]`.
 ///
 /// C calls the format `TESS_POINT_F32_APART`. It needs the feature `apart`.
 #[cfg(feature = "apart")]
@@ -126,7 +127,8 @@ impl<'a, I: IndexFormat> ApartBuffers<'a, I> {
 
 /// Buffers that grow as needed and keep their memory. After the largest batch nothing is allocated.
 ///
-/// Points and indices begin on cache lines: with AVX-512, batches are then written up to a fourth faster.
+/// Points and indices begin on cache lines: with AVX-512, batches are then written up to a fourth
+/// faster.
 #[derive(Clone, Debug)]
 pub struct Output<P = [f32; 2], I = u32> {
     points: Aligned<P>,
@@ -156,7 +158,7 @@ impl<P: OutputPoint, I: IndexFormat> Output<P, I> {
         self.indices.get()
     }
 
-    /// A range for each patch of the last batch: where its output lies.
+    /// The range of each patch of the last batch.
     #[must_use]
     pub fn ranges(&self) -> &[PatchRange] {
         self.ranges.get()

@@ -1,7 +1,7 @@
 //! How the points of a format come to memory.
 //!
-//! The kernels write points without knowing where a format has them: in pairs of coordinates, or with all u before
-//! all v.
+//! The kernels write points without knowing where a format has them: in pairs of coordinates, or
+//! with all u before all v.
 //!
 //! ```text
 //! pairs    [ u0 v0 | u1 v1 | u2 v2 | ...          Writer
@@ -31,7 +31,7 @@ pub(crate) trait PointRoom: Sized + Send {
     /// [`Error::BufferTooSmall`].
     fn first(self, needed: usize, more: usize) -> Result<Self, Error>;
 
-    /// The first points, which it has, and those behind them.
+    /// The first points, which it has, and those after them.
     fn split_at(self, points: usize) -> (Self, Self);
 
     fn len(&self) -> usize;

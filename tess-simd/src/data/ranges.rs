@@ -3,8 +3,8 @@
 use crate::data::output::PatchRange;
 use core::mem::take;
 
-/// The ranges of patches, written from front to back where the caller wants them. Nobody can ask whether they are there
-/// or how many are left, so that nothing depends on it.
+/// The ranges of patches, written from front to back where the caller wants them. Nobody can ask
+/// whether they are there or how many are left, so that nothing depends on it.
 #[derive(Debug)]
 pub(crate) struct Ranges<'a>(Option<&'a mut [PatchRange]>);
 
@@ -14,7 +14,8 @@ impl<'a> Ranges<'a> {
         Self(all)
     }
 
-    /// Room for the next ranges, to be written before it is read: the caller's, or all of `own`, which has as many.
+    /// Room for the next ranges, to be written before it is read: the caller's, or all of `own`,
+    /// which has as many.
     pub(crate) fn next_or<'b>(&mut self, own: &'b mut [PatchRange]) -> &'b mut [PatchRange]
     where
         'a: 'b,
@@ -41,7 +42,7 @@ impl<'a> Ranges<'a> {
         Some(next)
     }
 
-    /// Splits them behind the first patches.
+    /// Splits them after the first patches.
     #[cfg(feature = "rayon")]
     pub(crate) fn split_at(mut self, patches: usize) -> (Self, Self) {
         (Self(self.next(patches)), self)

@@ -1,7 +1,8 @@
 //! The caller's buffers, in formats that are known at run time.
 //!
 //! Below the public interface nothing depends on the formats' types, so that everything is compiled
-//! once, in this crate, for each pair of formats. [`with_types`] makes them types again, once a call.
+//! once, in this crate, for each pair of formats. [`with_types`] makes them types again, once a
+//! call.
 
 use crate::data::error::{BatchBuffer, Error};
 use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
@@ -49,7 +50,7 @@ macro_rules! with_types {
 }
 pub(crate) use with_types;
 
-/// The first `needed` elements of a caller's buffer and up to `more` behind them.
+/// The first `needed` elements of a caller's buffer and up to `more` after them.
 ///
 /// # Errors
 /// [`Error::BufferTooSmall`].

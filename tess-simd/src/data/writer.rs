@@ -10,8 +10,8 @@ use core::sync::atomic::{Ordering, compiler_fence};
 /// Bytes that are copied at a time: so few that they are read from the first cache.
 const COPIED: usize = 4096;
 
-/// From so many bytes on, output that leaves the caches is copied by `memcpy`, which need not read what it overwrites, in
-/// pieces as large as this: both sides of a copy fit the first cache.
+/// From so many bytes on, output that leaves the caches is copied by `memcpy`, which need not read
+/// what it overwrites, in pieces as large as this: both sides of a copy fit the first cache.
 const LARGE: usize = 1 << 20;
 const LARGE_COPIED: usize = 16 << 10;
 
@@ -41,8 +41,8 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         self.map_least::<_, N, N>(length, source, element);
     }
 
-    /// [`Self::map`], with one branch for all lengths up to `LEAST`, a multiple of `N`: that many elements are
-    /// written if there is room.
+    /// [`Self::map`], with one branch for all lengths up to `LEAST`, a multiple of `N`: that many
+    /// elements are written if there is room.
     #[inline(always)]
     pub(crate) fn map_least<S: Copy, const N: usize, const LEAST: usize>(
         &mut self,
@@ -66,8 +66,8 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         }
     }
 
-    /// Writes the next `length` elements, each block made from a block of `source`. Makes at least `LEAST`
-    /// elements if there is room, so that most patches need no branch on their length.
+    /// Writes the next `length` elements, each block made from a block of `source`. Makes at least
+    /// `LEAST` elements if there is room, so that most patches need no branch on their length.
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(crate) fn blocks<S: Copy, const N: usize, const LEAST: usize>(
@@ -140,8 +140,8 @@ impl<'a, T: Copy> Writer<'a, T> {
         room
     }
 
-    /// Fills `times` times `period` elements of the slice from the first `period` of them. `moved` makes an
-    /// element from the one that stands this many periods before it.
+    /// Fills `times` times `period` elements of the slice from the first `period` of them. `moved`
+    /// makes an element from the one that stands this many periods before it.
     #[inline(always)]
     pub(crate) fn repeat(self, period: usize, times: usize, moved: impl Fn(T, u32) -> T) {
         fill(self.out, period, times, COPIED, |to, from, patches| {
@@ -211,8 +211,8 @@ fn write_cut_blocks<S: Copy, T: Copy, const N: usize>(
     }
 }
 
-/// [`Writer::repeat`], at most `copied` bytes or a period at a time: `copy` is given room for them, what they are made
-/// from, and how many periods it stands before.
+/// [`Writer::repeat`], at most `copied` bytes or a period at a time: `copy` is given room for them,
+/// what they are made from, and how many periods it stands before.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
 fn fill<T>(
@@ -236,7 +236,7 @@ fn fill<T>(
 }
 
 /// Keeps the compiler from turning the loop over blocks, instead of each block, into vectors: it
-/// does not vectorise loops that have a fence in them. There is no instruction behind it.
+/// does not vectorise loops that have a fence in them. It compiles to no instruction.
 #[inline(always)]
 pub(crate) fn separate_blocks() {
     compiler_fence(Ordering::AcqRel);

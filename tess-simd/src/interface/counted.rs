@@ -22,8 +22,8 @@ use crate::threads::slices::Share;
 
 /// A counted batch. It can be written any number of times.
 ///
-/// [`Tessellator::count`](crate::Tessellator::count) makes it. It borrows the tessellator, so the tessellator
-/// cannot count another batch before it is written.
+/// [`Tessellator::count`](crate::Tessellator::count) makes it. It borrows the tessellator, so the
+/// tessellator cannot count another batch before it is written.
 ///
 /// ```compile_fail,E0499
 /// # use tess_simd::tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
@@ -79,8 +79,8 @@ impl<'a> Counted<'a> {
         BatchCounts { patches: self.patches(), points: self.points(), indices: self.indices() }
     }
 
-    /// The largest index under a numbering; `None` if the batch has no points. With `u16` the index 65535
-    /// restarts primitives in some interfaces: see [`IndexFormat`].
+    /// The largest index under a numbering; `None` if the batch has no points. With `u16` the index
+    /// 65535 restarts primitives in some interfaces: see [`IndexFormat`].
     #[must_use]
     pub fn largest_index(&self, numbering: Numbering) -> Option<u64> {
         let end = match numbering {

@@ -5,10 +5,10 @@ use core::fmt;
 
 /// The range of the output that each group of patches has.
 ///
-/// `ranges` are the ranges of a batch's patches. `starts` has the number of the first patch of each group. A group
-/// ends where the next one begins, and the last one ends with the batch. A group's output is contiguous, because
-/// the output of patches follows their order. So a renderer tessellates all meshes of a frame in one call and
-/// draws each mesh separately.
+/// `ranges` are the ranges of a batch's patches. `starts` has the number of the first patch of each
+/// group. A group ends where the next one begins, and the last one ends with the batch. A group's
+/// output is contiguous, because the output of patches follows their order. So a renderer
+/// tessellates all meshes of a frame in one call and draws each mesh separately.
 ///
 /// ```
 /// use tess_simd::tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
@@ -26,15 +26,15 @@ use core::fmt;
 /// ```
 ///
 /// # Errors
-/// [`BadGroup`] if a group begins before the one before it, or past the end of the batch.
+/// [`BadGroupError`] if a group begins before the one before it, or past the end of the batch.
 pub fn group_ranges<'a>(
     ranges: &'a [PatchRange],
     starts: &'a [u32],
-) -> Result<impl ExactSizeIterator<Item = PatchRange> + 'a, BadGroup> {
+) -> Result<impl ExactSizeIterator<Item = PatchRange> + 'a, BadGroupError> {
     let mut lowest = 0;
     for (group, &start) in starts.iter().enumerate() {
         if start < lowest || start as usize > ranges.len() {
-            return Err(BadGroup { group, start, lowest, patches: ranges.len() });
+            return Err(BadGroupError { group, start, lowest, patches: ranges.len() });
         }
         lowest = start;
     }
@@ -57,7 +57,7 @@ fn joined(ranges: &[PatchRange], first: (u32, u32)) -> PatchRange {
     }
 }
 
-/// The first point and the first index behind these patches.
+/// The first point and the first index after these patches.
 fn end_of(ranges: &[PatchRange]) -> (u32, u32) {
     ranges.last().map_or((0, 0), |last| {
         (last.first_point.wrapping_add(last.points), last.first_index.wrapping_add(last.indices))
@@ -66,7 +66,7 @@ fn end_of(ranges: &[PatchRange]) -> (u32, u32) {
 
 /// A group of patches begins where it cannot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BadGroup {
+pub struct BadGroupError {
     /// Number of the group.
     pub group: usize,
     /// The patch at which it begins.
@@ -77,11 +77,11 @@ pub struct BadGroup {
     pub patches: usize,
 }
 
-impl fmt::Display for BadGroup {
+impl fmt::Display for BadGroupError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { group, start, lowest, patches } = self;
         write!(f, "group {group} begins at patch {start}; it must be in {lowest}..={patches}")
     }
 }
 
-impl core::error::Error for BadGroup {}
+impl core::error::Error for BadGroupError {}

@@ -1,8 +1,9 @@
-//! One stage or kernel over inputs of one's own, for comparison and for timing: see `tests/kernels/table.rs`.
+//! One stage or kernel over inputs of one's own, for comparison and for timing: see
+//! `tests/kernels/table.rs`.
 
 mod words;
 
-use crate::cpu::level::{Level, LevelUnavailable};
+use crate::cpu::level::{Level, LevelUnavailableError};
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::format::IndexFormat;
@@ -50,12 +51,14 @@ pub struct Input {
     pub per_batch: bool,
     /// The formats of points and indices.
     pub format: Format,
-    /// The numbers that a stage of numbers takes, a multiple of 16. Others take from their bytes, highest first:
+    /// The numbers that a stage of numbers takes, a multiple of 16. Others take from their bytes,
+    /// highest first:
     ///
-    /// - stitches: what it is (0 transition, 1 ring, 2 strip, 3 strip except in the middle), outer points, and
-    ///   inside points, inner points or quads;
-    /// - rows: a stitch; first indices of the outer and the inner row; whether both run up, the entries of the outer
-    ///   and of the inner row that are replaced (255: none), whether the inner row runs down; what replaces them;
+    /// - stitches: what it is (0 transition, 1 ring, 2 strip, 3 strip except in the middle), outer
+    ///   points, and inside points, inner points or quads;
+    /// - rows: a stitch; first indices of the outer and the inner row; whether both run up, the
+    ///   entries of the outer and of the inner row that are replaced (255: none), whether the inner
+    ///   row runs down; what replaces them;
     /// - writers: a method, the place of the first source, two bytes of the length;
     /// - repeating: points, indices and times of each run.
     pub numbers: Vec<u32>,
@@ -85,8 +88,8 @@ impl KernelTap {
     /// Takes an input up to the kernel.
     ///
     /// # Errors
-    /// [`LevelUnavailable`] if this machine cannot run the level.
-    pub fn new(kernel: Kernel, level: Level, input: &Input) -> Result<Self, LevelUnavailable> {
+    /// [`LevelUnavailableError`] if this machine cannot run the level.
+    pub fn new(kernel: Kernel, level: Level, input: &Input) -> Result<Self, LevelUnavailableError> {
         level.require()?;
         let base_vertex = input.base;
         let mut tap = Self {
@@ -114,7 +117,8 @@ impl KernelTap {
     fn make_room(&mut self, sizes: [usize; 2]) {
         let [points, indices] = sizes;
         let Self { kernel, format, made, .. } = self;
-        // Repeating begins with the places' numbers. What other kernels leave unwritten has none of their output.
+        // Repeating begins with the places' numbers. What other kernels leave unwritten has none of
+        // their output.
         let flip = if *kernel == Kernel::Repeat { 0 } else { u32::MAX };
         let number = |i: usize| u32::try_from(i).unwrap_or(u32::MAX) ^ flip;
         let points = 0..if *kernel == Kernel::Codes { 0 } else { points };

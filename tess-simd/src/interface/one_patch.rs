@@ -1,8 +1,9 @@
-//! One patch a call, for callers that have no batch.
+//! One patch per call, for callers that have no batch.
 //!
-//! Such a call goes through no chunk, no slices and no pool: one kernel takes the patch through the front end
-//! (`stages/packet/one`) and, if it is compact, writes it; the kernel of batches writes any other. Both use the templates
-//! of batches. A patch with the factors of the one before skips the front end, so that a write after a count does.
+//! Such a call goes through no chunk, no slices and no pool: one kernel takes the patch through the
+//! front end (`stages/packet/one`) and, if it is compact, writes it; the kernel of batches writes
+//! any other. Both use the templates of batches. A patch with the factors of the one before skips
+//! the front end, so that a write after a count does.
 
 use crate::data::error::Error;
 use crate::data::format::{IndexFormat, OutputPoint};
@@ -24,14 +25,15 @@ pub struct CountedPatch<'a> {
 }
 
 impl Tessellator {
-    /// Tessellates one patch into the caller's buffers, its indices counted from its own first point:
-    /// [`Tessellator::count_patch`] and [`CountedPatch::write`] in one. Returns the output sizes.
+    /// Tessellates one patch into the caller's buffers, its indices counted from its own first
+    /// point: [`Tessellator::count_patch`] and [`CountedPatch::write`] in one. Returns the output
+    /// sizes.
     ///
-    /// Up to [`CountedPatch::OVERRUN`] elements behind the output are overwritten in each buffer, where there are so
-    /// many: unlike the buffers of batches, these do not keep what lies behind.
+    /// Up to [`CountedPatch::OVERRUN`] elements after the output are overwritten in each buffer, if the
+    /// buffer is that large. Buffers of batches keep those elements; these do not.
     ///
-    /// Call it with one patch at a time; [`Tessellator::write`] is faster from a few patches on. It uses the
-    /// calling thread alone, and allocates only where it meets a topology for the first time.
+    /// For a few patches or more, [`Tessellator::write`] is faster. This call uses only the calling
+    /// thread, and allocates only when a topology is new.
     ///
     /// ```
     /// use tess_simd::Tessellator;
@@ -95,8 +97,8 @@ impl Tessellator {
 }
 
 impl CountedPatch<'_> {
-    /// As many elements behind the output may be overwritten in either buffer. Buffers with that much room
-    /// are written fastest.
+    /// The number of elements after the output that may be overwritten in either buffer. Buffers with
+    /// that much room are written fastest.
     pub const OVERRUN: usize = 64;
 
     /// The output sizes; zeros if the patch is culled.
@@ -105,9 +107,9 @@ impl CountedPatch<'_> {
         self.counts
     }
 
-    /// Writes the patch into the caller's buffers, its indices counted from its own first point. Returns the
-    /// output sizes. Of what lies behind the output, the first [`CountedPatch::OVERRUN`] elements are
-    /// unspecified afterwards.
+    /// Writes the patch into the caller's buffers, its indices counted from its own first point.
+    /// Returns the output sizes. The first
+    /// [`CountedPatch::OVERRUN`] elements after the output are unspecified afterwards.
     ///
     /// # Errors
     /// [`Error::BufferTooSmall`]; then nothing is written.

@@ -9,8 +9,8 @@ use tess_core::{Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFacto
 /// Patches of one domain, owned and in the layout that is fastest to read: a structure of that
 /// domain for each patch.
 ///
-/// A [`Batch`] of any layout becomes one. A batch of [`PatchFactors`] needs no copy, but small patches take up to a fifth
-/// longer. Copy patches once if you tessellate them again and again.
+/// A [`Batch`] of any layout becomes one. A batch of [`PatchFactors`] needs no copy, but small
+/// patches take up to a fifth longer. Copy patches once if you tessellate them again and again.
 ///
 /// ```
 /// use tess_simd::OwnedBatch;
@@ -70,7 +70,7 @@ impl OwnedBatch {
         }
     }
 
-    /// The patches of a range; `None` if it does not lie within the batch.
+    /// The patches of a range; `None` if it exceeds the batch.
     #[must_use]
     pub fn get(&self, range: Range<usize>) -> Option<Batch<'_>> {
         self.batch().get(range)

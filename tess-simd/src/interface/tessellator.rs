@@ -1,6 +1,6 @@
 //! The front door: a configuration, ready to take batches.
 
-use crate::cpu::level::{Level, LevelUnavailable};
+use crate::cpu::level::{Level, LevelUnavailableError};
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::error::Error;
@@ -26,21 +26,21 @@ use tess_core::{Config, Order};
 
 /// Tessellates batches of patches in one configuration.
 ///
-/// Making one is cheap: less than a microsecond and a kilobyte. Tables that follow from the configuration
-/// (0.2 to 0.9 MB) are made once for the process, by the first tessellator that needs them, in about a
-/// millisecond; without the feature `std` each tessellator makes its own.
+/// Making one is cheap: less than a microsecond and a kilobyte. Tables that follow from the
+/// configuration (0.2 to 0.9 MB) are made once for the process, by the first tessellator that needs
+/// them, in about a millisecond; without the feature `std` each tessellator makes its own.
 ///
-/// Its knowledge of patches takes memory as it is used ([`Tessellator::memory`]): 12 to 25 KB from the
-/// first small patch on, 20 KB more from the first batch on, and at most 1.1 MB for each thread. It allocates where a
-/// patch has point counts that are new to it, seldom after the first frames. [`Tessellator::reserve`] takes all
-/// of it before. What else is allocated is what an [`Output`] grows by and, on several threads, a short list
-/// for each batch.
+/// It takes memory as it meets patches ([`Tessellator::memory`]): 12 to 17 KB with the first small
+/// patch, 20 KB more with the first batch, and at most 1.2 MB for each thread. It allocates where a
+/// patch has point counts that are new to it, which is rare after the first frames.
+/// [`Tessellator::reserve`] takes all of it in advance. The only other allocations are the growth of
+/// an [`Output`] and, on several threads, a short list for each batch.
 #[derive(Clone, Debug)]
 pub struct Tessellator {
     pub(super) level: Level,
     pub(super) settings: Settings,
     pub(super) workspaces: Workspaces,
-    /// The counts of each slice of the batch that was counted last, and perhaps others behind.
+    /// The counts of each slice of the batch that was counted last, and perhaps others after them.
     slices: Vec<PartCounts>,
     /// The packets of the batch that was counted last, if it had at most one chunk.
     kept: Option<Box<[Packet; Chunk::PACKETS]>>,
@@ -58,8 +58,8 @@ impl Tessellator {
     /// A tessellator at a CPU level.
     ///
     /// # Errors
-    /// [`LevelUnavailable`] if this machine or this build cannot run it.
-    pub fn with_level(config: Config, level: Level) -> Result<Self, LevelUnavailable> {
+    /// [`LevelUnavailableError`] if this machine or this build cannot run it.
+    pub fn with_level(config: Config, level: Level) -> Result<Self, LevelUnavailableError> {
         level.require()?;
         Ok(Self::at(config, level))
     }
@@ -76,7 +76,8 @@ impl Tessellator {
         }
     }
 
-    /// Spreads batches over up to `threads` threads: [`Tessellator::set_threads`] while a tessellator is made.
+    /// Spreads batches over up to `threads` threads: [`Tessellator::set_threads`] while a
+    /// tessellator is made.
     #[cfg(feature = "rayon")]
     #[must_use]
     pub fn with_threads(mut self, threads: usize) -> Self {
@@ -88,20 +89,20 @@ impl Tessellator {
     /// [`Tessellator::MAX_THREADS`]; a new tessellator has one. The output stays the same. What it
     /// learned of patches is forgotten.
     ///
-    /// A batch uses one thread for each 256 KiB of its output, so a second thread joins from 512 KiB
-    /// on. The threads belong to the rayon pool that the caller runs in. Outside of any pool they
-    /// belong to one that all tessellators of the process share: a thread for each processor, or as
-    /// many as `RAYON_NUM_THREADS` asks for. The first large batch starts it; where it cannot be
-    /// started, batches are written on the calling thread. A forked child starts its own. Each thread
-    /// takes up to 1.1 MB.
+    /// A batch uses one thread for each 256 KiB of its output, so a second thread joins from 512
+    /// KiB on. The threads belong to the rayon pool that the caller runs in. Outside of any pool
+    /// they belong to one that all tessellators of the process share: a thread for each processor,
+    /// or as many as `RAYON_NUM_THREADS` asks for. The first large batch starts it; where it cannot
+    /// be started, batches are written on the calling thread. A forked child starts its own. Each
+    /// thread takes up to 1.2 MB.
     #[cfg(feature = "rayon")]
     pub fn set_threads(&mut self, threads: usize) {
         self.workspaces = Workspaces::of_threads(threads);
         self.reserve_as_before();
     }
 
-    /// Starts the threads that all tessellators of the process share, so that no batch has to, and to
-    /// learn whether that is possible. Does nothing where they run.
+    /// Starts the threads that all tessellators of the process share, so that no batch has to, and
+    /// to learn whether that is possible. Does nothing where they run.
     ///
     /// # Errors
     /// [`ThreadsError`] if the system refuses.
@@ -126,7 +127,8 @@ impl Tessellator {
     ///
     /// [`Order::VertexCache`] writes the same points and the same triangles in an order that suits
     /// vertex caches. It is for renderers. Patches of more than about 300 points take two to four
-    /// times as long with it, unless they have the same point counts as the large patch before them.
+    /// times as long with it, unless they have the same point counts as the large patch before
+    /// them.
     pub fn set_order(&mut self, order: Order) {
         self.settings.order = order;
         // The templates have their triangles in the order before.
@@ -153,10 +155,10 @@ impl Tessellator {
         self.level
     }
 
-    /// Takes all the memory that patches may ever need, 1.1 MB for each thread, and keeps it through
-    /// [`Tessellator::set_order`], `set_threads` and clones. No later call on one thread allocates, and
-    /// [`Tessellator::memory`] stays as it is. For programs in which an allocation may not come late; others are
-    /// faster without.
+    /// Takes all the memory that patches may ever need, 1.2 MB for each thread, and keeps it
+    /// through [`Tessellator::set_order`], `set_threads` and clones. No later call on one thread
+    /// allocates, and [`Tessellator::memory`] stays as it is. For programs in which an allocation
+    /// may not come late; others are faster without.
     pub fn reserve(&mut self) {
         self.reserved = true;
         self.workspaces.reserve();
@@ -173,7 +175,8 @@ impl Tessellator {
         self.settings.stitches.bytes() + self.workspaces.bytes() + kept + slices
     }
 
-    /// Counts a batch. The result says which buffer sizes the batch needs and writes into such buffers.
+    /// Counts a batch. The result says which buffer sizes the batch needs and writes into such
+    /// buffers.
     ///
     /// # Errors
     /// [`Error::UnevenColumns`], [`Error::MixedDomains`], [`Error::BatchTooLarge`].
@@ -208,8 +211,8 @@ impl Tessellator {
         Ok(Counted { level, settings, workspaces, batch, slicing, slices, total, kept })
     }
 
-    /// Tessellates a batch into the caller's buffers. Does [`Tessellator::count`] and [`Counted::write`] in one
-    /// call.
+    /// Tessellates a batch into the caller's buffers. Does [`Tessellator::count`] and
+    /// [`Counted::write`] in one call.
     ///
     /// # Errors
     /// Any [`Error`]; then nothing is written.

@@ -1,7 +1,7 @@
 //! Writes packets of patches into buffers.
 //!
-//! Each patch takes the cheapest of four ways to its output. `threads/part` calls this through `levels` for each
-//! chunk; the result is the core's output, patch after patch, in order.
+//! Each patch takes the cheapest of four ways to its output. `threads/part` calls this through
+//! `levels` for each chunk; the result is the core's output, patch after patch, in order.
 //!
 //! # Data
 //!
@@ -22,8 +22,9 @@
 //!
 //! # One packet
 //!
-//! Two patches in one packet: the quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md` with 43 points and 186 indices, and
-//! after it a culled one and the same quad again, numbered through the batch from 100 on:
+//! Two patches in one packet: the quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md` with 43 points
+//! and 186 indices, and after it a culled one and the same quad again, numbered through the batch
+//! from 100 on:
 //!
 //! ```text
 //! lane  first_point  points  first_index  indices   base
@@ -34,21 +35,22 @@
 //!
 //! # What must hold
 //!
-//! - Buffers have exactly the room that the counts predict, or more; a patch writes whole blocks, and what a block
-//!   writes past its patch is overwritten by the next one or cut at the buffer's end ([`Writer`]). So patches are
-//!   written in order.
+//! - Buffers have exactly the room that the counts predict, or more; a patch writes whole blocks,
+//!   and what a block writes past its patch is overwritten by the next one or cut at the buffer's
+//!   end ([`Writer`]). So patches are written in order.
 //! - A packet's patches are looked up after one `make_room` and before the next.
 //! - Lanes without points are skipped: their other numbers are unspecified.
 //!
 //! # The simpler form
 //!
-//! Sizes of blocks: one for every level. Long blocks, which AVX-512 gains from, took one patch of factor 4 from 50 to 75 ns
-//! at the baseline ([`CompactPoints::LONG_BLOCKS`]).
+//! Sizes of blocks: one for every level. Long blocks, which AVX-512 gains from, took one patch of
+//! factor 4 from 50 to 75 ns at the baseline ([`CompactPoints::LONG_BLOCKS`]).
 //!
-//! A packet of compact patches alone goes stage by stage: all look-ups, then, with integer factors, all points before all
-//! indices. Patch by patch, a branch that is predicted wrongly in one stage also discards the begun work of the next.
-//! Together with permutes this took `meshes/quads` from 0.16 to 0.25 of a fill (`docs/experiments.md`). Fractional
-//! points take so long to compute that the stores of the indices before them cost nothing meanwhile.
+//! A packet of compact patches alone goes stage by stage: all look-ups, then, with integer factors,
+//! all points before all indices. Patch by patch, a branch that is predicted wrongly in one stage
+//! also discards the begun work of the next. Together with permutes this took `meshes/quads` from
+//! 0.16 to 0.25 of a fill (`docs/experiments.md`). Fractional points take so long to compute that
+//! the stores of the indices before them cost nothing meanwhile.
 
 use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::lanes::LANES;
@@ -68,7 +70,8 @@ pub(crate) struct Packets<'a> {
     pub(crate) packets: &'a [Packet],
     pub(crate) first: Offsets,
     pub(crate) numbering: Numbering,
-    /// Receives where each patch's output lies. As long as there are patches; the packets may have more lanes.
+    /// Receives where each patch's output lies. As long as there are patches; the packets may have
+    /// more lanes.
     pub(crate) ranges: &'a mut [PatchRange],
 }
 
@@ -79,8 +82,8 @@ pub(crate) struct Offsets {
     pub(crate) indices: u32,
 }
 
-/// Tables and templates, kept from patch to patch and from batch to batch. All of it follows from the
-/// configuration and the patches' factors.
+/// Tables and templates, kept from patch to patch and from batch to batch. All of it follows from
+/// the configuration and the patches' factors.
 #[derive(Clone, Debug)]
 pub(crate) struct Caches {
     tables: LocationTables,
@@ -111,8 +114,8 @@ struct Writers<'a, W, I> {
     indices: Writer<'a, I>,
 }
 
-/// Writes packets; returns where their output ends in the batch. Points and indices have room for the packets' output, or
-/// more; what follows it may be overwritten.
+/// Writes packets; returns where their output ends in the batch. Points and indices have room for
+/// the packets' output, or more; what follows it may be overwritten.
 #[inline(always)]
 pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,
@@ -158,7 +161,8 @@ pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     first
 }
 
-/// Where a single patch goes, and what is kept from patch to patch: together, so that calls pass few arguments.
+/// Where a single patch goes, and what is kept from patch to patch: together, so that calls pass
+/// few arguments.
 pub(crate) struct OneWriters<'a, W, I> {
     pub(crate) settings: &'a Settings,
     pub(crate) domain: Domain,
@@ -170,8 +174,9 @@ pub(crate) struct OneWriters<'a, W, I> {
     pub(crate) caches: &'a mut Caches,
 }
 
-/// Takes one patch ([`pairs`](crate::stages::packet::pairs)) through the front end and writes it, its indices counted
-/// from its own first point. Returns whether it was written: it is if it is compact, not culled, and has room.
+/// Takes one patch ([`pairs`](crate::stages::packet::pairs)) through the front end and writes it,
+/// its indices counted from its own first point. Returns whether it was written: it is if it is
+/// compact, not culled, and has room.
 ///
 /// [`emit`] would be correct, but sets up state that only large patches use.
 #[inline(always)]
@@ -199,8 +204,8 @@ pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     true
 }
 
-/// Writes a packet of compact patches that are all looked up first, so that a wrongly predicted branch discards no
-/// look-up.
+/// Writes a packet of compact patches that are all looked up first, so that a wrongly predicted
+/// branch discards no look-up.
 #[inline(always)]
 fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,

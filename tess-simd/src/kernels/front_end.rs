@@ -7,8 +7,8 @@ use crate::stages::counts::{PacketCounts, PartCounts};
 use crate::stages::packet::{Packet, one_counts, packet_counts};
 use tess_core::Config;
 
-/// Takes up to a chunk of patches through the front end. Lanes past the end count as culled; packets past the end
-/// stay as they are.
+/// Takes up to a chunk of patches through the front end. Lanes past the end count as culled;
+/// packets past the end stay as they are.
 #[inline(always)]
 pub(crate) fn process(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk::PACKETS]) {
     if batch.len() <= FEW {
@@ -54,7 +54,8 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
 
 /// [`process`], then the output sizes of these patches together.
 ///
-/// Of a batch of equal patches, one is kept. Another that begins with a run is counted, and nothing is kept.
+/// Of a batch of equal patches, one is kept. Another that begins with a run is counted, and nothing
+/// is kept.
 #[inline(always)]
 pub(crate) fn count_and_keep(
     config: Config,
@@ -82,7 +83,8 @@ pub(crate) fn count_and_keep(
 /// As many patches are processed one by one: that takes less than a whole packet.
 const FEW: usize = 4;
 
-/// Takes the first patches of a batch, at most [`FEW`], through the front end. The other lanes stay as they are.
+/// Takes the first patches of a batch, at most [`FEW`], through the front end. The other lanes stay
+/// as they are.
 #[inline(always)]
 fn process_few(
     config: Config,

@@ -17,8 +17,8 @@ pub(crate) struct Repeat {
     pub(crate) numbering: Numbering,
 }
 
-/// Writes the patches of a run after its first one, which stands at the beginning of the buffers, and their ranges.
-/// Returns where their output ends in the batch.
+/// Writes the patches of a run after its first one, which stands at the beginning of the buffers,
+/// and their ranges. Returns where their output ends in the batch.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
 pub(crate) fn repeat<W: PointWriter, I: IndexFormat>(

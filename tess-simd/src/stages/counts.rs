@@ -18,7 +18,8 @@ pub(crate) struct PartCounts {
     pub(crate) indices: u64,
     /// Points of its largest patch.
     pub(crate) largest: u32,
-    /// How many patches, from its first one on, are to be written as copies; 1 or less if that is not known.
+    /// How many patches, from its first one on, are to be written as copies; 1 or less if that is
+    /// not known.
     pub(crate) run: usize,
 }
 

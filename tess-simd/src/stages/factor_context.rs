@@ -49,7 +49,7 @@ impl PlainContext {
                 let points = floor - odd;
                 2 * drop_most_significant_bit(points) + u32::from(points != 0)
             }
-            SplitOrder::Center => ceil.wrapping_sub(1 + odd),
+            SplitOrder::Centre => ceil.wrapping_sub(1 + odd),
         };
         Self {
             odd,

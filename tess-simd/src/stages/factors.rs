@@ -1,15 +1,15 @@
 //! Factor processing (spec section 3), steps named as there.
 //!
-//! A packet has sixteen patches and a row for each factor of its domain. A patch that comes alone has rows of one
-//! element, eight of them, which fill a short vector.
+//! A packet has sixteen patches and a row for each factor of its domain. A patch that comes alone
+//! has rows of one element, eight of them, which fill a short vector.
 
 use crate::data::lanes::{LANES, MAX_FACTORS, at, at_mut, each};
 use crate::stages::reciprocal::{MANTISSA, TWO_POW_23};
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, Partitioning};
 
-/// The factors of `L` patches as fixed-point numbers, a row for each of `F` factors. Rows that the domain has no
-/// factor for are unspecified, and in range.
+/// The factors of `L` patches as fixed-point numbers, a row for each of `F` factors. Rows that the
+/// domain has no factor for are unspecified, and in range.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Processed<const L: usize = LANES, const F: usize = MAX_FACTORS> {
     /// 15.16 factors, in 1..=64.
@@ -22,7 +22,8 @@ pub(crate) struct Processed<const L: usize = LANES, const F: usize = MAX_FACTORS
     pub(crate) minimum: [u32; L],
 }
 
-/// Processes raw factors; zeros follow those that the domain has. Total: every bit pattern is valid.
+/// Processes raw factors; zeros follow those that the domain has. Total: every bit pattern is
+/// valid.
 #[inline(always)]
 pub(crate) fn process<const L: usize, const F: usize>(
     partitioning: Partitioning,
@@ -106,8 +107,8 @@ pub(crate) fn all<T: Copy, const L: usize>(rows: &[[T; L]], has: impl Fn(T) -> b
     all
 }
 
-/// The bit pattern of infinity. As signed integers, NaN patterns are greater and patterns with a sign
-/// are negative.
+/// The bit pattern of infinity. As signed integers, NaN patterns are greater and patterns with a
+/// sign are negative.
 ///
 /// Factors are compared as integers for the reason that `tess-core` gives (`d3d_float`); signed
 /// ones, as every level has instructions for them.

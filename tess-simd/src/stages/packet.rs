@@ -1,18 +1,20 @@
 //! A packet: sixteen patches side by side after factor processing, as in ray packets.
 //!
-//! The front end turns raw factors into what every later stage asks of a patch: point counts, spacings, output
-//! sizes, topology. It does so for sixteen patches at a time, one patch in each vector lane. `kernels/front_end`
-//! fills packets, `kernels/emit` takes them apart again, patch by patch.
+//! The front end turns raw factors into what every later stage asks of a patch: point counts,
+//! spacings, output sizes, topology. It does so for sixteen patches at a time, one patch in each
+//! vector lane. `kernels/front_end` fills packets, `kernels/emit` takes them apart again, patch by
+//! patch.
 //!
 //! # Data
 //!
-//! A *column* has one number for each factor of each lane, factor by factor, so that one factor of all patches
-//! is one vector. *Lanes* have one number for each patch.
+//! A *column* has one number for each factor of each lane, factor by factor, so that one factor of
+//! all patches is one vector. *Lanes* have one number for each patch.
 //!
 //! ```text
-//! Column (fixed, points, and of Spacings: split, step, lag)     Lanes (minimum, compact, counts, topologies, small)
-//!            lane 0   1      15                                            lane 0   1      15
-//! factor 0  [     0][ 1] .. [15]   quads: u = 0                           [     0][ 1] .. [15]
+//! Column: fixed, points, and of Spacings           Lanes: minimum, compact, counts, topologies,
+//!         split, step, lag                                small
+//!            lane 0   1      15                            lane 0   1      15
+//! factor 0  [     0][ 1] .. [15]   quads: u = 0           [     0][ 1] .. [15]
 //! factor 1  [    16][17] .. [31]          v = 0
 //! factor 2  [    32][33] .. [47]          u = 1
 //! factor 3  [    48][49] .. [63]          v = 1
@@ -20,8 +22,8 @@
 //! factor 5  [    80][81] .. [95]          inside v
 //! ```
 //!
-//! The topology is one 64-bit number. Connectivity depends on nothing else; with integer factors neither do
-//! points.
+//! The topology is one 64-bit number. Connectivity depends on nothing else; with integer factors
+//! neither do points.
 //!
 //! ```text
 //! bit    43   42..36    35..29    28..22    21..15    14..8     7..1        0
@@ -38,25 +40,26 @@
 //! ```text
 //! factor       0        1        2        3        4        5
 //! fixed    0x30000  0x48000  0x50000  0x60000  0x40000  0x70000
-//! points       5        7        7        7        5        9       43 points, 186 indices, compact
+//! points       5        7        7        7        5        9     43 points, 186 indices, compact
 //! topology 0x850_E1C3_8512 = 1 0000101 0000111 0000111 0000111 0000101 0001001 0
 //! ```
 //!
 //! # What must hold
 //!
 //! - Factors that a domain lacks have no points, so topologies of two domains differ.
-//! - A lane without a patch is culled: its raw factors are 0. Its counts are 0; everything else in it is
-//!   unspecified, so callers skip lanes without points.
-//! - [`PacketPatch::key`] tells two factors apart by their lowest bit too: location tables are reused by it.
-//! - Compact patches have at most [`COMPACT_EDGE`] points along each edge; codes and templates have room for no
-//!   more.
+//! - A lane without a patch is culled: its raw factors are 0. Its counts are 0; everything else in
+//!   it is unspecified, so callers skip lanes without points.
+//! - [`PacketPatch::key`] tells two factors apart by their lowest bit too: location tables are
+//!   reused by it.
+//! - Compact patches have at most [`COMPACT_EDGE`] points along each edge; codes and templates have
+//!   room for no more.
 //!
 //! # The simpler form
 //!
-//! Eight patches a packet were slower: half of the vector loads waited for two narrower stores. The vector
-//! types of the crate `wide` take two to three times as long, because they choose their instructions when they
-//! are compiled (`docs/experiments.md`). So lanes are plain arrays, and the compiler makes vectors of each
-//! level's width.
+//! Eight patches a packet were slower: half of the vector loads waited for two narrower stores. The
+//! vector types of the crate `wide` take two to three times as long, because they choose their
+//! instructions when they are compiled (`docs/experiments.md`). So lanes are plain arrays, and the
+//! compiler makes vectors of each level's width.
 
 mod one;
 
@@ -139,7 +142,8 @@ impl Packet {
         self.counts = self.keep(config, domain, 0, &process(config.partitioning, domain, raw));
     }
 
-    /// Makes all lanes, or the one with this number, from processed factors, but for their sizes, which it returns.
+    /// Makes all lanes, or the one with this number, from processed factors, but for their sizes,
+    /// which it returns.
     #[inline(always)]
     fn keep<const L: usize, const F: usize>(
         &mut self,
@@ -180,7 +184,7 @@ impl Packet {
     }
 }
 
-/// The output sizes of a packet alone.
+/// Only the output sizes of a packet.
 #[inline(always)]
 pub(crate) fn packet_counts(config: Config, domain: Domain, raw: &Column<f32>) -> PacketCounts {
     #[inline(always)]
@@ -235,8 +239,8 @@ impl PacketPatch<'_> {
         self.packet.minimum[self.lane] == 1
     }
 
-    /// Whether it is a quad or a triangle of which no edge has more than [`COMPACT_EDGE`] points; nor has a
-    /// triangle's inside more than [`COMPACT_TRIANGLE_INSIDE`].
+    /// Whether it is a quad or a triangle of which no edge has more than [`COMPACT_EDGE`] points;
+    /// nor has a triangle's inside more than [`COMPACT_TRIANGLE_INSIDE`].
     #[inline(always)]
     pub(crate) const fn is_compact(self) -> bool {
         self.packet.compact[self.lane] == 1
@@ -248,8 +252,9 @@ impl PacketPatch<'_> {
         self.packet.topologies[self.lane]
     }
 
-    /// Below [`SMALL_TOPOLOGIES`], another number for each topology, if each factor of a quad has one of the first four counts
-    /// of its parity, of a triangle one of the first eight; others have larger numbers.
+    /// Below [`SMALL_TOPOLOGIES`], another number for each topology, if each factor of a quad has
+    /// one of the first four counts of its parity, of a triangle one of the first eight; others
+    /// have larger numbers.
     #[inline(always)]
     pub(crate) const fn small_topology(self) -> usize {
         self.packet.small[self.lane] as usize
@@ -310,8 +315,9 @@ fn topologies<const L: usize>(points: &[[u32; L]; MAX_FACTORS], minimum: &[u32; 
     topologies
 }
 
-/// A count's place among those that a factor can have, two or three bits for each factor; behind them the domain, and
-/// then what makes the number too large. A minimum patch is 0, as no other patch is that has the count of its inside.
+/// Two or three bits for each factor, the rank of its count among those that a factor can have; then
+/// a bit for the domain, and bits that make the number too large. A minimum patch has ranks of 0,
+/// which no other patch with the count of its inside has.
 #[inline(always)]
 fn small_topologies<const L: usize>(
     config: Config,

@@ -145,7 +145,8 @@ pub(crate) fn place(spacing: &Spacing, p: u32) -> u32 {
     if is_mirrored { ONE.wrapping_sub(x) } else { x }
 }
 
-/// The location of a point of an edge's first half, its middle included; unspecified beyond. Free of branches.
+/// The location of a point of an edge's first half, its middle included; unspecified beyond. Free
+/// of branches.
 #[inline(always)]
 pub(crate) const fn place_in_half(spacing: &Spacing, position: u32) -> u32 {
     let Spacing { points, split, step, lag } = *spacing;

@@ -1,8 +1,9 @@
 //! The domain points of a patch, in order (spec section 6).
 //!
 //! Every run of points along an edge is one coordinate held and the other read from a table of
-//! locations; seen from the other end a location is `ONE` minus itself. For compact patches of fractional
-//! factors, `coordinate_code` notes what each point is made of, and `permute` or `lookup` makes it.
+//! locations; seen from the other end a location is `ONE` minus itself. For compact patches of
+//! fractional factors, `coordinate_code` notes what each point is made of, and `permute` or
+//! `lookup` makes it.
 
 mod coordinate_code;
 mod isoline;
@@ -50,9 +51,9 @@ struct Runs<'a, W> {
 ///
 /// One type decides what a template keeps of a code and who reads it, so that the two go together.
 pub(crate) trait CompactPoints<W> {
-    /// Whether the level writes templates fastest in blocks of 64 indices and 24 points. Its stores are so wide that
-    /// elements past the patch's last cost less than a branch that is predicted wrongly. Other levels write blocks
-    /// of 16 and 8.
+    /// Whether the level writes templates fastest in blocks of 64 indices and 24 points. Its stores
+    /// are so wide that elements past the patch's last cost less than a branch that is predicted
+    /// wrongly. Other levels write blocks of 16 and 8.
     const LONG_BLOCKS: bool;
 
     /// The part of a coordinate's code that a template keeps.

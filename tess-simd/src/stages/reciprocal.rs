@@ -4,8 +4,8 @@ use tess_core::fixed_point::ONE;
 
 /// 1/n with 16 fraction bits, rounded to the nearest, for `n` in 1..=64: `(ONE + n / 2) / n`.
 ///
-/// `ONE / n` lies at least 1/128 off the middle of two integers, and its binary32 is off by 2^-9 at most.
-/// So adding 2^23 rounds it to the right integer, which then stands in the mantissa.
+/// `ONE / n` lies at least 1/128 off the middle of two integers, and its binary32 is off by 2^-9 at
+/// most. So adding 2^23 rounds it to the right integer, which then stands in the mantissa.
 #[inline(always)]
 #[expect(clippy::float_arithmetic, reason = "the rounding of the sum is the one that is asked for")]
 pub(crate) fn reciprocal(n: u32) -> u32 {

@@ -4,8 +4,8 @@ use crate::stages::stitch::SharedStitches;
 use tess_core::Config;
 use tess_core::Order;
 
-/// Settings that all patches of a tessellator share: the configuration, the order of triangles, and the stitch
-/// tables that follow from the configuration.
+/// Settings that all patches of a tessellator share: the configuration, the order of triangles, and
+/// the stitch tables that follow from the configuration.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {
     pub(crate) config: Config,

@@ -1,11 +1,13 @@
 //! Templates of patches: their output, counted from the patch's first point, kept to be copied.
 //!
-//! A patch's indices follow from its topology, and so do its points (integer factors) or, of compact patches, their
-//! codes (fractional ones). `kernels/emit` looks the topology up and copies; a topology that is new is made once, by
-//! the stages that large patches go through. One mechanism ([`Cache`]) keeps two kinds:
+//! A patch's indices follow from its topology, and so do its points (integer factors) or, of
+//! compact patches, their codes (fractional ones). `kernels/emit` looks the topology up and copies;
+//! a topology that is new is made once, by the stages that large patches go through. One mechanism
+//! ([`Cache`]) keeps two kinds:
 //!
 //! - compact patches, always: thousands of topologies, with indices of one byte;
-//! - others up to 289 points, and larger ones like the large patch before: hundreds, with indices of two bytes.
+//! - others up to 289 points, and larger ones like the large patch before: hundreds, with indices
+//!   of two bytes.
 //!
 //! # Data
 //!
@@ -15,20 +17,22 @@
 //!  | topologies: 4 x u64, 0 = empty | starts: 4 x (point: u16, index: u16) |
 //!  +--------------------------------+--------------|-------------|---------+
 //!                                                  v             |
-//! points (64 Ki of [u16; 2])  [ ... | patch's coordinates, or what CompactPoints keeps of codes | ... ]
+//! points (64 Ki of [u16; 2])  [ ... | coordinates, or what CompactPoints keeps of codes | ... ]
 //!                                                                v
-//! indices (224 Ki of u8)      [ ... | indices from the patch's first point, in the order to write | ... ]
+//! indices (224 Ki of u8)      [ ... | indices from the patch's first point, as written | ... ]
 //!
 //! small (8192 starts)         by the topology's small number: what sets of few points said last
 //! ```
 //!
-//! These are the compact ones; others have at most 256 sets, 24 Ki points and 96 Ki indices. Memory is taken as
-//! templates are made: the first one makes 32 sets and a kilobyte or four of either room. A room that is full doubles.
-//! Where a topology finds its set full, there are eight times as many sets from then on, up to the most.
+//! These are the compact ones; others have at most 256 sets, 24 Ki points and 96 Ki indices. Memory
+//! is taken as templates are made: the first one makes 32 sets and a kilobyte or four of either
+//! room. A room that is full doubles. Where a topology finds its set full, there are eight times as
+//! many sets from then on, up to the most.
 //!
-//! Both rooms are filled from front to back. If a template might not fit, everything is forgotten: of compact patches
-//! before each packet ([`Templates::make_room`], for the largest sixteen), otherwise when one is made. Coordinates of
-//! integer factors are 16.16 numbers with `ONE` as 0xFFFF ([`short`], [`long`]).
+//! Both rooms are filled from front to back. If a template might not fit, everything is forgotten:
+//! of compact patches before each packet ([`Templates::make_room`], for the largest sixteen),
+//! otherwise when one is made. Coordinates of integer factors are 16.16 numbers with `ONE` as
+//! 0xFFFF ([`short`], [`long`]).
 //!
 //! # One patch
 //!
@@ -42,21 +46,24 @@
 //!
 //! # What must hold
 //!
-//! - `make_room` is called before a packet's first [`Templates::find`], and a [`Start`] is used before the
-//!   next `make_room`. Otherwise a template is cut off, or read after others have overwritten it.
-//! - [`room::PADDING`] elements behind the last template can be read: whole blocks are copied.
-//! - Sets and rooms are emptied together. With the sets kept, old topologies would find new templates.
-//! - A set is the upper bits of one number, so that the topologies of a set share no new set with others when sets
-//!   become more, and all of them find a slot.
-//! - Whatever changes templates without changing the topology (order of triangles, [`Kept`]) belongs to one
-//!   tessellator for good, or `Workspaces::forget` is called.
+//! - `make_room` is called before a packet's first [`Templates::find`], and a [`Start`] is used
+//!   before the next `make_room`. Otherwise a template is cut off, or read after others have
+//!   overwritten it.
+//! - [`room::PADDING`] elements after the last template can be read: whole blocks are copied.
+//! - Sets and rooms are emptied together. With the sets kept, old topologies would find new
+//!   templates.
+//! - A set is the upper bits of one number, so that the topologies of a set share no new set with
+//!   others when sets become more, and all of them find a slot.
+//! - Whatever changes templates without changing the topology (order of triangles, [`Kept`])
+//!   belongs to one tessellator for good, or `Workspaces::forget` is called.
 //! - An index of a compact patch is below 256: it has at most 16 by 16 points.
 //!
 //! # The simpler form
 //!
-//! One kind for all: indices of two bytes for `mosaic`'s 4096 topologies do not fit the second cache. A triangle's
-//! inside is compact up to 13 points only, so that its codes have room for all rings. With AVX2, templates whose points
-//! are still copied in runs were slower than none: `character` took 1.4 times as long (`docs/experiments.md`).
+//! One kind for all: indices of two bytes for `mosaic`'s 4096 topologies do not fit the second
+//! cache. A triangle's inside is compact up to 13 points only, so that its codes have room for all
+//! rings. With AVX2, templates whose points are still copied in runs were slower than none:
+//! `character` took 1.4 times as long (`docs/experiments.md`).
 
 mod cache;
 mod room;
@@ -74,18 +81,22 @@ use alloc::vec::Vec;
 use cache::{Cache, INDEX_STEP};
 use tess_core::{Domain, DomainPoint, MAX_INDICES, MAX_POINTS, Patch, PatchFactors};
 
-/// The most points and indices of a compact patch: a quad's whose edges have [`COMPACT_EDGE`] points.
+/// The most points and indices of a compact patch: a quad's whose edges have [`COMPACT_EDGE`]
+/// points.
 const POINTS: usize = COMPACT_EDGE * COMPACT_EDGE;
 const INDICES: usize = (6 * (COMPACT_EDGE - 1) * (COMPACT_EDGE - 1)).next_multiple_of(INDEX_STEP);
 
-/// The most points of a patch whose template is kept from the first one on: a quad of factor 16 has this many.
+/// The most points of a patch whose template is kept from the first one on: a quad of factor 16 has
+/// this many.
 const ALWAYS_KEPT: usize = 17 * 17;
 
-/// The templates of one configuration. They take memory as they are made, at most 1 MiB with what makes them.
+/// The templates of one configuration. They take memory as they are made, at most 1 MiB with what
+/// makes them.
 #[derive(Clone, Debug)]
 pub(crate) struct Templates {
     compact: Cache<u8, CompactPoint, 2048, { 224 << 10 }, { 64 << 10 }>,
-    /// Where compact ones begin, by [`PacketPatch::small_topology`]; empty while there are few sets.
+    /// Where compact ones begin, by [`PacketPatch::small_topology`]; empty while there are few
+    /// sets.
     small: Vec<Start>,
     others: Cache<u16, DomainPoint, 256, { 96 << 10 }, { 24 << 10 }>,
     /// Topology of the last large patch that had no template.
@@ -101,7 +112,8 @@ struct MadePatch {
     indices: Vec<u16>,
 }
 
-/// A point of a compact template: its coordinates if factors are integers ([`short`]), otherwise its code.
+/// A point of a compact template: its coordinates if factors are integers ([`short`]), otherwise
+/// its code.
 pub(crate) type CompactPoint = [u16; 2];
 
 /// The part of a code that is kept: see [`points::CompactPoints::kept`].
@@ -131,7 +143,8 @@ impl Templates {
         self.made.make_room(MAX_POINTS, MAX_INDICES);
     }
 
-    /// Makes room for the templates of a packet of compact patches; if there is none, all others are forgotten.
+    /// Makes room for the templates of a packet of compact patches; if there is none, all others
+    /// are forgotten.
     #[inline(always)]
     pub(crate) fn make_room(&mut self) {
         if self.compact.make_room(LANES * POINTS, LANES * INDICES) {
@@ -143,7 +156,8 @@ impl Templates {
         self.small.resize(SMALL_TOPOLOGIES, Start::NONE);
     }
 
-    /// Where the template of a compact patch that is not culled begins. It is made if there is none.
+    /// Where the template of a compact patch that is not culled begins. It is made if there is
+    /// none.
     #[inline(always)]
     pub(crate) fn find(&mut self, patch: PacketPatch<'_>, with: Making<'_>, kept: Kept) -> Start {
         match self.small.get(patch.small_topology()) {
@@ -170,8 +184,8 @@ impl Templates {
         self.compact.get(start)
     }
 
-    /// The template of any other patch that is not culled, if there is one or should be. It has points if factors are
-    /// integers.
+    /// The template of any other patch that is not culled, if there is one or should be. It has
+    /// points if factors are integers.
     #[inline(always)]
     pub(crate) fn other(
         &mut self,
@@ -194,8 +208,8 @@ impl Templates {
             || core::mem::replace(&mut self.last_large, topology) == topology
     }
 
-    /// The indices of a patch without a template, counted from its first point and in the specification's
-    /// order, and then unspecified ones.
+    /// The indices of a patch without a template, counted from its first point and in the
+    /// specification's order, and then unspecified ones.
     #[inline(never)]
     pub(crate) fn specified(&mut self, settings: &Settings, patch: PacketPatch<'_>) -> &[u16] {
         self.made.make_indices(settings, patch);
@@ -247,7 +261,7 @@ impl MadePatch {
         self.points.capacity() * size_of::<DomainPoint>() + self.indices.capacity() * 2
     }
 
-    /// Takes the memory of a patch and of whole blocks behind it.
+    /// Takes the memory of a patch and of whole blocks after it.
     fn make_room(&mut self, points: usize, indices: usize) {
         let (points, indices) = (points + room::PADDING, indices + room::PADDING);
         if self.points.len() < points {
@@ -260,7 +274,8 @@ impl MadePatch {
         }
     }
 
-    /// Makes the indices of a patch and, of a minimum patch or where factors are integers, its points.
+    /// Makes the indices of a patch and, of a minimum patch or where factors are integers, its
+    /// points.
     fn make(&mut self, patch: PacketPatch<'_>, (settings, tables): Making<'_>) {
         self.make_room(patch.points() as usize, patch.indices() as usize);
         if patch.is_minimum() {
@@ -289,7 +304,8 @@ impl MadePatch {
         }
     }
 
-    /// Keeps the indices in their order, and so many points, which are in their room, as a template.
+    /// Keeps the indices in their order, and so many points, which are in their room, as a
+    /// template.
     fn keep<I, P, const S: usize, const N: usize, const M: usize>(
         &self,
         cache: &mut Cache<I, P, S, N, M>,
@@ -311,8 +327,9 @@ impl MadePatch {
     }
 }
 
-/// A point of a compact patch of integer factors in half the room. `ONE` becomes the largest number, which no coordinate
-/// is. Larger patches keep whole points: lengthening them takes up to twice as long as a copy.
+/// A point of a compact patch of integer factors in half the room. `ONE` becomes the largest
+/// number, which no coordinate is. Larger patches keep whole points: lengthening them takes up to
+/// twice as long as a copy.
 #[expect(clippy::cast_possible_truncation, reason = "16.16 numbers up to ONE")]
 fn short(point: DomainPoint) -> CompactPoint {
     [point.u, point.v].map(|coordinate| coordinate.to_bits().min(u32::from(u16::MAX)) as u16)

@@ -1,4 +1,4 @@
-//! The calling thread alone.
+//! Only the calling thread.
 
 use crate::cpu::level::Level;
 use crate::data::format::IndexFormat;

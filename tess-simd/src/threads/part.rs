@@ -25,12 +25,13 @@ pub(crate) struct Job<'a> {
     pub(crate) level: Level,
     pub(crate) settings: &'a Settings,
     pub(crate) numbering: Numbering,
-    /// The packets of the whole batch, if the count kept them: of equal patches, a packet of one. Such a batch is
-    /// one chunk and one part.
+    /// The packets of the whole batch, if the count kept them: of equal patches, a packet of one.
+    /// Such a batch is one chunk and one part.
     pub(crate) kept: Option<&'a [Packet; Chunk::PACKETS]>,
 }
 
-/// Consecutive patches of a batch and where their output goes: buffers of exactly the sizes that the count predicts.
+/// Consecutive patches of a batch and where their output goes: buffers of exactly the sizes that
+/// the count predicts.
 #[derive(Debug)]
 pub(crate) struct Part<'a, P, I> {
     pub(crate) batch: Batch<'a>,
@@ -42,8 +43,8 @@ pub(crate) struct Part<'a, P, I> {
     pub(crate) run: usize,
 }
 
-/// The memory that a thread keeps from batch to batch, made when it is first used. Two threads' workspaces share no
-/// cache lines.
+/// The memory that a thread keeps from batch to batch, made when it is first used. Two threads'
+/// workspaces share no cache lines.
 #[derive(Clone, Debug)]
 #[repr(align(128))]
 pub(crate) struct Workspace(Option<Box<WorkspaceMemory>>);
@@ -104,7 +105,8 @@ impl Workspace {
         levels::process_one(level, &mut self.memory().one, config, factors.domain(), a, b, c)
     }
 
-    /// Writes one patch, and perhaps up to `MORE` elements behind it in either buffer. Returns its output sizes.
+    /// Writes one patch, and perhaps up to `MORE` elements behind it in either buffer. Returns its
+    /// output sizes.
     ///
     /// # Errors
     /// [`Error::BufferTooSmall`]; then nothing is written.

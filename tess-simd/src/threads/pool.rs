@@ -1,9 +1,9 @@
 //! The threads of the rayon pool that the caller runs in, otherwise those of this process.
 //!
-//! Each thread begins with the same slices every time, so that its part of a reused buffer stays in its core's
-//! caches. A thread that is done helps the others. When nothing is left it waits for them: threads that leave a
-//! batch together are still awake when the next one comes. Small batches use fewer threads, because waking takes
-//! longer than they do.
+//! Each thread begins with the same slices every time, so that its part of a reused buffer stays in
+//! its core's caches. A thread that is done helps the others. When nothing is left it waits for
+//! them: threads that leave a batch together are still awake when the next one comes. Small batches
+//! use fewer threads, because waking takes longer than they do.
 
 use crate::cpu::level::Level;
 use crate::data::format::IndexFormat;
@@ -117,8 +117,8 @@ impl Workspaces {
         pool.install(|| on_threads(threads, &write));
     }
 
-    /// All slices, which have these counts, from the first one of this thread on. Threads' own slices
-    /// have about the same output.
+    /// All slices, which have these counts, from the first one of this thread on. Threads' own
+    /// slices have about the same output.
     fn own_first<'a, T>(
         &self,
         counts: &[PartCounts],

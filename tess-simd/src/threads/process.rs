@@ -1,9 +1,9 @@
 //! The threads of this process, for callers outside of any rayon pool.
 //!
-//! rayon's global pool is not used: where its threads cannot be started, every use of it panics from
-//! then on, and a forked child, which has the pool without its threads, waits for them for ever. The
-//! pool here is started by the first batch that needs it. A batch does without a pool that cannot be
-//! started, and a forked child starts its own.
+//! rayon's global pool is not used: where its threads cannot be started, every use of it panics
+//! from then on, and a forked child, which has the pool without its threads, waits for them for
+//! ever. The pool here is started by the first batch that needs it. A batch does without a pool
+//! that cannot be started, and a forked child starts its own.
 
 use crate::threads::MAX_THREADS;
 use core::fmt;
@@ -62,8 +62,8 @@ fn put(started: &mut Option<Started>, pool: Option<Arc<ThreadPool>>) {
     core::mem::forget(started.replace((this_process(), pool)));
 }
 
-/// The lock; `None` if it stays taken. A child that was forked while another thread had it never gets
-/// it, so nobody waits for it.
+/// The lock; `None` if it stays taken. A child that was forked while another thread had it never
+/// gets it, so nobody waits for it.
 fn lock() -> Option<MutexGuard<'static, Option<Started>>> {
     const TRIES: usize = 64;
     for _ in 0..TRIES {

@@ -8,8 +8,8 @@ const SLICES_PER_THREAD: usize = 4;
 /// How a batch is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Slicing {
-    /// Patches of each slice but the last, which may have fewer. Whole packets where there are enough
-    /// patches.
+    /// Patches of each slice but the last, which may have fewer. Whole packets where there are
+    /// enough patches.
     pub(crate) patches: usize,
     /// The number of slices.
     pub(crate) slices: usize,
@@ -29,8 +29,8 @@ impl Slicing {
     }
 }
 
-/// Output for each thread that is woken, at least. A thread writes this much in about 8 microseconds and takes 4
-/// to wake, so that two threads are never slower than one.
+/// Output for each thread that is woken, at least. A thread writes this much in about 8
+/// microseconds and takes 4 to wake, so that two threads are never slower than one.
 #[cfg(any(test, feature = "rayon"))]
 const BYTES_PER_THREAD: u64 = 256 << 10;
 

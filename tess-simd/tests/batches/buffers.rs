@@ -1,5 +1,5 @@
-//! Memory of tessellators, owned batches, the largest batch, levels. `sequences.rs` has buffers of every size and batches
-//! that are refused.
+//! Memory of tessellators, owned batches, the largest batch, levels. `sequences.rs` has buffers of
+//! every size and batches that are refused.
 
 use allocation_counter::measure;
 use tess_core::{
@@ -7,7 +7,7 @@ use tess_core::{
     TriangleFactors,
 };
 use tess_simd::{
-    Batch, Error, Level, LevelUnavailable, Numbering, Output, OwnedBatch, Tessellator,
+    Batch, Error, Level, LevelUnavailableError, Numbering, Output, OwnedBatch, Tessellator,
 };
 
 const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
@@ -63,7 +63,8 @@ fn owned_batches_have_one_domain() {
 fn levels_that_this_machine_lacks_are_errors() {
     for level in Level::ALL {
         let made = Tessellator::with_level(CONFIG, level).map(|made| made.level());
-        let expected = if level.is_available() { Ok(level) } else { Err(LevelUnavailable(level)) };
+        let expected =
+            if level.is_available() { Ok(level) } else { Err(LevelUnavailableError(level)) };
         assert_eq!(made, expected, "{level}");
     }
 }
@@ -105,7 +106,8 @@ fn a_warm_tessellator_allocates_nothing() {
     assert_eq!(run(&[]), 0, "an empty batch");
 }
 
-/// All memory at once: no patch and no batch allocates, whatever comes, and there is not more in the end.
+/// All memory at once: no patch and no batch allocates, whatever comes, and there is not more in
+/// the end.
 #[test]
 fn a_reserved_tessellator_allocates_nothing() {
     for partitioning in Partitioning::ALL {
@@ -142,8 +144,8 @@ fn a_reserved_tessellator_allocates_nothing() {
     }
 }
 
-/// A second tessellator of a configuration has its tables; a small patch takes little memory, and one that was
-/// seen none.
+/// A second tessellator of a configuration has its tables; a small patch takes little memory, and
+/// one that was seen none.
 #[test]
 fn small_patches_take_little_memory() {
     let config = Config { partitioning: Partitioning::Integer, ..CONFIG };

@@ -42,8 +42,8 @@ fn every_configuration_at_every_level() {
     }
 }
 
-/// Equal patches, alone and with another patch before or after them, at every length at which a batch is processed in
-/// another way: 4 patches one by one, 8 are worth copying, 64 are a chunk.
+/// Equal patches, alone and with another patch before or after them, at every length at which a
+/// batch is processed in another way: 4 patches one by one, 8 are worth copying, 64 are a chunk.
 #[test]
 fn runs_of_every_length() {
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
@@ -81,9 +81,9 @@ fn large_batches() {
     }
 }
 
-/// More topologies of compact patches than there is room for, and then the first ones again: the room is
-/// emptied several times, and what was forgotten is made again. With points as primitives the room for
-/// points ends first, with triangles the room for indices.
+/// More topologies of compact patches than there is room for, and then the first ones again: the
+/// room is emptied several times, and what was forgotten is made again. With points as primitives
+/// the room for points ends first, with triangles the room for indices.
 #[test]
 fn more_compact_templates_than_there_is_room_for() {
     let mut random = SplitMix64::new(41);
@@ -152,8 +152,8 @@ fn every_pair_of_counts() {
     }
 }
 
-/// A run of more equal patches than 16 bits count, numbered through the batch: minimum triangles, of which
-/// patch k has the points 3k to 3k + 2.
+/// A run of more equal patches than 16 bits count, numbered through the batch: minimum triangles,
+/// of which patch k has the points 3k to 3k + 2.
 #[test]
 fn long_runs() {
     const PATCHES: u32 = 70_000;

@@ -1,7 +1,7 @@
 //! Ranges of groups, and batches in parts.
 
 use tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
-use tess_simd::{BadGroup, Numbering, Output, PatchRange, Tessellator, group_ranges};
+use tess_simd::{BadGroupError, Numbering, Output, PatchRange, Tessellator, group_ranges};
 
 /// Three patches of 4, 0 and 9 points, and of 6, 0 and 24 indices.
 const RANGES: [PatchRange; 3] = [
@@ -27,13 +27,14 @@ fn groups_follow_each_other() {
 #[test]
 fn groups_that_cannot_be() {
     let bad = |starts: &[u32]| group_ranges(&RANGES, starts).err();
-    let past = BadGroup { group: 1, start: 4, lowest: 0, patches: 3 };
+    let past = BadGroupError { group: 1, start: 4, lowest: 0, patches: 3 };
     assert_eq!(bad(&[0, 4]), Some(past), "past the end");
-    let back = BadGroup { group: 2, start: 1, lowest: 2, patches: 3 };
+    let back = BadGroupError { group: 2, start: 1, lowest: 2, patches: 3 };
     assert_eq!(bad(&[0, 2, 1]), Some(back), "back");
 }
 
-/// A batch in two parts has the indices of the whole batch, if the second part is numbered behind the first.
+/// A batch in two parts has the indices of the whole batch, if the second part is numbered behind
+/// the first.
 #[test]
 fn a_part_is_numbered_behind_the_parts_before_it() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);

@@ -47,8 +47,8 @@ fn within_a_larger_pool() {
     });
 }
 
-/// Workspaces of threads that have written a batch hold templates in the order of that batch. All of them
-/// are forgotten when the order changes, whichever thread they belong to.
+/// Workspaces of threads that have written a batch hold templates in the order of that batch. All
+/// of them are forgotten when the order changes, whichever thread they belong to.
 #[test]
 fn every_workspace_takes_the_new_order() {
     const THREADS: usize = 3;

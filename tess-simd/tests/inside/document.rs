@@ -61,7 +61,7 @@ fn places() -> String {
     let context = factors.iter().nth(1).expect("six factors").context;
     let mut text = String::from("point  position  coarse   fine  half_location  location\n");
     for p in 0..context.points {
-        let steps = place::steps(&context, p);
+        let steps = place::placement(&context, p);
         let blend = steps.blend.map_or_else(
             || "     -      -".to_string(),
             |blend| format!("{:>6} {:>6}", blend.coarse, blend.fine),

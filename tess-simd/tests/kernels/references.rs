@@ -1,4 +1,5 @@
-//! The model's answers for each kernel, in the order in which `KernelTap::words` lists it: numbers and the front end.
+//! The model's answers for each kernel, in the order in which `KernelTap::words` lists it: numbers
+//! and the front end.
 
 mod output;
 

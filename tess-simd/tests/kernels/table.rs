@@ -2,10 +2,11 @@
 //!
 //! # The problem
 //!
-//! A wrong word in a batch says that something between raw factors and the output is wrong. It does not say what: a
-//! patch goes through a dozen stages, each compiled for three CPU levels. So each stage also runs alone, at each
-//! level, and its words are compared with those of the same stage of `tess-core`. `tests/kernels.rs` does that;
-//! `benches/benches/kernels.rs` times the same entries on the same inputs.
+//! A wrong word in a batch says that something between raw factors and the output is wrong. It does
+//! not say what: a patch goes through a dozen stages, each compiled for three CPU levels. So each
+//! stage also runs alone, at each level, and its words are compared with those of the same stage of
+//! `tess-core`. `tests/kernels.rs` does that; `benches/benches/kernels.rs` times the same entries
+//! on the same inputs.
 //!
 //! # An entry
 //!
@@ -15,23 +16,27 @@
 //!                                        points alone as primitives
 //! ```
 //!
-//! A [`Case`] is an entry's input in one round: random in even rounds, extreme in odd ones, with another configuration
-//! in every second round. It follows from [`SEED`], the entry and the round. Patches come to a stage through the stages
-//! before it, and entries stand in the order of the data. So the first entry that fails names the faulty kernel, and
-//! those after it may only have got its wrong words.
+//! A [`Case`] is an entry's input in one round: random in even rounds, extreme in odd ones, with
+//! another configuration in every second round. It follows from [`SEED`], the entry and the round.
+//! Patches come to a stage through the stages before it, and entries stand in the order of the
+//! data. So the first entry that fails names the faulty kernel, and those after it may only have
+//! got its wrong words.
 //!
 //! # One entry at work
 //!
-//! `stages/points/quad` in round 6 takes regular quads of fractional-even factors. For each of them the model walks
-//! its points, and [`Words::points`] notes two words a point under the names `u of point` and `v of point`. The
-//! [`KernelTap`] takes the same patches through the front end and lets `stages/points` write them into a buffer of exactly
-//! that size, twice: what is kept from run to run must change nothing. If word 9 of patch 2 differs, the message has the
-//! entry, the level, the round, `v of point 4`, both words, and the patch as a case that `tess` reads.
+//! `stages/points/quad` in round 6 takes regular quads of fractional-even factors. For each of them
+//! the model walks its points, and [`Words::points`] notes two words a point under the names `u of
+//! point` and `v of point`. The [`KernelTap`] takes the same patches through the front end and lets
+//! `stages/points` write them into a buffer of exactly that size, twice: what is kept from run to
+//! run must change nothing. If word 9 of patch 2 differs, the message has the entry, the level, the
+//! round, `v of point 4`, both words, and the patch as a case that `tess` reads.
 //!
 //! # Adding one
 //!
-//! 1. Give the kernel a variant of `Kernel` and an arm in `src/kernels/kernel_taps`, which is compiled for each level.
-//! 2. Write in `references` what the model gives, in the order in which `KernelTap::words` lists the output.
+//! 1. Give the kernel a variant of `Kernel` and an arm in `src/kernels/kernel_taps`, which is
+//!    compiled for each level.
+//! 2. Write in `references` what the model gives, in the order in which `KernelTap::words` lists
+//!    the output.
 //! 3. Add a line to [`TABLE`]. A kernel without one fails the test.
 //! 4. Plant a fault in the kernel and see the test name it.
 
@@ -253,7 +258,8 @@ impl Entry {
         KernelTap::new(self.kernel, level, &case.input).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// Runs the kernel twice, as what it keeps from run to run may change what it does, and compares its output.
+    /// Runs the kernel twice, as what it keeps from run to run may change what it does, and
+    /// compares its output.
     ///
     /// # Errors
     /// The first difference.

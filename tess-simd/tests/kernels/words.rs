@@ -70,7 +70,8 @@ impl Words {
         self.values.len()
     }
 
-    /// How many elements a stage makes: points and indices; where there are none, locations, patches or numbers.
+    /// How many elements a stage makes: points and indices; where there are none, locations,
+    /// patches or numbers.
     #[allow(dead_code, reason = "for the bench")]
     pub(crate) fn elements(&self) -> usize {
         match (self.points + self.indices, self.marks.last()) {

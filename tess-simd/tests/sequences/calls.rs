@@ -1,4 +1,5 @@
-//! Calls of a tessellator. What they print as is Rust, so that a sequence that fails can stand in `found.rs` as it is.
+//! Calls of a tessellator. What they print as is Rust, so that a sequence that fails can stand in
+//! `found.rs` as it is.
 
 use std::fmt;
 use tess_core::{Config, Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
@@ -11,7 +12,8 @@ pub(crate) struct Start {
     pub(crate) level: Level,
     pub(crate) order: Order,
     pub(crate) threads: usize,
-    /// Whether the calls come from a thread of a pool of four; otherwise from one outside of any pool.
+    /// Whether the calls come from a thread of a pool of four; otherwise from one outside of any
+    /// pool.
     pub(crate) in_pool: bool,
 }
 
@@ -22,8 +24,8 @@ pub(crate) enum Call {
     Write(Patches, To),
     /// `count`, and then `write` into each of these.
     Count(Patches, List<To>),
-    /// `tessellate` into the output of these formats, which is kept, and the ranges of groups that begin at these
-    /// patches.
+    /// `tessellate` into the output of these formats, which is kept, and the ranges of groups that
+    /// begin at these patches.
     Tessellate(Patches, Format, Width, From, List<u32>),
     /// `patch`, or `patch_apart`.
     Patch(Factors, Room),
@@ -105,7 +107,8 @@ pub(crate) enum Width {
 pub(crate) enum From {
     EachPatch,
     Base(u32),
-    /// The largest index is so much above the largest one of its width. Base vertices end at 0 and 2^32 - 1.
+    /// The largest index is so much above the largest one of its width. Base vertices end at 0 and
+    /// 2^32 - 1.
     Limit(i64),
 }
 

@@ -30,7 +30,8 @@ pub(crate) struct Column {
 pub(crate) enum Of {
     /// A coordinate: u is 0, v is 1.
     Point(Format, usize),
-    /// An index. The base vertex is that of the batch; there is none if patches are numbered on their own.
+    /// An index. The base vertex is that of the batch; there is none if patches are numbered on
+    /// their own.
     Index(Option<u32>),
 }
 
@@ -85,7 +86,8 @@ impl Expected {
         &self.ranges
     }
 
-    /// Nothing if the elements of the output are right and those from `overrun` behind it on are untouched.
+    /// Nothing if the elements of the output are right and those from `overrun` behind it on are
+    /// untouched.
     pub(crate) fn check(&self, column: &Column, overrun: usize) -> Result<(), String> {
         let expected = self.bits(column.of);
         let found = column.bits.get(..expected.len()).ok_or("the buffer is too short")?;

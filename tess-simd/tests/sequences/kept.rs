@@ -5,7 +5,8 @@ use crate::calls::{Format, From, Width};
 use crate::expected::{Column, Expected, Of};
 use tess_core::DomainPoint;
 use tess_simd::{
-    BadGroup, Batch, Error, IndexFormat, Output, OutputPoint, PatchRange, Tessellator, group_ranges,
+    BadGroupError, Batch, Error, IndexFormat, Output, OutputPoint, PatchRange, Tessellator,
+    group_ranges,
 };
 
 /// An output, and what must be in it.
@@ -94,7 +95,7 @@ fn check_groups(ranges: &[PatchRange], starts: &[u32]) -> Outcome {
     let bad =
         |&(group, &start): &(usize, &u32)| start < lowest(group) || start as usize > ranges.len();
     if let Some((group, &start)) = starts.iter().enumerate().find(bad) {
-        let bad = BadGroup { group, start, lowest: lowest(group), patches: ranges.len() };
+        let bad = BadGroupError { group, start, lowest: lowest(group), patches: ranges.len() };
         return equal("groups", found, Err(bad));
     }
     let before = |patch: usize| {

@@ -221,8 +221,8 @@ fn patches() -> impl Strategy<Value = Patches> {
     })
 }
 
-/// Runs with little output, some with enough patches and output for several threads, and some patches of which
-/// each has a topology of its own, so that templates need all their room.
+/// Runs with little output, some with enough patches and output for several threads, and some
+/// patches of which each has a topology of its own, so that templates need all their room.
 fn runs(domain: Domain) -> impl Strategy<Value = Vec<(usize, Factors)>> + Clone {
     let times = prop_oneof![6 => Just(1), 5 => 2..=10_usize, 3 => 11..=100_usize];
     let runs = vec((times, factors(domain)), 0..14_usize);

@@ -2,7 +2,7 @@
 
 use crate::models::{bumps, models, rational_ball};
 use tess_core::{Domain, OutputPrimitive, Partitioning, PatchFactors};
-use tess_surface::{DisplacedModel, Level, LevelUnavailable, Model, Sample};
+use tess_surface::{DisplacedModel, Level, LevelUnavailableError, Model, Sample};
 use tess_testkit::levels::levels;
 
 /// Domain points of a cut whose edges and inside are of several lengths.
@@ -27,7 +27,7 @@ fn compare(
     name: &str,
     domain: Domain,
     one: impl Fn([f32; 2]) -> Sample,
-    many: impl Fn(Level, &[[f32; 2]], &mut [Sample]) -> Result<(), LevelUnavailable>,
+    many: impl Fn(Level, &[[f32; 2]], &mut [Sample]) -> Result<(), LevelUnavailableError>,
 ) {
     let points = points(domain);
     let expected: Vec<_> = points.iter().map(|&point| bits(&one(point))).collect();

@@ -115,8 +115,8 @@ fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: SpecSt
         return SpecStage::Factors;
     }
     let split = match case.config.split {
-        SplitOrder::Ruler => SplitOrder::Center,
-        SplitOrder::Center => SplitOrder::Ruler,
+        SplitOrder::Ruler => SplitOrder::Centre,
+        SplitOrder::Centre => SplitOrder::Ruler,
     };
     let other_split = Case { config: Config { split, ..case.config }, ..*case };
     let points_alone = Strength { elements: Elements::Points, ..strength };

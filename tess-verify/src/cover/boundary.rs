@@ -141,7 +141,7 @@ fn conversion(factor: &ProcessedFactor, hit: &mut impl FnMut(&str)) {
         _ => {}
     }
     for p in 0..context.half_points {
-        let Some(blend) = place::steps(context, p).blend else { continue };
+        let Some(blend) = place::placement(context, p).blend else { continue };
         let sum = blend.coarse * (ONE - blend.fraction) + blend.fine * blend.fraction;
         beside_middle(sum, 0x7FFF, ["location/below", "location/above"], hit);
     }

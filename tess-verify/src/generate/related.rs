@@ -38,7 +38,7 @@ pub(super) fn systematic() -> Vec<Case> {
             [Partitioning::Integer, Partitioning::FractionalOdd, Partitioning::FractionalEven]
         {
             for (turn, &level) in levels.iter().enumerate() {
-                let split = if turn % 5 == 4 { SplitOrder::Center } else { SplitOrder::Ruler };
+                let split = if turn % 5 == 4 { SplitOrder::Centre } else { SplitOrder::Ruler };
                 let config = Config { partitioning, output: OutputPrimitive::TriangleCw, split };
                 let plain = [3.0, 2.5, 4.0, 1.0, 3.5, 5.0];
                 let at = |position| {

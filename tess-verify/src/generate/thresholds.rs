@@ -152,15 +152,13 @@ impl Thresholds<'_> {
             return;
         }
         for turn in 0..6 {
-            let power = |p: usize| [127, 128, 129, 130, 131, 132][(p + turn) % 6];
-            let sides: [(_, fn(u32) -> u32); 3] = [
-                ("round/below", |power| power << 23),
-                ("round/above", |power| (power << 23) + 1),
-                ("round/last", |power| ((power + 1) << 23) - 1),
-            ];
-            for (side, bits) in sides {
+            let power = |p: usize| [127_u32, 128, 129, 130, 131, 132][(p + turn) % 6];
+            // The exponent's neighbour and the bits to add tell the three sides.
+            for (side, next, more) in
+                [("round/below", 0, 0), ("round/above", 0, 1), ("round/last", 1, -1)]
+            {
                 let factor = |p| match is_integer(domain, partitioning, p) {
-                    true => f32::from_bits(bits(power(p))),
+                    true => f32::from_bits(((power(p) + next) << 23_u32).wrapping_add_signed(more)),
                     false => ONE,
                 };
                 self.push(side, partitioning, PatchFactors::from_fn(domain, factor));

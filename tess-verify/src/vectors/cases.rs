@@ -55,12 +55,12 @@ impl<R: BufRead> Cases<R> {
         Self::open(name.as_ref(), reader, Emptiness::Refused)
     }
 
-    /// [`Self::new`], for a text that may be a vector file without records, as an empty shard has, or have remarks
-    /// alone. An empty text is still an error.
+    /// [`Self::new`], for a baseline: it may be a vector file without records, or have only remarks. An empty text is
+    /// still an error.
     ///
     /// # Errors
     /// As for [`Self::new`].
-    pub fn maybe_empty(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
+    pub(crate) fn maybe_empty(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
         Self::open(name.as_ref(), reader, Emptiness::Accepted)
     }
 

@@ -201,7 +201,7 @@ fn preparation_row(row: &Row<'_>) -> Result<PreparationRow, VectorError> {
     Ok(PreparationRow {
         config: Config::new(row.named("partitioning")?, row.named("output")?),
         reduction: row.named("reduction")?,
-        request: Request::new(factors(row, "input_f32_hex", domain)?, row.named("axis")?),
+        request: Request::from_record(factors(row, "input_f32_hex", domain)?, row.named("axis")?),
         prepared,
         output: sizes(row)?,
     })

@@ -110,14 +110,14 @@ fn files_without_records() {
     ] {
         let error = read(&text).expect_err(&text).to_string();
         assert!(error.ends_with("a file without records shows nothing"), "{error}");
-        let mut file = VectorFile::maybe_empty("f", text.as_bytes()).expect(&text);
+        let mut file = VectorFile::open("f", text.as_bytes(), Emptiness::Accepted).expect(&text);
         assert!(file.next().is_none(), "no record in {text}");
         let more = format!("{text}case");
-        let mut file = VectorFile::maybe_empty("f", more.as_bytes()).expect(&more);
+        let mut file = VectorFile::open("f", more.as_bytes(), Emptiness::Accepted).expect(&more);
         assert!(file.next().is_some_and(|record| record.is_err()), "a record is surplus: {more}");
     }
     let cut = "# tess-vectors 1 kind=listings source=a\n";
-    let mut file = VectorFile::maybe_empty("f", cut.as_bytes()).expect("a header");
+    let mut file = VectorFile::open("f", cut.as_bytes(), Emptiness::Accepted).expect("a header");
     assert!(file.next().is_some_and(|record| record.is_err()), "truncated is not empty");
 }
 

@@ -73,11 +73,7 @@ async fn stage(
     let StageBuilder { patches, room, first_room, overflow, .. } = builder;
     let form = builder.form(device, &vertices);
     let setup = form.setup;
-    let mut tessellator = match builder.tessellator {
-        Some(shared) if shared.device() == device => shared.clone(),
-        Some(_) => return Err(StageError::OtherDevice.into()),
-        None => Tessellator::new(device),
-    };
+    let mut tessellator = tessellator_of(&builder, device)?;
     let usage = Usage::STORAGE | Usage::COPY_DST;
     let size = form.factor_bytes();
     let factors = gpu::empty(device, "factors of the stage", size, usage | Usage::COPY_SRC)?;
@@ -125,6 +121,21 @@ async fn stage(
         feedback: Default::default(),
         frame: 0,
     })
+}
+
+/// The tessellator that the stage shares, or one of its own.
+///
+/// # Errors
+/// The shared one is of another device.
+fn tessellator_of(
+    builder: &StageBuilder<'_>,
+    device: &wgpu::Device,
+) -> Result<Tessellator, StageError> {
+    match builder.tessellator {
+        Some(shared) if shared.device() == device => Ok(shared.clone()),
+        Some(_) => Err(StageError::OtherDevice),
+        None => Ok(Tessellator::new(device)),
+    }
 }
 
 /// A stage that draws another's output.

@@ -58,7 +58,7 @@ fn any_element_in_every_configuration() {
                 expected.push(([point.u.to_bits(), point.v.to_bits(), u, v], indices, own.len()));
             }
         }
-        let answers = ask(&machine, setup, &batch, &asked, config.split == SplitOrder::Center);
+        let answers = ask(&machine, setup, &batch, &asked, config.split == SplitOrder::Centre);
         assert_eq!(answers.len(), 7 * expected.len(), "one answer each");
         for (answer, (point, indices, size)) in answers.chunks(7).zip(&expected) {
             assert_eq!(answer[..4], point[..], "{setup:?}");

@@ -24,7 +24,7 @@ fn few() -> Vec<Setup> {
     use Partitioning::{FractionalEven, FractionalOdd, Integer, Pow2};
     let of = |domain, partitioning, output| Setup::new(domain, Config::new(partitioning, output));
     let mut centred = of(Domain::Quad, Integer, TriangleCcw);
-    centred.config.split = SplitOrder::Center;
+    centred.config.split = SplitOrder::Centre;
     let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
     let (order, copies, point_format) = (Order::VertexCache, Copies::Never, PointFormat::F32);
     vec![

@@ -30,7 +30,7 @@ pub(crate) fn points(patch: &Patch) -> Vec<u8> {
 
 fn mark(patch: &Patch, i: u32) -> Option<u8> {
     let (context, p) = edge(patch, i)?;
-    let steps = place::steps(&context, p);
+    let steps = place::placement(&context, p);
     Some(match steps.blend {
         None => 1,
         Some(_) if steps.position == context.split => 2,

@@ -187,7 +187,7 @@ fn preparation() {
             for (axes_number, axes) in (0..).zip(AXES) {
                 let domain = Domain::ALL[s.config.domain as usize];
                 let partitioning = Partitioning::ALL[s.config.partitioning as usize];
-                let request = Request::new(patch_factors(domain, &s.factors), axes);
+                let request = Request::from_record(patch_factors(domain, &s.factors), axes);
                 let model = prepare(partitioning, reduction, request);
                 let preparation = TessPreparation {
                     domain: s.config.domain,

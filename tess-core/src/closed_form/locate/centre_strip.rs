@@ -1,12 +1,13 @@
 //! The t-th triangle of the strip inside a quad's innermost ring, from closed forms.
 //!
-//! Where the shorter inside factor is odd, the innermost ring is two rows of points with nothing between them, and a
-//! strip of quads fills it. `locate::rings` asks for one triangle of it.
+//! Where the shorter inside factor is odd, the innermost ring is two rows of points with nothing
+//! between them, and a strip of quads fills it. `locate::rings` asks for one triangle of it.
 //!
 //! # The data
 //!
-//! The inside factors 5 and 3 make a ring of 4 by 2 points, the factors 3 and 5 one of 2 by 4. With integer outer
-//! factors of 3, both have the indices 12 to 19. The number of each triangle, `t`, stands in it:
+//! The inside factors 5 and 3 make a ring of 4 by 2 points, the factors 3 and 5 one of 2 by 4. With
+//! integer outer factors of 3, both have the indices 12 to 19. The number of each triangle, `t`,
+//! stands in it:
 //!
 //! ```text
 //!   u longer                            v longer
@@ -21,21 +22,23 @@
 //!                                       a(3)     b(3)
 //! ```
 //!
-//! `a` counts up from the ring's first index, or from its second where the strip runs along u; `b` counts down from the
-//! index before `a(0)`. Both wrap around at the ring's size.
+//! `a` counts up from the ring's first index, or from its second where the strip runs along u; `b`
+//! counts down from the index before `a(0)`. Both wrap around at the ring's size.
 //!
 //! # What holds
 //!
-//! - `size` is at least 4, the size of the smallest ring that goes round, so `(size - 2) / 4` is its middle quad.
-//! - A strip along u has all diagonals alike. One along v has its middle quad's diagonal turned (spec section 7.4).
+//! - `size` is at least 4, the size of the smallest ring that goes round, so `(size - 2) / 4` is
+//!   its middle quad.
+//! - A strip along u has all diagonals alike. One along v has its middle quad's diagonal turned
+//!   (spec section 7.4).
 //! - `t` is below `size - 2`, the number of triangles.
 //!
 //! The test `the_worked_strips` has the pictures' numbers.
 //!
 //! # Why not simpler
 //!
-//! The sequential form (`model/connect/quad.rs`) walks both rows and reverses one that runs the other way. Here a vertex is one
-//! addition, and at most one remainder.
+//! The sequential form (`model/connect/quad.rs`) walks both rows and reverses one that runs the
+//! other way. Here a vertex is one addition, and at most one remainder.
 
 use crate::closed_form::locate::point::quad_points_before;
 use crate::model::points::quad::Inside;

@@ -1,37 +1,40 @@
-//! Which line, edge or ring the i-th point of a patch lies on, and where on it.
+//! The line, edge or ring of the i-th point of a patch, and its place there.
 //!
-//! [`locate`] turns a point's number into its origin, and [`point`] the origin into coordinates. They are apart because
-//! tests, `tess explain` and debuggers want the origin, and because shaders keep an origin to step to the next point.
+//! [`locate`] turns a point's number into its origin, and [`point`] the origin into coordinates.
+//! They are apart because tests, `tess explain` and debuggers want the origin, and because shaders
+//! keep an origin to step to the next point.
 //!
 //! # The data
 //!
 //! ```text
-//! isoline    line 0: detail points | line 1 | ...                              i / points, i % points
-//! triangle   outer edges: n - 1 each | ring 1: 3 (n - 3) | ring 2: 3 (n - 5) | ... | centre: 1 if n is odd
+//! isoline    line 0: detail points | line 1 | ...                i / points, i % points
+//! triangle   outer edges: n - 1 each | ring 1: 3 (n - 3) | ring 2: 3 (n - 5) | ... | centre: 1 or 0
 //! quad       outer edges: n - 1 each | ring 1: 2 (u - 3) + 2 (v - 3) | ...         | centre row
 //! ```
 //!
-//! An edge has its first point and leaves its last one to the next edge. Interior rings have the points of the inside
-//! factors, whatever the outer edges have.
+//! An edge has its first point and leaves its last one to the next edge. Interior rings have the
+//! points of the inside factors, whatever the outer edges have.
 //!
 //! # One patch
 //!
-//! The triangle (3, 3, 3; 8), integer, has 9 points on its outer edges and n = 9 inside: 18, 12 and 6 on rings 1, 2 and
-//! 3, and the centre. Point 33 is number 24 of the interior. The rings begin at 0, 18 and 30, so it is number 6 of
-//! ring 2, which has 9 - 1 - 2 * 2 = 4 points on each edge: edge 1, point 2. Its coordinates are 0x6aaa and 0x2aab, close
-//! to 5 / 12 and 1 / 6. The test `the_worked_rings` has these numbers.
+//! The triangle (3, 3, 3; 8), integer, has 9 points on its outer edges and n = 9 inside: 18, 12 and
+//! 6 on rings 1, 2 and 3, and the centre. Point 33 is number 24 of the interior. The rings begin at
+//! 0, 18 and 30, so it is number 6 of ring 2, which has 9 - 1 - 2 * 2 = 4 points on each edge: edge
+//! 1, point 2. Its coordinates are 0x6aaa and 0x2aab, close to 5 / 12 and 1 / 6. The test
+//! `the_worked_rings` has these numbers.
 //!
 //! # What holds
 //!
 //! - `i` is below the patch's count. Any other number would become a point of the centre.
-//! - `triangle_points_before` and `quad_points_before` are 0 for ring 1 and grow with the ring up to the last one that
-//!   goes round. Beyond it they fall, so the search ends there.
-//! - The sizes of a ring's edges are at least 1, since a ring that goes round has two points along each axis.
+//! - `triangle_points_before` and `quad_points_before` are 0 for ring 1 and grow with the ring up
+//!   to the last one that goes round. Beyond it they fall, so the search ends there.
+//! - The sizes of a ring's edges are at least 1, since a ring that goes round has two points along
+//!   each axis.
 //!
 //! # Why not simpler
 //!
-//! A walk that subtracts ring after ring takes up to 31 steps, and threads of a workgroup would wait for the longest.
-//! The search takes five for every point.
+//! A walk that subtracts ring after ring takes up to 31 steps, and threads of a workgroup would
+//! wait for the longest. The search takes five for every point.
 
 use crate::closed_form::locate::origin::PointOrigin;
 use crate::closed_form::locate::{last_ring_at_or_before, slot_of};
@@ -39,12 +42,10 @@ use crate::model::connect::rings::Rings;
 use crate::model::connect::{quad as quad_rings, triangle as triangle_rings};
 use crate::model::factor_context::FactorContext;
 use crate::model::factors::{ProcessedFactor, ProcessedPatch};
-use crate::model::fixed_point::ONE;
 use crate::model::output::DomainPoint;
 use crate::model::patch_factors::{PatchFactors, QuadFactors, TriangleFactors};
 use crate::model::points::quad::Inside;
-use crate::model::points::{isoline, quad, triangle};
-use crate::model::state::Domain;
+use crate::model::points::{isoline, minimum_corners, quad, triangle};
 
 /// Locates point `i`, which is less than the patch's point count.
 pub(crate) fn locate(patch: &ProcessedPatch, i: u32) -> PointOrigin {
@@ -81,7 +82,7 @@ fn locate_in_quad(factors: &QuadFactors<ProcessedFactor>, i: u32) -> PointOrigin
         return locate_on_outer_edge(&outer, i);
     };
     let inside = Inside::new(factors);
-    let end = inside.ring_end();
+    let end = inside.first_open_ring();
     let rings_total = quad_points_before(&inside, end);
     if interior >= rings_total {
         return PointOrigin::Centre { p: interior - rings_total };
@@ -112,22 +113,10 @@ pub(crate) const fn quad_points_before(inside: &Inside<'_>, ring: u32) -> u32 {
 pub(crate) fn point(patch: &ProcessedPatch, location: PointOrigin) -> Option<DomainPoint> {
     match (patch, location) {
         (ProcessedPatch::Minimum(factors), PointOrigin::Corner { corner }) => {
-            minimum_corner(factors.domain(), corner)
+            minimum_corners(factors.domain()).get(corner as usize).copied()
         }
         (ProcessedPatch::Regular(factors), location) => regular_point(factors, location),
         _ => None,
-    }
-}
-
-/// Corner `corner` of a minimum patch (spec section 3, step 8).
-fn minimum_corner(domain: Domain, corner: u32) -> Option<DomainPoint> {
-    let at = |u_is_one, v_is_one| {
-        DomainPoint::from_bits(ONE * u32::from(u_is_one), ONE * u32::from(v_is_one))
-    };
-    match domain {
-        Domain::Triangle if corner < 3 => Some(at(corner == 2, corner == 0)),
-        Domain::Quad if corner < 4 => Some(at(corner == 1 || corner == 2, corner >= 2)),
-        Domain::Isoline | Domain::Triangle | Domain::Quad => None,
     }
 }
 

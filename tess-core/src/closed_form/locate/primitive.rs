@@ -1,37 +1,42 @@
 //! Which line, stitch or centre the t-th primitive of a patch belongs to, and its indices.
 //!
-//! `Patch::locate_primitive` and `Patch::primitive` call the two halves: [`locate`] turns a number into an origin,
-//! [`primitive`] an origin into indices. A caller may keep the origin, or ask for the neighbour of one.
+//! `Patch::locate_primitive` and `Patch::primitive` call the two halves: [`locate`] turns a number
+//! into an origin, [`primitive`] an origin into indices. A caller may keep the origin, or ask for
+//! the neighbour of one.
 //!
 //! # The data
 //!
 //! ```text
 //! output, patch                 origin of primitive t                     indices
 //! points; culled                Sequence { step: t }                      t
-//! isoline                       Line { line: t / s, segment: t % s }      p, p + 1 with p = line * (s + 1) + segment
+//! isoline                       Line { line: t / s, segment: t % s }   p, p + 1
 //! lines of other domains        Sequence { step: t }                      t, t + 1
 //! minimum triangle or quad      Minimum { step: t }                       0 1 2; 0 1 3 and 1 2 3
 //! other triangles               Transition, Ring or Centre                `locate/rings.rs`
 //! ```
 //!
-//! with `s` the segments of a line. Triangles are located clockwise; counterclockwise swaps the last two indices.
+//! with `s` the segments of a line and `p = line * (s + 1) + segment`. Triangles are located clockwise; counterclockwise swaps the
+//! last two indices.
 //!
 //! # One patch
 //!
-//! An isoline patch with 3 lines of 4 segments has 12 primitives. Primitive 6 is segment 2 of line 1, whose points
-//! are 5 to 9: the indices are 7 and 8.
+//! An isoline patch with 3 lines of 4 segments has 12 primitives. Primitive 6 is segment 2 of line
+//! 1, whose points are 5 to 9: the indices are 7 and 8.
 //!
 //! # What holds
 //!
-//! - `t` is below the patch's count, so no division has a remainder beyond the last line, and `s` is at least 1.
-//! - [`primitive`] takes any origin, and gives `None` for one of another output, kind of patch or size of stitch.
+//! - `t` is below the patch's count, so no division has a remainder beyond the last line, and `s`
+//!   is at least 1.
+//! - [`primitive`] takes any origin, and gives `None` for one of another output, kind of patch or
+//!   size of stitch.
 
 use crate::closed_form::locate::origin::PrimitiveOrigin;
 use crate::closed_form::locate::rings;
+use crate::model::connect::minimum_triangles;
 use crate::model::factors::{ProcessedFactor, ProcessedPatch};
 use crate::model::output::Primitive;
 use crate::model::patch_factors::{IsolineFactors, PatchFactors};
-use crate::model::state::{Config, Domain, OutputPrimitive};
+use crate::model::state::{Config, OutputPrimitive};
 
 /// Locates primitive `t`, which is less than the patch's primitive count.
 pub(crate) fn locate(config: Config, patch: &ProcessedPatch, t: u32) -> PrimitiveOrigin {
@@ -91,11 +96,7 @@ fn isoline_segment(
 fn triangle(config: Config, patch: &ProcessedPatch, location: PrimitiveOrigin) -> Option<[u32; 3]> {
     match (patch, location) {
         (ProcessedPatch::Minimum(factors), PrimitiveOrigin::Minimum { step }) => {
-            match factors.domain() {
-                Domain::Triangle if step < 1 => Some([0, 1, 2]),
-                Domain::Quad if step < 2 => Some([step, step + 1, 3]),
-                Domain::Isoline | Domain::Triangle | Domain::Quad => None,
-            }
+            minimum_triangles(factors.domain()).get(step as usize).copied()
         }
         (ProcessedPatch::Regular(PatchFactors::Triangle(factors)), location) => {
             rings::triangle(factors, config.split, location)

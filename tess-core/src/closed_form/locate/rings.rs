@@ -1,40 +1,46 @@
 //! The t-th triangle of the rings of a triangle or quad patch.
 //!
-//! `locate::primitive` asks for a triangle by its number, for both domains: [`locate`] says in which stitch it lies,
-//! [`triangle`] which three indices it has. What the domains differ in is behind [`ClosedForms`].
+//! `locate::primitive` asks for a triangle by its number, for both domains: [`locate`] finds its
+//! stitch, and [`triangle`] its three indices. [`ClosedForms`] has the differences between the
+//! domains.
 //!
 //! # The data
 //!
-//! With `n` the points of the inside factor along an edge, stitch `k` joins that edge of rings `k - 1` and `k`:
+//! With `n` the points of the inside factor along an edge, stitch `k` joins that edge of rings `k -
+//! 1` and `k`:
 //!
 //! ```text
 //! stitch    rows                     triangles on an edge        triangles before it
-//! 1         outer edge, ring 1       outer points + n - 4        what the edges before it have
-//! k >= 2    ring k-1, ring k         2 (n - 2 k)                 triangles_before(k), behind all transitions
+//! 1         outer edge, ring 1       outer points + n - 4        those of the edges before it
+//! k >= 2    ring k-1, ring k         2 (n - 2 k)                 triangles_before(k), and transitions
 //! centre    innermost ring           triangle: 1 or 0; strip     triangles_before(end)
 //! ```
 //!
-//! A ring's indices are consecutive, so a row is a first index and a direction ([`Row`]). The last edge of a ring ends
-//! at the ring's first index: its row has one index that is out of line.
+//! A ring's indices are consecutive, so a row is a first index and a direction ([`Row`]). The last
+//! edge of a ring ends at the ring's first index: its row has one index that is out of line.
 //!
 //! # One patch
 //!
-//! The triangle (3, 3, 3; 8), integer, has 9 points along its inside factor. Ring 0 has the 9 indices from 0 on,
-//! ring 1 18 from 9 on, ring 2 12 from 27 on, ring 3 6 from 39 on, and the centre is 45. Each transition has
-//! 4 + 9 - 4 = 9 triangles; stitches 2, 3 and 4 have 30, 18 and 6. Triangle 60 is number 33 behind the 27 of the
-//! transitions, so number 3 of stitch 3, which has 6 on each edge: edge 0, step 3. Its rows are 27 to 31 and 39 to 41,
-//! and its indices 40, 29 and 30. The test `the_worked_rings` has these numbers.
+//! The triangle (3, 3, 3; 8), integer, has 9 points along its inside factor. Ring 0 has the 9
+//! indices from 0 on, ring 1 18 from 9 on, ring 2 12 from 27 on, ring 3 6 from 39 on, and the
+//! centre is 45. Each transition has 4 + 9 - 4 = 9 triangles; stitches 2, 3 and 4 have 30, 18 and
+//! 6. Triangle 60 is number 33 after the 27 of the transitions, so number 3 of stitch 3, which has
+//! 6 on each edge: edge 0, step 3. Its rows are 27 to 31 and 39 to 41, and its indices 40, 29 and
+//! 30. The test `the_worked_rings` has these numbers.
 //!
 //! # What holds
 //!
 //! - `triangles_before(2)` is 0, and it grows with the ring. The search for a ring relies on both.
-//! - Rings `1..end` exist. Of stitches, `end` is one only where the interior ends with a point or a row of points.
-//! - Step numbers are below the stitch's size, which [`locate`] keeps. `triangle` does not check them again.
+//! - Rings `1..end` exist. Of stitches, `end` is one only where the interior ends with a point or a
+//!   row of points.
+//! - Step numbers are below the stitch's size, which [`locate`] keeps. `triangle` does not check
+//!   them again.
 //!
 //! # Why not simpler
 //!
-//! The sequential walk (`model/connect/rings.rs`) adds up sizes and keeps its rows from ring to ring. Here a row is found from
-//! the ring's number alone: two products, where adding up takes a step for each of up to 31 rings.
+//! The sequential walk (`model/connect/rings.rs`) adds up sizes and keeps its rows from ring to
+//! ring. Here a row is found from the ring's number alone: two products, where adding up takes a
+//! step for each of up to 31 rings.
 
 use crate::closed_form::locate::origin::PrimitiveOrigin;
 use crate::closed_form::locate::point::{quad_points_before, triangle_points_before};
@@ -46,7 +52,7 @@ use crate::model::patch_factors::{QuadFactors, TriangleFactors};
 use crate::model::points::quad::Inside;
 use crate::model::row::Row;
 use crate::model::state::{Parity, SplitOrder};
-use crate::model::stitch::Triangle;
+use crate::model::stitch::{Triangle, centre_triangle};
 
 /// The closed forms of a patch with `EDGES` edges.
 pub(crate) trait ClosedForms<const EDGES: usize> {
@@ -75,7 +81,7 @@ impl ClosedForms<3> for TriangleFactors<ProcessedFactor> {
 
     fn centre_triangle(&self, innermost: u32, step: u32) -> Option<Triangle> {
         let has_centre = self.inside.context.parity == Parity::Odd && step == 0;
-        has_centre.then_some([0, 1, 2].map(|corner| innermost + corner))
+        has_centre.then(|| centre_triangle(innermost))
     }
 }
 

@@ -1,11 +1,12 @@
 //! The t-th triangle of a stitch, from closed forms.
 //!
-//! The specification walks a transition position by position; here step `t` is found without the steps
-//! before it. `locate::rings` calls this for one triangle.
+//! The specification walks a transition position by position; here step `t` is found without the
+//! steps before it. `locate::rings` calls this for one triangle.
 //!
-//! A half edge is a mask: a bit for each of the positions 1..=32, set where the half edge has a point. The
-//! number of steps up to a position is then a count of bits. With 3 half steps on the outer edge and 2 on the
-//! inner one, ruler order puts points at positions 17 (rank 1) and 9 (rank 2):
+//! A half edge is a mask: a bit for each of the positions 1..=32, set where the half edge has a
+//! point. The number of steps up to a position is then a count of bits. With 3 half steps on the
+//! outer edge and 2 on the inner one, ruler order puts points at positions 17 (rank 1) and 9 (rank
+//! 2):
 //!
 //! ```text
 //! bit        31 ........ 16 ....... 8 ........ 0
@@ -17,14 +18,14 @@
 //! advances    outer  outer  inner  outer|  outer  inner  outer  outer
 //! ```
 //!
-//! The first half takes the inner row's step before the outer row's at each position. The second half is the
-//! first one of a patch walked the other way: step `t` is the mirror image of step `total - 1 - t`. Between
-//! them are the steps of the middle, one for each of the two factors whose parity is odd; here are none. The
-//! test `the_worked_transition` has the first half's steps.
+//! The first half takes the inner row's step before the outer row's at each position. The second
+//! half is the first one of a patch walked the other way: step `t` is the mirror image of step
+//! `total - 1 - t`. Between them are the steps of the middle, one for each of the two factors whose
+//! parity is odd; here are none. The test `the_worked_transition` has the first half's steps.
 //!
-//! Invariants: `t` is below the stitch's size, which the caller has from the same counts; the position of a
-//! step is the largest one before which at most `t` steps are done, and the five bits of the search find it
-//! among 32. A walk would take up to 126 steps.
+//! Invariants: `t` is below the stitch's size, which the caller has from the same counts; the
+//! position of a step is the largest one before which at most `t` steps are done, and the five bits
+//! of the search find it among 32. A walk would take up to 126 steps.
 
 use crate::model::factor_context::FactorContext;
 use crate::model::row::Row;
@@ -142,20 +143,21 @@ fn middle_triangle(
 
 /// Triangle `t` of a ring stitch whose inner row has `inner_points` points (spec section 7.3).
 ///
-/// The outer row has two points more, one at each end: its first and last triangle stand alone, and between them each
-/// inner segment makes a pair. With 4 inner points:
+/// The outer row has two points more, one at each end: its first and last triangle have no pair, and
+/// between them each inner segment makes a pair. With 4 inner points:
 ///
 /// ```text
 /// outer   o0 --- o1 --- o2 --- o3 --- o4 --- o5       segment p = (t - 1) / 2 of the inner row;
-///          \     | \    | \    |    / |     /        before the middle, p < 4 / 2, diagonals run from
-///            \   |   \  |   \  |  /   |   /          o(p+1) to i(p+1), behind it from i(p) to o(p+2)
+///          \     | \    | \    |    / |     /        if p < 4 / 2, its diagonal runs from o(p+1)
+///            \   |   \  |   \  |  /   |   /          to i(p+1), otherwise from i(p) to o(p+2)
 /// inner           i0 --- i1 --- i2 --- i3
 ///
 /// t   0         1         2         3         4         5         6         7
 ///     o0 o1 i0  o1 i1 i0  o1 o2 i1  o2 i2 i1  o2 o3 i2  i2 o3 o4  i2 o4 i3  o4 o5 i3
 /// ```
 ///
-/// Invariants: `t` is below `2 * inner_points`, and `inner_points` is at least 1: with 1, triangles 0 and 1 are the ends.
+/// Invariants: `t` is below `2 * inner_points`, and `inner_points` is at least 1: with 1, triangles
+/// 0 and 1 are the ends.
 pub(crate) fn ring_triangle((outer, inner): (&Row, &Row), inner_points: u32, t: u32) -> Triangle {
     let last = 2 * inner_points - 1;
     if t == 0 {

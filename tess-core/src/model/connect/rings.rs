@@ -19,9 +19,9 @@ pub(crate) struct Rings<'a, const EDGES: usize> {
 }
 
 impl<const EDGES: usize> Rings<'_, EDGES> {
-    /// One more than the number of rings that are stitched to the ring outside of them.
+    /// One more than the number of the innermost ring that is stitched to the ring outside of it.
     pub(crate) fn end(&self) -> u32 {
-        self.along.iter().copied().map(ring_end).min().unwrap_or(0)
+        self.along.iter().copied().map(end_of_rings).min().unwrap_or(0)
     }
 
     /// Points on the outer ring.
@@ -78,12 +78,13 @@ impl<const EDGES: usize> Rings<'_, EDGES> {
     }
 }
 
-/// One more than the number of rings that an inside factor makes.
-pub(crate) const fn ring_end(inside: &FactorContext) -> u32 {
+/// One more than the number of the innermost ring that an inside factor makes, be it a single point
+/// or a row of them.
+const fn end_of_rings(inside: &FactorContext) -> u32 {
     inside.points.div_ceil(2)
 }
 
 /// The ring that is a single row because of this inside factor's even parity.
 pub(crate) fn row_ring(inside: &FactorContext) -> Option<u32> {
-    (inside.parity == Parity::Even).then_some(ring_end(inside) - 1)
+    (inside.parity == Parity::Even).then_some(end_of_rings(inside) - 1)
 }

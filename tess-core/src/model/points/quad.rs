@@ -32,8 +32,9 @@ impl<'a> Inside<'a> {
         Self { u: &factors.inside_u.context, v: &factors.inside_v.context }
     }
 
-    /// One more than the number of interior rings that go round.
-    pub(crate) const fn ring_end(&self) -> u32 {
+    /// The number of the first ring that does not go round, one more than that of the last one that
+    /// does: a row of points ([`Self::centre_row`]), or none.
+    pub(crate) const fn first_open_ring(&self) -> u32 {
         (if self.u.points < self.v.points { self.u.points } else { self.v.points }) / 2
     }
 
@@ -58,7 +59,7 @@ impl<'a> Inside<'a> {
             CentreRow::AlongU => self.u,
             CentreRow::AlongV => self.v,
         };
-        running.points - 2 * self.ring_end()
+        running.points - 2 * self.first_open_ring()
     }
 
     /// Point `p` of an edge of interior ring `ring >= 1`.
@@ -76,7 +77,7 @@ impl<'a> Inside<'a> {
     /// Point `p` of the centre row.
     pub(crate) const fn centre_row_point(&self, row: CentreRow, p: u32) -> DomainPoint {
         const MIDDLE: U16F16 = U16F16::from_bits(HALF);
-        let ring = self.ring_end();
+        let ring = self.first_open_ring();
         match row {
             CentreRow::AlongU => DomainPoint { u: place(self.u, ring + p), v: MIDDLE },
             CentreRow::AlongV => {
@@ -93,7 +94,7 @@ pub(crate) fn emit(factors: &QuadFactors<ProcessedFactor>, sink: &mut impl Sink)
         }
     }
     let inside = Inside::new(factors);
-    for ring in 1..inside.ring_end() {
+    for ring in 1..inside.first_open_ring() {
         for edge in 0..4 {
             for p in 0..inside.ring_edge_points(ring, edge) {
                 sink.point(inside.ring_point(ring, edge, p));

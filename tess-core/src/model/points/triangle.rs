@@ -31,7 +31,8 @@ pub(crate) fn emit(factors: &TriangleFactors<ProcessedFactor>, sink: &mut impl S
     }
 }
 
-/// Points on each edge of interior ring `ring >= 1`, its last point (the next edge's first) left out.
+/// Points on each edge of interior ring `ring >= 1`, its last point (the next edge's first) left
+/// out.
 pub(crate) const fn ring_edge_points(inside: &FactorContext, ring: u32) -> u32 {
     inside.points - 1 - 2 * ring
 }

@@ -2,8 +2,9 @@
 //!
 //! # The simpler forms
 //!
-//! Pairs that are taken apart afterwards go through memory twice: 1.2 to 1.4 times as long as pairs alone, in a batch.
-//! Two passes over each run of points, one for each array, are two loops to begin and end: 1.4 times at factor 16.
+//! Pairs that are taken apart afterwards go through memory twice: 1.2 to 1.4 times as long as pairs
+//! alone, in a batch. Two passes over each run of points, one for each array, are two loops to
+//! begin and end: 1.4 times at factor 16.
 
 use super::{PointRoom, PointWriter};
 use crate::data::error::{BatchBuffer, Error};
@@ -98,8 +99,8 @@ impl PointWriter for ApartWriter<'_> {
 const BLOCK: usize = 16;
 
 impl ApartWriter<'_> {
-    /// The next `length` points, whose coordinates `make` makes a block at a time: `LEAST` of them if there is room,
-    /// without asking how many there are.
+    /// The next `length` points, whose coordinates `make` makes a block at a time: `LEAST` of them
+    /// if there is room, without asking how many there are.
     #[inline(always)]
     fn write<S: Copy, const N: usize, const LEAST: usize>(
         &mut self,

@@ -60,7 +60,8 @@ pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) 
     true
 }
 
-/// Runs a stage whose input are raw factors. Loops, as a closure in `extend` would miss the level's instructions.
+/// Runs a stage whose input are raw factors. Loops, as a closure in `extend` would miss the level's
+/// instructions.
 #[inline(always)]
 fn of_raw(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool {
     let config = work.settings.config;

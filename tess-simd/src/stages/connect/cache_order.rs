@@ -20,8 +20,8 @@ pub(crate) const fn reorders(settings: &Settings, patch: PacketPatch<'_>) -> boo
         && !patch.is_minimum()
 }
 
-/// All indices of a patch that is not culled, as ranges of their places in the specification's order, in
-/// the order in which they are written.
+/// All indices of a patch that is not culled, as ranges of their places in the specification's
+/// order, in the order in which they are written.
 pub(crate) fn runs(
     settings: &Settings,
     patch: PacketPatch<'_>,
@@ -43,8 +43,8 @@ pub(crate) fn runs(
     emit(written..patch.indices() as usize);
 }
 
-/// Writes a patch's indices, of which `specified` has those in the specification's order and then unspecified
-/// ones.
+/// Writes a patch's indices, of which `specified` has those in the specification's order and then
+/// unspecified ones.
 #[inline(always)]
 pub(crate) fn emit<I: Copy + Default>(
     settings: &Settings,

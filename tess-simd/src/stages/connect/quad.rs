@@ -45,8 +45,8 @@ fn row_ring(points: u32) -> u32 {
     if is_odd(points) { 0 } else { points.div_ceil(2) - 1 }
 }
 
-/// The two sides of a centre strip (spec section 7.4): row A from its first index on, and row B, which
-/// comes back to the index before that one and may have another first entry.
+/// The two sides of a centre strip (spec section 7.4): row A from its first index on, and row B,
+/// which comes back to the index before that one and may have another first entry.
 #[inline(always)]
 fn strip_rows(first: u32, quads: u32, first_of_b: Option<u32>) -> Rows {
     Rows {

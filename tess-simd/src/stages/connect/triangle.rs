@@ -6,6 +6,7 @@ use crate::data::lanes::{EdgePoints, is_odd};
 use crate::data::writer::Writer;
 use crate::stages::stitch::Stitches;
 use tess_core::OutputPrimitive;
+use tess_core::stitch::centre_triangle;
 
 /// The innermost ring of an even inside factor is a single point, not a row of points.
 #[inline(always)]
@@ -19,7 +20,7 @@ pub(super) fn emit<I: IndexFormat>(
     let rings = Rings { outer: [u0, v0, w0], along: [inside; 3], row_at: [0; 3] };
     let innermost = rings.emit(stitches, base, out);
     if is_odd(inside) {
-        let [a, b, c] = [0, 1, 2].map(|k| I::wrapping_from(innermost.wrapping_add(k)));
+        let [a, b, c] = centre_triangle(innermost).map(I::wrapping_from);
         let clockwise = output == OutputPrimitive::TriangleCw;
         out.put(if clockwise { [a, b, c] } else { [a, c, b] });
     }

@@ -1,8 +1,26 @@
-//! The front end of one patch: its factors stand side by side, as patches do in a packet.
+//! The front end of one patch: its factors are side by side, as patches are in a packet.
 //!
-//! A packet of one patch would cost what sixteen cost. Here each stage is one short vector with an element
-//! for each factor, and the results go to one lane of a packet, so that everything behind the front end
-//! finds a patch as it always does.
+//! A packet of one patch would cost what sixteen cost. Here each stage is one short vector with an
+//! element for each factor, and the results go to one lane of a packet, so that every later stage
+//! finds a patch as usual. `threads/part` calls it for one patch per call, `kernels/front_end` for a
+//! few patches or for one that repeats.
+//!
+//! # Data
+//!
+//! The factors have three forms, each made from the one before:
+//!
+//! ```text
+//! PatchFactors       what callers have
+//! RawPairs           3 numbers of 64 bits, in registers      [v0 u0] [v1 u1] [inside_v inside_u]
+//! RawFactors         a vector of 8, if the patch is new      u0 v0 u1 v1 inside_u inside_v 0 0
+//! ```
+//!
+//! # What must hold
+//!
+//! - Factors reach the kernel in registers ([`pairs`]). A vector loaded from memory would wait for
+//!   factors that were written in pieces: 7 to 17 % of a call.
+//! - [`OnePatch`] is the only writer of its packet, so equal factors leave it as it is.
+//! - Everything that the packet and the sizes follow from is in [`kept`]: equal ones skip the rest.
 
 use super::Packet;
 use crate::data::lanes::{MAX_FACTORS, set};
@@ -29,8 +47,8 @@ pub(crate) const ROWS: usize = 8;
 /// The raw factors of a patch side by side; zeros follow those that its domain has.
 type RawFactors = [[f32; 1]; ROWS];
 
-/// Pairs of raw factors, the first of each pair in the lower half, zeros behind them. They travel in registers: a
-/// vector that is loaded from memory would wait for factors written in pieces.
+/// Pairs of raw factors, the first of each pair in the lower half, then zeros. They travel
+/// in registers: a vector that is loaded from memory would wait for factors written in pieces.
 type RawPairs = [u64; MAX_FACTORS / 2];
 
 impl OnePatch {
@@ -58,8 +76,9 @@ impl OnePatch {
         !self.packet.patch(0).is_compact() && self.domain == domain && self.raw == raw
     }
 
-    /// Processes the raw factors of one patch, unless they are those of the patch before. Returns its output
-    /// sizes, zeros if it is culled. The configuration is the same in each call. The factors come in [`pairs`].
+    /// Processes the raw factors of one patch, unless they are those of the patch before. Returns
+    /// its output sizes, zeros if it is culled. The configuration is the same in each call. The
+    /// factors come in [`pairs`].
     #[inline(always)]
     pub(crate) fn process(
         &mut self,
@@ -115,8 +134,9 @@ fn are_at_most_one(raw: &[[f32; 1]]) -> bool {
     all(raw, |factor| factor.to_bits().wrapping_sub(1) < 1.0_f32.to_bits()) == [1]
 }
 
-/// Processed factors in one vector: zeros if the patch is culled, as the others are at least 1. In one
-/// configuration and domain, parities and whether it is a minimum patch follow from the factors.
+/// Processed factors in one vector: zeros if the patch is culled, as the others are at least 1. In
+/// one configuration and domain, parities and whether it is a minimum patch follow from the
+/// factors.
 #[inline(always)]
 fn kept(processed: &Processed<1, ROWS>) -> [u32; ROWS] {
     let mask = 0_u32.wrapping_sub(processed.alive[0]);
@@ -147,8 +167,8 @@ fn apart(raw: RawPairs) -> RawFactors {
 }
 
 impl Packet {
-    /// Processes the raw factors of one patch; the other lanes stay as they are. Returns its output sizes,
-    /// zeros if it is culled.
+    /// Processes the raw factors of one patch; the other lanes stay as they are. Returns its output
+    /// sizes, zeros if it is culled.
     #[inline(always)]
     pub(crate) fn process_one(
         &mut self,

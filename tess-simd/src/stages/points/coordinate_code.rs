@@ -1,13 +1,15 @@
 //! Codes of the points of compact patches with fractional factors.
 //!
-//! Such patches share topologies but no coordinates. Each topology therefore keeps one flat list of codes, which
-//! say how to compute each coordinate, and writing a patch needs no branch per run of points. [`codes`] makes the
-//! list once per topology, for `stages/template`; `permute` and `lookup` make points from it.
+//! Such patches share topologies but no coordinates. Each topology therefore keeps one flat list of
+//! codes, which say how to compute each coordinate, and writing a patch needs no branch per run of
+//! points. [`codes`] makes the list once per topology, for `stages/template`; `permute` and
+//! `lookup` make points from it.
 //!
 //! # Data
 //!
-//! Two codes a point, `[u, v]`. A coordinate is `term + location`, or `term - location` if the bit `minus` is
-//! set. Locations are those on the first half of an edge; seen from the other end a location is `ONE` minus it.
+//! Two codes a point, `[u, v]`. A coordinate is `term + location`, or `term - location` if the bit
+//! `minus` is set. Locations are those on the first half of an edge; seen from the other end a
+//! location is `ONE` minus it.
 //!
 //! ```text
 //! bit   15      14..11   10 .. 5                 4 .. 0
@@ -28,8 +30,9 @@
 //!
 //! # One patch
 //!
-//! The quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md` has 5, 7, 7, 7 points on its edges and 5 and 9 inside.
-//! Factor 0 has the locations 0, 0x6000, 0x8000 on its first half, factor 1 has 0, 0x3AAB, 0x4556, 0x8000.
+//! The quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md` has 5, 7, 7, 7 points on its edges and 5 and
+//! 9 inside. Factor 0 has the locations 0, 0x6000, 0x8000 on its first half, factor 1 has 0,
+//! 0x3AAB, 0x4556, 0x8000.
 //!
 //! ```text
 //! point  codes             u                                v
@@ -43,18 +46,19 @@
 //!
 //! # What must hold
 //!
-//! - Position 0 of any factor lies at 0, so the code 0 is the coordinate 0 and `minus` alone is `ONE`.
+//! - Position 0 of any factor lies at 0, so the code 0 is the coordinate 0 and `minus` alone is
+//!   `ONE`.
 //! - An edge has at most [`COMPACT_EDGE`] points: a position has three bits.
-//! - A triangle's inside factor has at most [`COMPACT_TRIANGLE_INSIDE`] points, so it has at most 6 rings: with
-//!   more, the number of a term would run into the location's bits.
-//! - Codes follow from point counts alone. If they depended on a location, patches of one topology would get each
-//!   other's points.
+//! - A triangle's inside factor has at most [`COMPACT_TRIANGLE_INSIDE`] points, so it has at most 6
+//!   rings: with more, the number of a term would run into the location's bits.
+//! - Codes follow from point counts alone. If they depended on a location, patches of one topology
+//!   would get each other's points.
 //!
 //! # The simpler form
 //!
-//! Copying runs of locations, as larger patches do, begins and ends a loop for each edge of each ring, and each
-//! end is a branch that is predicted wrongly. With AVX2, codes took `mosaic-even` from 114 to 67 ns a patch and
-//! `character` from 74 to 59 ns (`docs/experiments.md`).
+//! Copying runs of locations, as larger patches do, begins and ends a loop for each edge of each
+//! ring, and each end is a branch that is predicted wrongly. With AVX2, codes took `mosaic-even`
+//! from 114 to 67 ns a patch and `character` from 74 to 59 ns (`docs/experiments.md`).
 
 use super::quad::{self, AxisPoint, Coordinate, QuadWalker};
 use super::triangle::{self, TriangleWalker};
@@ -73,15 +77,16 @@ pub(super) const RINGS: usize = COMPACT_TRIANGLE_INSIDE / 2;
 /// The codes of a point's two coordinates.
 pub(crate) type Code = [u16; 2];
 
-/// Where in a code the number of a location stands: the factor's number, times [`HALF_EDGE`], plus the
-/// position. Below it stands the number of what is added, above it [`MINUS`].
+/// Where in a code the number of a location stands: the factor's number, times [`HALF_EDGE`], plus
+/// the position. Below it stands the number of what is added, above it [`MINUS`].
 pub(super) const LOCATION: u32 = 5;
 
 /// Set if the location is subtracted.
 pub(super) const MINUS: u16 = 1 << 15;
 
-/// The number that is added to a coordinate of a triangle: this, times [`RINGS`], plus the ring's number. The
-/// coordinates of quads have no such number: their [`MINUS`] is `ONE` minus the location.
+/// The number that is added to a coordinate of a triangle: this, times [`RINGS`], plus the ring's
+/// number. The coordinates of quads have no such number: their [`MINUS`] is `ONE` minus the
+/// location.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Term {
     /// `perpendicular`.
@@ -113,7 +118,8 @@ const _: () = {
     assert!((COMPACT_EDGE - 1) / 2 < HALF_EDGE, "every position of half an edge has a number");
 };
 
-/// Writes the codes of a compact regular patch's points to the beginning of `codes`, which has room.
+/// Writes the codes of a compact regular patch's points to the beginning of `codes`, which has
+/// room.
 pub(crate) fn codes(domain: Domain, edges: &EdgePoints, codes: &mut [Code]) {
     let codes = codes.iter_mut();
     match domain {
@@ -187,8 +193,9 @@ struct TriangleCodes<'a> {
 
 impl TriangleWalker for TriangleCodes<'_> {
     fn run(&mut self, triangle::Run { edge, ring, factor, length }: triangle::Run) {
-        // With `x` the location, the coordinates along an edge are `x - shift`, `ONE - shift - x`, and
-        // on the last edge `x + shift - perpendicular`; `x` itself may be `ONE` minus a location.
+        // With `x` the location, the coordinates along an edge are `x - shift`, `ONE - shift - x`,
+        // and on the last edge `x + shift - perpendicular`; `x` itself may be `ONE` minus a
+        // location.
         let along = |point, mirrored, plain, opposite| {
             let location = location(self.edges, AxisPoint { factor, point, mirrored });
             location | plus(if location & MINUS == 0 { plain } else { opposite }, ring)

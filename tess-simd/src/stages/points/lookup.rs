@@ -1,12 +1,13 @@
 //! Points of compact patches by look-up, for levels without the permutes of AVX-512.
 //!
-//! All coordinates that a patch's codes can name are computed at once into a table, in the output's format. A
-//! point is then two loads and a store. `levels` gives this to `kernels/emit` at the levels baseline and AVX2.
+//! All coordinates that a patch's codes can name are computed at once into a table, in the output's
+//! format. A point is then two loads and a store. `levels` gives this to `kernels/emit` at the
+//! levels baseline and AVX2.
 //!
 //! # Data
 //!
-//! The table has 256 entries in rows of eight, one entry a position. A template keeps, instead of a code, the
-//! number of its entry, which is a byte in a `u16`.
+//! The table has 256 entries in rows of eight, one entry a position. A template keeps, instead of a
+//! code, the number of its entry, which is a byte in a `u16`.
 //!
 //! ```text
 //! quads                                 triangles
@@ -34,17 +35,17 @@
 //!
 //! # What must hold
 //!
-//! - A template's entries were made by [`Lookup::kept`] and are read by [`Lookup::emit`]: [`CompactPoints`] ties
-//!   them.
+//! - A template's entries were made by [`Lookup::kept`] and are read by [`Lookup::emit`]:
+//!   [`CompactPoints`] ties them.
 //! - Entries are below 256, so that `% ENTRIES` costs nothing and no check remains in the loop.
 //! - Rows that a patch does not fill hold the patch before. No entry of its topology names them.
-//! - `positions` stays unknown to the compiler (`black_box`). If it knows them, it unrolls eight different
-//!   formulas instead of one vector.
+//! - `positions` stays unknown to the compiler (`black_box`). If it knows them, it unrolls eight
+//!   different formulas instead of one vector.
 //!
 //! # The simpler form
 //!
-//! Copying runs of points: 129 ns a patch of `character` at the baseline, 94 with look-ups; 74 and 59 with AVX2
-//! (`docs/experiments.md`).
+//! Copying runs of points: 129 ns a patch of `character` at the baseline, 94 with look-ups; 74 and
+//! 59 with AVX2 (`docs/experiments.md`).
 
 use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, MINUS, RINGS, TERMS, Term};
 use super::triangle::Inset;
@@ -60,15 +61,16 @@ use tess_core::fixed_point::{ONE, ONE_THIRD};
 /// A row of the table: coordinates at the eight positions of one factor.
 type EntryRow = [u32; HALF_EDGE];
 
-/// The first rows: one of locations for each factor of a quad or each outer one of a triangle, then one of
-/// opposites for each of them.
+/// The first rows: one of locations for each factor of a quad or each outer one of a triangle, then
+/// one of opposites for each of them.
 const QUAD_FACTORS: usize = Domain::Quad.factors();
 const TRIANGLE_OUTER: usize = Domain::Triangle.outer_factors();
-/// Where the rows of a triangle's inner rings begin: four for each, one for every term that has a location.
+/// Where the rows of a triangle's inner rings begin: four for each, one for every term that has a
+/// location.
 const INNER: usize = 2 * TRIANGLE_OUTER;
 const ROWS_OF_RING: usize = TERMS.len() - 1;
-/// The row of a triangle's coordinates without a location: one for each ring, 0 for the outer one, then the
-/// centre's.
+/// The row of a triangle's coordinates without a location: one for each ring, 0 for the outer one,
+/// then the centre's.
 const HELD: usize = INNER + ROWS_OF_RING * (RINGS - 1);
 /// As many coordinates as a byte can number, so that none is out of range.
 const ENTRIES: usize = 256;
@@ -80,8 +82,8 @@ const _: () = assert!(HELD < ROWS && RINGS < HALF_EDGE && 2 * QUAD_FACTORS <= RO
 #[derive(Clone, Debug)]
 pub(crate) struct Lookup {
     rows: [EntryRow; ROWS],
-    /// The positions of half an edge, unknown to the compiler: it would unroll known ones instead of making
-    /// vectors.
+    /// The positions of half an edge, unknown to the compiler: it would unroll known ones instead
+    /// of making vectors.
     positions: EntryRow,
 }
 
@@ -121,7 +123,8 @@ impl<W: PointWriter> CompactPoints<W> for Lookup {
         entry_of(domain, code)
     }
 
-    // Only what is inlined has a level's instructions. WebAssembly has one level, and a page to load.
+    // Only what is inlined has a level's instructions. WebAssembly has one level, and a page to
+    // load.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[cfg_attr(target_arch = "wasm32", inline(never))]
     fn emit(&mut self, patch: PacketPatch<'_>, entries: &[Code], out: &mut W) {

@@ -1,21 +1,24 @@
 //! Points of compact patches by permutes of AVX-512, eight points at a time.
 //!
-//! All locations and terms that a patch's codes name fit a few vectors, and the instruction `vpermi2d` picks 16
-//! of 32 numbers at once. `levels` gives this to `kernels/emit` at the level AVX-512.
+//! All locations and terms that a patch's codes name fit a few vectors, and the instruction
+//! `vpermi2d` picks 16 of 32 numbers at once. `levels` gives this to `kernels/emit` at the level
+//! AVX-512.
 //!
 //! # Data
 //!
-//! Each vector has sixteen 32-bit numbers; a location vector has the first half edges of two factors.
+//! Each vector has sixteen 32-bit numbers; a location vector has the first half edges of two
+//! factors.
 //!
 //! ```text
 //!        lanes 0..=7              lanes 8..=15
 //! a    locations of factor 0    factor 1               \ vpermi2d by bits 5..=9 of the code
 //! b    locations of factor 2    factor 3               /
-//! c    locations of factor 4    factor 5                 quads: vpermd by bits 5..=8, where bit 10 is set
-//! c, d terms 0..=15             16..=30                  triangles: vpermi2d by bits 0..=4
+//! c    locations of factor 4    factor 5          quads: vpermd by bits 5..=8, where bit 10 is set
+//! c, d terms 0..=15             16..=30           triangles: vpermi2d by bits 0..=4
 //! ```
 //!
-//! A vector of codes has eight points: u, v, u, v ... Its sign bits are the bits `minus`, which become a mask.
+//! A vector of codes has eight points: u, v, u, v ... Its sign bits are the bits `minus`, which
+//! become a mask.
 //!
 //! ```text
 //! quads      minus ? ONE - location : location
@@ -27,7 +30,7 @@
 //! The quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md`, whose factors 0 and 1 have 5 and 7 points:
 //!
 //! ```text
-//! a     0 6000 8000 .... .... .... .... ....  0 3AAB 4556 8000 .... .... .... ....   (.... unspecified)
+//! a     0 6000 8000 .... .... .... .... ....  0 3AAB 4556 8000 .... .... .... ....
 //! code  0000 8000 | 0000 8020 | 0000 8040 | 0000 0020 | 0100 0000 | 0120 0000 | ...
 //! lane     0    0 |    0    1 |    0    2 |    0    1 |    8    0 |    9    0 | ...
 //! point 0 10000   | 0 A000    | 0 8000    | 0 6000    | 0 0       | 3AAB 0    | ...
@@ -35,18 +38,20 @@
 //!
 //! # What must hold
 //!
-//! - The CPU has the level's instructions. [`with_avx512`] gives them to each function here; such a function can
-//!   be called without `unsafe` only from another one, or from a closure in one ([`Permutes`]).
+//! - The CPU has the level's instructions. [`with_avx512`] gives them to each function here; such a
+//!   function can be called without `unsafe` only from another one, or from a closure in one
+//!   ([`Permutes`]).
 //! - Inside factors of quads have numbers 4 and 5: bit 10 of a code tells them from outer ones.
 //! - There are at most 31 terms: two vectors.
-//! - Codes are padded to [`LEAST`] and to whole blocks of eight, and what stands behind a patch's codes may be
-//!   anything: it makes points behind the patch's points, which the next patch overwrites.
+//! - Codes are padded to [`LEAST`] and to whole blocks of eight, and what stands behind a patch's
+//!   codes may be anything: it makes points behind the patch's points, which the next patch
+//!   overwrites.
 //!
 //! # The simpler form
 //!
-//! Gathers from memory take 1.4 to 1.6 times as long for triangles. Copies of runs, as larger patches have them:
-//! `character` wrote at 0.17 of a fill, and writes at 0.24 with permutes and the stages' order of `kernels/emit`
-//! (`docs/experiments.md`).
+//! Gathers from memory take 1.4 to 1.6 times as long for triangles. Copies of runs, as larger
+//! patches have them: `character` wrote at 0.17 of a fill, and writes at 0.24 with permutes and the
+//! stages' order of `kernels/emit` (`docs/experiments.md`).
 
 use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, RINGS, TERMS, Term};
 use super::{CompactPoints, POINTS_AT_ONCE};
@@ -147,7 +152,8 @@ with_avx512! {
             let [c, d] = terms(b);
             out.blocks::<_, POINTS_AT_ONCE, LEAST>(points, codes, move |codes| {
                 let codes = extended(codes);
-                let location = _mm512_permutex2var_epi32(a, _mm512_srli_epi32::<LOCATION>(codes), b);
+                let number = _mm512_srli_epi32::<LOCATION>(codes);
+                let location = _mm512_permutex2var_epi32(a, number, b);
                 let term = _mm512_permutex2var_epi32(c, codes, d);
                 let sum = _mm512_add_epi32(term, location);
                 let minus = _mm512_movepi32_mask(codes);
@@ -181,7 +187,8 @@ with_avx512! {
         const MIDDLE_OF: [u32; 16] = [1, 3, 5, 7, 9, 11, 13, 15, 1, 3, 5, 7, 9, 11, 13, 15];
         let (one, other) = (patch.fractional_spacing(first), patch.fractional_spacing(first + 1));
         let both = |one: u32, other: u32| {
-            _mm512_mask_set1_epi32(_mm512_set1_epi32(one.cast_signed()), 0xFF00, other.cast_signed())
+            let one = _mm512_set1_epi32(one.cast_signed());
+            _mm512_mask_set1_epi32(one, 0xFF00, other.cast_signed())
         };
         let positions = must_cast(POSITIONS);
         let sums = _mm512_mullo_epi32(positions, both(one.step, other.step));
@@ -216,7 +223,8 @@ with_avx512! {
     /// Eight points from their coordinates.
     fn point<P: OutputPoint>(coordinates: __m512i) -> [P; POINTS_AT_ONCE] {
         let mut points = [P::default(); POINTS_AT_ONCE];
-        for (point, [u, v]) in points.iter_mut().zip(must_cast::<_, [[u32; 2]; POINTS_AT_ONCE]>(coordinates)) {
+        let coordinates = must_cast::<_, [[u32; 2]; POINTS_AT_ONCE]>(coordinates);
+        for (point, [u, v]) in points.iter_mut().zip(coordinates) {
             *point = P::from_bits(u, v);
         }
         points

@@ -34,8 +34,8 @@ pub(super) struct Inset {
 }
 
 impl Inset {
-    /// The inset of the ring that has this location in the inside factor; none of the outer ring, 0.
-    /// Unspecified for a number that is no location of half an edge.
+    /// The inset of the ring that has this location in the inside factor; none of the outer ring,
+    /// 0. Unspecified for a number that is no location of half an edge.
     #[inline(always)]
     pub(super) const fn new(location: u32) -> Self {
         let perpendicular = location.wrapping_mul(TWO_THIRDS).wrapping_add(HALF) >> 16;

@@ -1,8 +1,8 @@
 //! Stitch tables that tessellators share: they follow from the configuration alone.
 //!
-//! With the standard library each is made once for the process, by the first tessellator that asks for
-//! it. Without it nothing in safe code can wait for another thread's tables, so a tessellator makes its
-//! own and shares them with its clones.
+//! With the standard library each is made once for the process, by the first tessellator that asks
+//! for it. Without it nothing in safe code can wait for another thread's tables, so a tessellator
+//! makes its own and shares them with its clones.
 
 use super::Stitches;
 use core::ops::Deref;
@@ -38,7 +38,7 @@ impl SharedStitches {
         };
         let split = match config.split {
             SplitOrder::Ruler => 0,
-            SplitOrder::Center => 1,
+            SplitOrder::Centre => 1,
         };
         let number = (split * SPACINGS + spacing) * WINDINGS + winding;
         Self(ALL[number].get_or_init(|| Stitches::new(config)))
@@ -50,8 +50,8 @@ impl SharedStitches {
         Self(alloc::sync::Arc::new(Stitches::new(config)))
     }
 
-    /// Bytes of the tables and of the counters of their owners if they belong to this tessellator and
-    /// its clones, 0 if to the process.
+    /// Bytes of the tables and of the counters of their owners if they belong to this tessellator
+    /// and its clones, 0 if to the process.
     pub(crate) fn bytes(&self) -> usize {
         const COUNTERS: usize = 2 * size_of::<usize>();
         if cfg!(feature = "std") { 0 } else { COUNTERS + self.0.bytes() }

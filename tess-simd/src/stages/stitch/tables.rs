@@ -3,8 +3,8 @@
 use super::rows::Codes;
 use super::step_code::{self, CODES_AT_ONCE};
 use alloc::vec::Vec;
-use tess_core::stitch::{self, Diagonals, Side, Step};
-use tess_core::{Config, OutputPrimitive, Partitioning};
+use tess_core::stitch::{self, Diagonals};
+use tess_core::{Config, OutputPrimitive, Partitioning, Side, Step};
 
 /// The most points of an edge.
 const MAX_POINTS: u32 = 65;
@@ -26,8 +26,8 @@ struct Table {
 
 /// Every stitch that a configuration can ask for.
 ///
-/// About 870 KiB for integer partitionings and 200 to 290 KiB for fractional ones; configurations that
-/// make no triangles have empty tables.
+/// About 870 KiB for integer partitionings and 200 to 290 KiB for fractional ones; configurations
+/// that make no triangles have empty tables.
 #[derive(Clone, Debug)]
 pub(crate) struct Stitches {
     codes: Vec<i8>,

@@ -1,4 +1,5 @@
-//! Where templates are found: topologies, in sets of four, and the places of their indices and points.
+//! Where templates are found: topologies, in sets of four, and the places of their indices and
+//! points.
 //!
 //! `template.rs` has the picture and the worked patch.
 
@@ -27,7 +28,8 @@ pub(super) struct Cache<I, P, const SETS: usize, const INDICES: usize, const POI
 /// Where the templates of some topologies begin.
 #[derive(Clone, Copy, Debug)]
 struct Set {
-    /// See [`PacketPatch::topology`](crate::stages::packet::PacketPatch::topology); 0 if there is none.
+    /// See [`PacketPatch::topology`](crate::stages::packet::PacketPatch::topology); 0 if there is
+    /// none.
     topologies: [u64; WAYS],
     starts: [Start; WAYS],
 }
@@ -109,7 +111,8 @@ where
         self.points.reserve();
     }
 
-    /// Makes room for templates of these sizes; if there is none, all others are forgotten. Returns whether they were.
+    /// Makes room for templates of these sizes; if there is none, all others are forgotten. Returns
+    /// whether they were.
     #[inline(always)]
     pub(super) fn make_room(&mut self, points: usize, indices: usize) -> bool {
         let full = !(self.indices.fits(indices) && self.points.fits(points));
@@ -163,7 +166,8 @@ where
         start
     }
 
-    /// Enters a topology that has no slot. There are more sets afterwards if its set is full and there can be.
+    /// Enters a topology that has no slot. There are more sets afterwards if its set is full and
+    /// there can be.
     fn enter(&mut self, topology: u64, start: Start) {
         let free = loop {
             let set = self.sets.get(self.set(topology));
@@ -194,9 +198,10 @@ where
     }
 }
 
-/// The number of which a topology's set is the upper bits: a product with 2^64 over the golden ratio, into
-/// which the outer factors' bits are folded first. Of 14 to 43 bits, a fold by 24 leaves the fewest topologies without a
-/// slot: at most 61 of 4096 quads or triangles of small factors, where 21 bits left 481.
+/// The number of which a topology's set is the upper bits: a product with 2^64 over the golden
+/// ratio, into which the outer factors' bits are folded first. Of 14 to 43 bits, a fold by 24
+/// leaves the fewest topologies without a slot: at most 61 of 4096 quads or triangles of small
+/// factors, where 21 bits left 481.
 #[inline(always)]
 const fn number(topology: u64) -> u64 {
     (topology ^ (topology >> 24)).wrapping_mul(0x9E37_79B9_7F4A_7C15)

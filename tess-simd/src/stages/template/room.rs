@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-/// Elements that can be read behind the last template, so that whole blocks are copied.
+/// Elements that can be read after the last template, so that whole blocks are copied.
 pub(super) const PADDING: usize = 128;
 
 /// Elements that the first template takes memory for, and as many again are taken as there are.
@@ -48,7 +48,8 @@ impl<T: Copy + Default, const MOST: usize> TemplateRoom<T, MOST> {
         self.used = 0;
     }
 
-    /// The free elements, at least this many and the padding, for which there must be room ([`Self::fits`]).
+    /// The free elements, at least this many and the padding, for which there must be room
+    /// ([`Self::fits`]).
     pub(super) fn free(&mut self, elements: usize) -> &mut [T] {
         let needed = self.used + elements + PADDING;
         debug_assert!(needed <= MOST, "{needed} elements do not fit");

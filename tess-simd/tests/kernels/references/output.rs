@@ -5,8 +5,8 @@ use crate::table::Case;
 use crate::table::words::{Words, coordinates};
 use tess_core::fixed_point::ONE;
 use tess_core::row::Row;
-use tess_core::stitch::{self, Diagonals, Step};
-use tess_core::{Domain, DomainPoint, OutputPrimitive, Patch, Primitive, Sink, place};
+use tess_core::stitch::{self, Diagonals};
+use tess_core::{Domain, DomainPoint, OutputPrimitive, Patch, Primitive, Sink, Step, place};
 use tess_simd::{Format, Kernel};
 
 pub(crate) fn floats(case: &Case, words: &mut Words) {

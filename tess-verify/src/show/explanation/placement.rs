@@ -3,7 +3,7 @@
 use std::fmt;
 use tess_core::FactorContext;
 use tess_core::fixed_point::{HALF, ONE};
-use tess_core::place::{Blend, steps};
+use tess_core::place::{Blend, placement};
 
 /// `place(context of factor, position)` and how it came about.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ struct HalfEdge {
 
 impl Placement {
     pub(super) fn new(factor: &'static str, context: &FactorContext, position: u32) -> Self {
-        let placed = steps(context, position);
+        let placed = placement(context, position);
         let half_edge = |Blend { coarse, fine, fraction }| HalfEdge {
             flipped: placed.flip,
             position: placed.position,

@@ -1,8 +1,7 @@
 //! The edges, rings and stitches of a patch, as the model walks them (spec sections 6 to 8).
 
 use super::point;
-use tess_core::stitch::{Step, StitchKind};
-use tess_core::{Patch, PrimitiveOrigin, Side};
+use tess_core::{Patch, PrimitiveOrigin, Side, Step, StitchKind};
 
 /// Consecutive points of one line, edge of a ring, or centre.
 #[derive(Clone, Debug)]

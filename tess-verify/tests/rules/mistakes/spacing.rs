@@ -91,7 +91,7 @@ fn inside() -> Mistake {
 fn split() -> Mistake {
     Mistake::new("new vertices are split off from the centre outwards (section 10)")
         .asks("center", |case| {
-            with_config(case, |config| tess_core::Config { split: SplitOrder::Center, ..config })
+            with_config(case, |config| tess_core::Config { split: SplitOrder::Centre, ..config })
         })
         .vulkan_allows(
             "",
@@ -109,7 +109,7 @@ fn split_of_edge() -> Mistake {
                 return;
             }
             let other = with_config(case, |config| tess_core::Config {
-                split: SplitOrder::Center,
+                split: SplitOrder::Centre,
                 ..config
             });
             let center = other.patch().tessellate();

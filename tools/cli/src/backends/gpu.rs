@@ -1,10 +1,9 @@
 //! The compute shaders as a backend.
 
 use crate::failure::Failure;
-use tess_core::state::{Parity, SplitOrder};
 use tess_core::{
-    Config, Domain, DomainPoint, FactorContext, FixedFactor, OutputPrimitive, Partitioning,
-    PatchFactors, Tessellation,
+    Config, Domain, DomainPoint, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning,
+    PatchFactors, SplitOrder, Tessellation,
 };
 use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
 use tess_gpu::{Numbering, Setup, Tap};

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::threads::start_pool;
 use clap::ValueEnum;
 use simd::Simd;
-use tess_simd::{Level, LevelUnavailable};
+use tess_simd::{Level, LevelUnavailableError};
 use tess_verify::workloads::IndexWidth;
 use tess_verify::{Backend, CoreBackend};
 
@@ -123,7 +123,7 @@ impl BackendOptions {
     }
 }
 
-fn unavailable(error: LevelUnavailable) -> Failure {
+fn unavailable(error: LevelUnavailableError) -> Failure {
     Failure::unavailable(format!("{error}; leave out --cpu-level for the best"))
 }
 

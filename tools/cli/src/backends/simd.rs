@@ -6,7 +6,7 @@ use tess_core::{
     Config, DomainPoint, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors,
     SplitOrder, Tessellation,
 };
-use tess_simd::{IndexFormat, Level, LevelUnavailable, Numbering, Output, Tessellator};
+use tess_simd::{IndexFormat, Level, LevelUnavailableError, Numbering, Output, Tessellator};
 use tess_verify::{Answers, Backend, BackendError};
 
 /// `tess-simd` at one CPU level, with indices of 16 or 32 bits.
@@ -20,7 +20,7 @@ pub(crate) struct Simd<I> {
 
 impl<I: IndexFormat> Simd<I> {
     /// A backend that runs at `level`. Errors: this machine cannot run that level.
-    pub(crate) fn with_level(level: Level) -> Result<Self, LevelUnavailable> {
+    pub(crate) fn with_level(level: Level) -> Result<Self, LevelUnavailableError> {
         level.require()?;
         Ok(Self { level, tessellators: HashMap::new(), output: Output::new() })
     }

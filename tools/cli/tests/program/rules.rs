@@ -50,7 +50,7 @@ fn levels_that_are_ignored_or_exchanged_are_named() {
         assert_ne!(device, listing, "another case is answered");
         for standard in ["vulkan", "opengl", "d3d11"] {
             let run = tess_with_input(&format!("check - --rules {standard}"), &device);
-            run.exits(1).prints(&format!("\n  {says}\n  {asked}"));
+            run.exits(1).prints(format!("\n  {says}\n  {asked}"));
         }
     }
 }

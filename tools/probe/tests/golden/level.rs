@@ -51,7 +51,7 @@ fn config(partitioning: Partitioning, turn: usize) -> Config {
         2 => OutputPrimitive::Line,
         _ => OutputPrimitive::Point,
     };
-    let split = if (turn / 4).is_multiple_of(2) { SplitOrder::Ruler } else { SplitOrder::Center };
+    let split = if (turn / 4).is_multiple_of(2) { SplitOrder::Ruler } else { SplitOrder::Centre };
     Config { partitioning, output, split }
 }
 

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
-use tess_core::stitch::{Diagonals, Step};
-use tess_core::{FactorContext, FixedFactor, Parity, ProcessedPatch, Side, StitchKind, place};
+use tess_core::stitch::Diagonals;
+use tess_core::{
+    FactorContext, FixedFactor, Parity, ProcessedPatch, Side, Step, StitchKind, place,
+};
 use tess_verify::Case;
 use tess_verify::Named;
 
