@@ -1,9 +1,11 @@
-//! Every kernel of the CPU backend at every level beside the model's stage: the table of `tess-simd/tests/kernels`.
+//! Every kernel of the CPU backend at every level beside the model's stage: the table of
+//! `tess-simd/tests/kernels`.
 //!
-//! Each entry runs its inputs of four rounds: integer and fractional-even factors, random and extreme. Behind Criterion's
-//! own report stands a table: the nanoseconds of an element (a point, an index, or a patch or number where the stage
-//! makes neither) and how many times as many the model takes, which also notes what each word is. The least time of all
-//! samples counts, so that other work on the machine disturbs little.
+//! Each entry runs its inputs of four rounds: integer and fractional-even factors, random and
+//! extreme. Behind Criterion's own report stands a table: the nanoseconds of an element (a point,
+//! an index, or a patch or number where the stage makes neither) and how many times as many the
+//! model takes, which also notes what each word is. The least time of all samples counts, so that
+//! other work on the machine disturbs little.
 #![expect(clippy::float_arithmetic, reason = "times are divided")]
 
 #[path = "../../tess-simd/tests/kernels/table.rs"]
@@ -62,7 +64,8 @@ fn kernels(criterion: &mut Criterion) {
     let _ = std::io::stdout().write_all(report.as_bytes());
 }
 
-/// Benches a routine; returns the least time that one call took in any sample, if the filter lets it run.
+/// Benches a routine; returns the least time that one call took in any sample, if the filter lets
+/// it run.
 fn least(
     group: &mut BenchmarkGroup<'_, WallTime>,
     name: &str,

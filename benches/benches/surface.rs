@@ -1,5 +1,5 @@
-//! Evaluation of surfaces on one thread at every CPU level, beside filling as many vertices: elements are
-//! vertices, at the domain points of factor 8.
+//! Evaluation of surfaces on one thread at every CPU level, beside filling as many vertices:
+//! elements are vertices, at the domain points of factor 8.
 #![expect(clippy::float_arithmetic, reason = "heights and corners are floats")]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};

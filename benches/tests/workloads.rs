@@ -1,5 +1,5 @@
-//! Workloads are measured right: the first batch of each, by the model and by the SIMD backend, against the
-//! random-access formulation, which shares no walk with them.
+//! Workloads are measured right: the first batch of each, by the model and by the SIMD backend,
+//! against the random-access formulation, which shares no walk with them.
 
 use tess_core::{DomainPoint, Patch, PatchFactors};
 use tess_simd::{Numbering, Output, OwnedBatch, Tessellator};

@@ -12,7 +12,8 @@ mod probe;
 
 use crate::input::Bytes;
 
-/// Makes one call of a function that the first byte chooses. Errors: description of the wrong answer or write.
+/// Makes one call of a function that the first byte chooses. Errors: description of the wrong
+/// answer or write.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let mut bytes = Bytes(data);
     match bytes.byte() % 4 {

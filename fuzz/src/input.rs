@@ -48,9 +48,9 @@ impl Bytes<'_> {
 
     /// A batch of at most `most` patches, and of little more than `MOST_POINTS` points.
     ///
-    /// A setting below [`SETTINGS`], then patches as long as there are bytes; or one above, then how
-    /// many patches there are, a step, and patches that repeat with their bits growing by the step,
-    /// so that a short input makes a long batch.
+    /// A setting below [`SETTINGS`], then patches as long as there are bytes; or one above, then
+    /// how many patches there are, a step, and patches that repeat with their bits growing by the
+    /// step, so that a short input makes a long batch.
     pub fn batch(&mut self, most: usize) -> (Config, Vec<PatchFactors>) {
         let byte = self.byte();
         let (domain, config) = setting(byte);

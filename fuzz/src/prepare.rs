@@ -1,7 +1,8 @@
 //! Factor preparation against a second formulation, in binary64 with every rounding made explicit.
 //!
 //! Sums, products and quotients of two binary32 numbers, computed in binary64 and then rounded to
-//! binary32, are the correctly rounded binary32 results, as 53 bits are more than twice 24 plus one.
+//! binary32, are the correctly rounded binary32 results, as 53 bits are more than twice 24 plus
+//! one.
 
 use crate::fault_is_planted;
 use crate::input::Bytes;
@@ -9,7 +10,8 @@ use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{Domain, Partitioning};
 use tess_verify::Case;
 
-/// Compares the unrounded and the rounded factors of one request. Errors: the first factor that differs.
+/// Compares the unrounded and the rounded factors of one request. Errors: the first factor that
+/// differs.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let mut bytes = Bytes(data);
     let (domain, config) = bytes.setting();

@@ -5,7 +5,8 @@ use crate::{compare_with_model, repeatable};
 use tess_core::Tessellation;
 use tess_testkit::invariants;
 
-/// Compares every point and primitive of one patch. Errors: the first difference or violated invariant.
+/// Compares every point and primitive of one patch. Errors: the first difference or violated
+/// invariant.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let case = Bytes(data).case();
     let patch = case.patch();

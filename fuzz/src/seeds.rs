@@ -22,8 +22,8 @@ pub const TARGETS: [&str; 11] = [
     "gpu",
 ];
 
-/// Writes the seeds of every target to `corpus/TARGET/`; `golden` is the folder of recorded results. Errors: those of
-/// the file system.
+/// Writes the seeds of every target to `corpus/TARGET/`; `golden` is the folder of recorded
+/// results. Errors: those of the file system.
 pub fn write(corpus: &Path, golden: &Path) -> io::Result<usize> {
     let mut count = 0;
     for target in TARGETS {
@@ -37,7 +37,8 @@ pub fn write(corpus: &Path, golden: &Path) -> io::Result<usize> {
     Ok(count)
 }
 
-/// The seeds of one target, each with a name. Errors: those of the file system, for the recorded results.
+/// The seeds of one target, each with a name. Errors: those of the file system, for the recorded
+/// results.
 pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
     match target {
         "vectors" => return recorded(golden),
@@ -81,9 +82,10 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
     Ok(seeds.chain(if target == "capi" { culled_calls() } else { Vec::new() }).collect())
 }
 
-/// Calls of `tess_patch` with a culled patch, whose points lie nowhere (254) or askew (255), with a capacity of
-/// `SIZE_MAX` (1), two points (8) or none (0). Bytes stand for a setting and factors, for what is right with the
-/// configuration and the number of factors, then for the capacities and the pointers.
+/// Calls of `tess_patch` with a culled patch, whose points lie nowhere (254) or askew (255), with a
+/// capacity of `SIZE_MAX` (1), two points (8) or none (0). Bytes stand for a setting and factors,
+/// for what is right with the configuration and the number of factors, then for the capacities and
+/// the pointers.
 fn culled_calls() -> Vec<(String, Vec<u8>)> {
     let call = |capacity: u8, pointer: u8| {
         let bytes = [&[0; 15], &[capacity, 0, 0, 0, 0, pointer, 0][..]].concat();

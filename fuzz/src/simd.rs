@@ -16,7 +16,8 @@ thread_local! {
     static MADE: RefCell<HashMap<(Config, Level), Tessellator>> = RefCell::new(HashMap::new());
 }
 
-/// Compares a batch at every level, in both index formats and numberings. Errors: the first difference.
+/// Compares a batch at every level, in both index formats and numberings. Errors: the first
+/// difference.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let (config, patches) = Bytes(data).batch(MOST);
     let model: Vec<Tessellation> =

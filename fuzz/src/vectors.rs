@@ -4,9 +4,9 @@ use crate::fault_is_planted;
 use tess_verify::Case;
 use tess_verify::vectors::{Coordinates, Listing, Record, VectorFile};
 
-/// Reads a file to its end. It never panics; it gives as many records as its header says, at least one where it says
-/// nothing, or an error that names a line of the file; and what it read says the same when written and read again.
-/// Errors: description of the broken promise.
+/// Reads a file to its end. It never panics; it gives as many records as its header says, at least
+/// one where it says nothing, or an error that names a line of the file; and what it read says the
+/// same when written and read again. Errors: description of the broken promise.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let lines = data.split(|&byte| byte == b'\n').count() as u64 + 1;
     let mut file = match VectorFile::new("fuzz", data) {

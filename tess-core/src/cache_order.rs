@@ -162,8 +162,8 @@ impl Sector {
     /// The first step of a stitch that belongs to `column` or to a later one.
     ///
     /// Cells are counted from the patch's corner in steps of the inside axis, and the inner row of
-    /// ring `k` begins `k` of them in. A ring stitch has two triangles per cell after its first one;
-    /// a transition has as many as its outer edge asks for, and is cut in proportion.
+    /// ring `k` begins `k` of them in. A ring stitch has two triangles per cell after its first
+    /// one; a transition has as many as its outer edge asks for, and is cut in proportion.
     fn border(&self, ring: u32, column: u32) -> u32 {
         let regular = (2 * COLUMN * column + 1).saturating_sub(2 * ring);
         if ring > 1 {

@@ -1,5 +1,5 @@
-//! `tess-gpu` on wgpu alone: from raw factors to the buffers of an indexed indirect draw. Copy the functions into your
-//! engine; `main` calls them in order.
+//! `tess-gpu` on wgpu alone: from raw factors to the buffers of an indexed indirect draw. Copy the
+//! functions into your engine; `main` calls them in order.
 //!
 //!     cargo run -p tess-gpu --example bare_wgpu
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "an example that prints")]
@@ -27,8 +27,8 @@ pub(crate) fn open(backends: wgpu::Backends) -> Result<(wgpu::Device, wgpu::Queu
 /// The buffer of each [`Resource`], in the order of [`Resource::ALL`].
 pub(crate) type Buffers = [wgpu::Buffer; Resource::ALL.len()];
 
-/// The buffers of a batch; `groups` is the first patch of each group. A renderer keeps them while the plan stays, and
-/// has a pass of its own write the factors.
+/// The buffers of a batch; `groups` is the first patch of each group. A renderer keeps them while
+/// the plan stays, and has a pass of its own write the factors.
 pub(crate) fn buffers(
     (device, queue): &(wgpu::Device, wgpu::Queue),
     setup: Setup,
@@ -64,8 +64,8 @@ pub(crate) fn buffers(
     })
 }
 
-/// The pipeline of a stage, which serves all setups of which [`Stage::relevant`] says the same. `source` is the WGSL of
-/// [`Stage::source`].
+/// The pipeline of a stage, which serves all setups of which [`Stage::relevant`] says the same.
+/// `source` is the WGSL of [`Stage::source`].
 pub(crate) fn pipeline(device: &wgpu::Device, stage: Stage, source: &str) -> wgpu::ComputePipeline {
     let label = Some(stage.entry_point());
     let entry = |(binding, &Binding(resource, access))| wgpu::BindGroupLayoutEntry {
@@ -159,7 +159,8 @@ pub(crate) fn read(
     bytemuck::pod_collect_to_vec(&view)
 }
 
-/// Tessellates patches of one setup into buffers with this room. What to draw is in the first 20 bytes of
+/// Tessellates patches of one setup into buffers with this room. What to draw is in the first 20
+/// bytes of
 /// [`Resource::Arguments`]: `draw_indexed_indirect(arguments, 0)` with [`Resource::Indices`] as the index buffer, and
 /// a vertex shader that reads [`Resource::Points`] by `vertex_index`.
 pub(crate) fn tessellate(

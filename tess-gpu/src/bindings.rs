@@ -11,8 +11,8 @@ pub enum Resource {
     Tables,
     /// One [`crate::layout::Topology`] for each patch.
     Topologies,
-    /// Two words for each factor ([`crate::layout::pack_context`]). Each portion has the contexts of the first factor
-    /// of all its patches, then of the second factor, and so on.
+    /// Two words for each factor ([`crate::layout::pack_context`]). Each portion has the contexts
+    /// of the first factor of all its patches, then of the second factor, and so on.
     Contexts,
     /// Where the output of patches, blocks and sections begins: [`crate::Plan::offset_entries`].
     Offsets,
@@ -23,7 +23,8 @@ pub enum Resource {
     /// A [`crate::layout::DrawIndexed`], then the sizes of indirect dispatches. Needs the usage
     /// `INDIRECT`.
     Arguments,
-    /// The output of distinct small topologies (`shared/catalogue.wgsl`). All zeros before the first run.
+    /// The output of distinct small topologies (`shared/catalogue.wgsl`). All zeros before the
+    /// first run.
     Catalogue,
     /// For each group the number of its first patch, ascending and at most the batch's number of
     /// patches. A group ends where the next one begins, the last one at the end of the batch.

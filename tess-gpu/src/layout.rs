@@ -3,8 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use tess_core::{DomainPoint, FactorContext, Parity, PatchFactors};
 
-/// One portion of a batch and one window of its output, as [`crate::Plan::jobs`] writes it and `Job` in
-/// `layout/setup.wgsl` reads it.
+/// One portion of a batch and one window of its output, as [`crate::Plan::jobs`] writes it and
+/// `Job` in `layout/setup.wgsl` reads it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Job {
@@ -95,8 +95,8 @@ impl Status {
     }
 }
 
-/// Where the output of a portion lies within that of the batch. The ranges of all portions follow the
-/// [`Status`].
+/// Where the output of a portion lies within that of the batch. The ranges of all portions follow
+/// the [`Status`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Range {
@@ -139,8 +139,8 @@ impl Topology {
         self.0[0] >> 28
     }
 
-    /// Points along outer edge `edge` (0..=3): 2..=65. An isoline patch has two, for its density and
-    /// its detail.
+    /// Points along outer edge `edge` (0..=3): 2..=65. An isoline patch has two, for its density
+    /// and its detail.
     #[must_use]
     pub const fn outer_points(self, edge: u32) -> u32 {
         self.0[0] >> (7 * edge) & 127

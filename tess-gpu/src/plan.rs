@@ -10,15 +10,16 @@
 //!             tile tile tile ...                                     2048 elements, one workgroup
 //! ```
 //!
-//! Portions and windows do not end together, so each portion is expanded in every window; a dispatch whose portion has
-//! nothing in its window runs no workgroup. A job (`plan/jobs.rs`) tells a dispatch its portion and window:
+//! Portions and windows do not end together, so each portion is expanded in every window; a
+//! dispatch whose portion has nothing in its window runs no workgroup. A job (`plan/jobs.rs`) tells
+//! a dispatch its portion and window:
 //!
 //! ```text
 //! jobs of portion 0: whole | points in window 0, 1 ... | primitives in window 0, 1 ... | jobs of portion 1: ...
 //! ```
 //!
-//! The buffer of offsets has a region for each portion. An entry is two words, points and primitives; a patch's output
-//! begins at the sum of its own entry, its block's and its section's:
+//! The buffer of offsets has a region for each portion. An entry is two words, points and
+//! primitives; a patch's output begins at the sum of its own entry, its block's and its section's:
 //!
 //! ```text
 //! entry   0 ..             blocks_at ..    alike_at ..                 sections_at ..
@@ -29,15 +30,17 @@
 //! ```
 //!
 //! Invariants:
-//! - A binding begins at a multiple of [`ALIGNMENT`], lies within its buffer and keeps to the limits. The tiles, the
-//!   arguments and the catalogue are bound whole: `room.rs` says which limits suffice for them.
+//! - A binding begins at a multiple of [`ALIGNMENT`], lies within its buffer and keeps to the
+//!   limits. The tiles, the arguments and the catalogue are bound whole: `room.rs` says which
+//!   limits suffice for them.
 //! - A portion is a whole number of sections, or the whole batch.
-//! - Every portion is counted before any is expanded. Otherwise output that does not fit would be written in part.
+//! - Every portion is counted before any is expanded. Otherwise output that does not fit would be
+//!   written in part.
 //! - `shared/finish.wgsl` numbers the sizes of indirect dispatches as `job_number` does.
 //!
 //! A short batch has one portion, one window and narrow tiles, so two dispatches do everything
-//! (`entry_points/short_batch.wgsl`). The simpler form, one binding per buffer, would stop at 2.8 million quads with
-//! WebGPU's default limits, as the example of [`Plan`] shows.
+//! (`entry_points/short_batch.wgsl`). The simpler form, one binding per buffer, would stop at 2.8
+//! million quads with WebGPU's default limits, as the example of [`Plan`] shows.
 
 use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
@@ -59,8 +62,8 @@ pub use dispatches::{Dispatch, Workgroups};
 /// [`Plan::buffer_size`] and [`Plan::jobs`] say which buffers a host makes for it, and
 /// [`Plan::dispatches`] what it runs.
 ///
-/// Ten million quads with fractional factors have 48 bytes of contexts each, of which WebGPU's default limits bind
-/// 128 MiB at once. That is 2796202 patches, or 42 whole sections of 65536:
+/// Ten million quads with fractional factors have 48 bytes of contexts each, of which WebGPU's
+/// default limits bind 128 MiB at once. That is 2796202 patches, or 42 whole sections of 65536:
 ///
 /// ```
 /// use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
@@ -105,24 +108,26 @@ pub enum Written {
 }
 
 impl Plan {
-    /// Cuts up a batch of `patches` patches with room for `capacity`. Of the points, no more count as room than the
-    /// indices that are written can name: 65536 with [`IndexType::U16`] and [`Numbering::PerBatch`].
+    /// Cuts up a batch of `patches` patches with room for `capacity`. Of the points, no more count
+    /// as room than the indices that are written can name: 65536 with [`IndexType::U16`] and
+    /// [`Numbering::PerBatch`].
     #[must_use]
     pub fn new(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
         Self::cut(Written::Everything, setup, patches, capacity, limits, true)
     }
 
-    /// The same batch in the stages of a long one, whatever its size, so that a host needs one path.
+    /// The same batch in the stages of a long one, whatever its size, so that a host needs one
+    /// path.
     #[must_use]
     pub fn in_long_stages(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
         Self::cut(Written::Everything, setup, patches, capacity, limits, false)
     }
 
-    /// A batch that writes only some of its output, in the stages of a long one. `capacity` bounds what
-    /// is drawn, and takes 4 bytes for each tile even of what is not written.
+    /// A batch that writes only some of its output, in the stages of a long one. `capacity` bounds
+    /// what is drawn, and takes 4 bytes for each tile even of what is not written.
     ///
-    /// Its vertex shader binds the buffers of one portion, so make no more than [`Plan::portion_patches`]
-    /// patches of it.
+    /// Its vertex shader binds the buffers of one portion, so make no more than
+    /// [`Plan::portion_patches`] patches of it.
     #[must_use]
     pub fn writing(
         written: Written,
@@ -172,8 +177,8 @@ impl Plan {
         }
     }
 
-    /// The same batch with its patches in `groups` groups, each of which gets its own draw arguments
-    /// ([`Resource::Groups`], [`Resource::Draws`]).
+    /// The same batch with its patches in `groups` groups, each of which gets its own draw
+    /// arguments ([`Resource::Groups`], [`Resource::Draws`]).
     #[must_use]
     pub const fn with_groups(mut self, groups: u32) -> Self {
         self.groups = groups;
@@ -186,16 +191,16 @@ impl Plan {
         self.groups
     }
 
-    /// Whether the batch is short: it has at most 1024 patches and little room for output, and runs two dispatches. One
-    /// workgroup does everything in front of the expansion, which is one dispatch. False for
-    /// [`Plan::in_long_stages`] and [`Plan::writing`].
+    /// Whether the batch is short: it has at most 1024 patches and little room for output, and runs
+    /// two dispatches. One workgroup does everything in front of the expansion, which is one
+    /// dispatch. False for [`Plan::in_long_stages`] and [`Plan::writing`].
     #[must_use]
     pub const fn is_short(&self) -> bool {
         self.is_short
     }
 
-    /// Whether the batch has a catalogue of topologies: 16384 patches or more whose output is triangles. The catalogue
-    /// takes a fixed time, which pays for such batches.
+    /// Whether the batch has a catalogue of topologies: 16384 patches or more whose output is
+    /// triangles. The catalogue takes a fixed time, which pays for such batches.
     #[must_use]
     pub const fn has_catalogue(&self) -> bool {
         self.setup.has_triangles()
@@ -245,9 +250,9 @@ impl Plan {
         self.capacity.primitives.div_ceil(self.tile()).div_ceil(self.primitive_window_tiles)
     }
 
-    /// The bytes that the buffer of a resource must have for this batch. For the caller's own buffers
-    /// (factors, points, indices) it is the bytes that are used. A host rounds 0 up to what its interface
-    /// demands.
+    /// The bytes that the buffer of a resource must have for this batch. For the caller's own
+    /// buffers (factors, points, indices) it is the bytes that are used. A host rounds 0 up to what
+    /// its interface demands.
     #[must_use]
     pub fn buffer_size(&self, resource: Resource) -> u64 {
         let portions = self.portions().max(1);

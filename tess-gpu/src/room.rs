@@ -6,8 +6,8 @@ use tess_core::{Patch, PatchFactors};
 /// The limits of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Bytes of one storage binding: at least 128 MiB. A smaller limit, down to 4 MiB, is kept except
-    /// for the tiles, the arguments and the catalogue of the largest batches.
+    /// Bytes of one storage binding: at least 128 MiB. A smaller limit, down to 4 MiB, is kept
+    /// except for the tiles, the arguments and the catalogue of the largest batches.
     pub storage_binding: u64,
     /// Workgroups along one dimension of a dispatch: at least 2048. Larger dispatches are laid out
     /// in rows of this length. A smaller limit, down to 1, is kept along x but not along y.
@@ -29,15 +29,15 @@ pub struct Capacity {
 }
 
 impl Capacity {
-    /// The most that `patches` patches can need, whatever their factors: up to 4225 points and 8192 primitives
-    /// each, and 2^32 - 1 together.
+    /// The most that `patches` patches can need, whatever their factors: up to 4225 points and 8192
+    /// primitives each, and 2^32 - 1 together.
     #[must_use]
     pub fn worst_case(setup: Setup, patches: u32) -> Self {
         Self::uniform(setup, patches, 64.0)
     }
 
-    /// The room that `patches` patches need if all of their factors are `factor`. Patches with several factors need no
-    /// more than patches whose factors all equal the largest one.
+    /// The room that `patches` patches need if all of their factors are `factor`. Patches with
+    /// several factors need no more than patches whose factors all equal the largest one.
     #[must_use]
     pub fn uniform(setup: Setup, patches: u32, factor: f32) -> Self {
         let counts = Patch::new(setup.config, PatchFactors::uniform(setup.domain, factor)).counts();

@@ -29,10 +29,11 @@ pub enum Numbering {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum IndexType {
     /// 16 bits: enough for any one patch ([`Numbering::PerPatch`]), and for a batch of up to 65536
-    /// points. A larger batch with [`Numbering::PerBatch`] does not fit, whatever room a [`crate::Plan`] is given.
+    /// points. A larger batch with [`Numbering::PerBatch`] does not fit, whatever room a
+    /// [`crate::Plan`] is given.
     ///
-    /// The index 65535 restarts primitives in WebGL 2, in WebGPU with strips, and in other interfaces
-    /// where primitive restart is on. Give the plan room for at most
+    /// The index 65535 restarts primitives in WebGL 2, in WebGPU with strips, and in other
+    /// interfaces where primitive restart is on. Give the plan room for at most
     /// [`IndexType::points_without_restart`] points there.
     U16,
     /// 32 bits.
@@ -71,7 +72,8 @@ pub enum Copies {
     Never,
 }
 
-/// Everything that is fixed before the patches of a batch arrive. Shaders and pipelines depend on it.
+/// Everything that is fixed before the patches of a batch arrive. Shaders and pipelines depend on
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Setup {
     /// Domain of all patches.
@@ -91,8 +93,8 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// Packed points, and 32-bit indices that count from the first point of the batch; triangles in the
-    /// specification's order.
+    /// Packed points, and 32-bit indices that count from the first point of the batch; triangles in
+    /// the specification's order.
     #[must_use]
     pub const fn new(domain: Domain, config: Config) -> Self {
         let (point_format, numbering) = (PointFormat::Packed, Numbering::PerBatch);
@@ -101,8 +103,8 @@ impl Setup {
         Self { domain, config, point_format, numbering, index_type, copies, order }
     }
 
-    /// How many factors a patch has. Each is a binary32 in the buffer of factors, in the order of the
-    /// specification (section 1), patch after patch without gaps.
+    /// How many factors a patch has. Each is a binary32 in the buffer of factors, in the order of
+    /// the specification (section 1), patch after patch without gaps.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "6 at most")]
     pub const fn factors(&self) -> u32 {

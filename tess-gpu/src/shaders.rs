@@ -20,14 +20,16 @@ pub use taps::Tap;
 /// One of the compute shaders that a batch runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
-    /// The work of [`Stage::Factors`] to [`Stage::Totals`] and of [`Stage::Partition`] in one dispatch, for a short batch.
+    /// The work of [`Stage::Factors`] to [`Stage::Totals`] and of [`Stage::Partition`] in one
+    /// dispatch, for a short batch.
     Short,
-    /// Turns raw factors into topologies, contexts, counts and offsets within blocks of 256 patches.
+    /// Turns raw factors into topologies, contexts, counts and offsets within blocks of 256
+    /// patches.
     Factors,
     /// Sums the offsets of blocks within sections of 256 blocks.
     Scan,
-    /// Sums the offsets of sections in the output, and what the batch needs so far. After the last portion it decides
-    /// whether the output fits and writes draw arguments and dispatch sizes.
+    /// Sums the offsets of sections in the output, and what the batch needs so far. After the last
+    /// portion it decides whether the output fits and writes draw arguments and dispatch sizes.
     Totals,
     /// Expands each distinct small topology once, into the catalogue.
     List,
@@ -82,7 +84,8 @@ const fn front<const MORE: usize, const ALL: usize>(more: [Binding; MORE]) -> [B
 }
 
 impl Stage {
-    /// Every stage. A short batch runs the first and the last, any other those between, in this order.
+    /// Every stage. A short batch runs the first and the last, any other those between, in this
+    /// order.
     pub const ALL: [Self; 10] = [
         Self::Short,
         Self::Factors,

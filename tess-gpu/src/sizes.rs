@@ -2,16 +2,18 @@
 
 use crate::layout::DrawIndexed;
 
-/// Threads of a workgroup that expands a tile of primitives, partitions tiles, lists topologies or serves a tap.
+/// Threads of a workgroup that expands a tile of primitives, partitions tiles, lists topologies or
+/// serves a tap.
 pub const WORKGROUP: u32 = 64;
-/// Threads of a workgroup that expands points: a tile of unlike patches waits less with more of them.
+/// Threads of a workgroup that expands points: a tile of unlike patches waits less with more of
+/// them.
 pub(crate) const POINT_THREADS: u32 = 128;
 /// Elements of a tile, points or primitives, unless the batch is short.
 pub const TILE: u32 = 1 << TILE_BITS;
 /// As a power of two.
 pub(crate) const TILE_BITS: u32 = 11;
-/// The size of the narrowest tile, as a power of two: 2 elements for each thread. A short batch has narrow tiles, so
-/// that many workgroups share its output.
+/// The size of the narrowest tile, as a power of two: 2 elements for each thread. A short batch has
+/// narrow tiles, so that many workgroups share its output.
 pub(crate) const LEAST_TILE_BITS: u32 = 7;
 /// Patches of a tile that are expanded together.
 pub(crate) const ROUND: u32 = 128;
@@ -29,7 +31,8 @@ pub const SECTION: u32 = SECTION_BLOCKS * BLOCK;
 pub(crate) const SECTION_BITS: u32 = SECTION.ilog2();
 /// The most patches of a portion.
 pub(crate) const MAX_PORTION: u32 = SUMMED * SECTION;
-/// The most patches of a short batch, for which one workgroup does everything in front of the expansion.
+/// The most patches of a short batch, for which one workgroup does everything in front of the
+/// expansion.
 pub const SHORT_PATCHES: u32 = 1024;
 /// The most points and primitives together for which a short batch has room.
 pub const SHORT_ELEMENTS: u32 = 1 << 19;
@@ -39,7 +42,8 @@ pub(crate) const SHORT_TILES: u32 = 2048;
 pub const CATALOGUE_PATCHES: u32 = 16 << 10;
 /// Slots of the catalogue of topologies, as a power of two.
 pub(crate) const SLOT_BITS: u32 = 13;
-/// Slots of the catalogue, one for each topology. It holds somewhat fewer, as a search ends after 16 slots.
+/// Slots of the catalogue, one for each topology. It holds somewhat fewer, as a search ends after
+/// 16 slots.
 pub(crate) const SLOTS: u32 = 1 << SLOT_BITS;
 /// Points for which the catalogue has room.
 pub(crate) const CATALOGUE_POINTS: u32 = 1 << 17;
@@ -59,8 +63,8 @@ pub(crate) const POINTS_AT: u32 = PLACES_AT + 2 * SLOTS;
 pub(crate) const TRIANGLES_AT: u32 = POINTS_AT + 2 * CATALOGUE_POINTS;
 /// Words of the catalogue.
 pub(crate) const CATALOGUE_WORDS: u32 = TRIANGLES_AT + CATALOGUE_TRIANGLES;
-/// Entries of 8 bytes in the workgroup memory of the stage `expand_points`, which is the most points of a patch that
-/// is copied. A quad of factor 16 has 289.
+/// Entries of 8 bytes in the workgroup memory of the stage `expand_points`, which is the most
+/// points of a patch that is copied. A quad of factor 16 has 289.
 pub(crate) const POINT_SCRATCH: u32 = 320;
 /// The same for the stage `expand_primitives`, where an entry has room for two triangles.
 pub(crate) const PRIMITIVE_SCRATCH: u32 = ROUND;

@@ -7,8 +7,8 @@ macro_rules! module {
     };
 }
 
-/// The modules that the stage of `tess-wgpu` joins to the user's functions: [`FLAT`], [`PN_EDGE`], [`FACTORS`],
-/// [`CULLING`], [`HEIGHT`].
+/// The modules that the stage of `tess-wgpu` joins to the user's functions: [`FLAT`], [`PN_EDGE`],
+/// [`FACTORS`], [`CULLING`], [`HEIGHT`].
 pub const HELPERS: &str = concat!(
     module!("flat"),
     "\n",
@@ -45,8 +45,8 @@ pub const BEZIER_FACTORS: &str = module!("bezier_factors");
 /// Point-normal triangles and quads. Needs [`PN_EDGE`].
 pub const POINT_NORMAL: &str = module!("pn");
 
-/// A point-normal triangle at a domain point, closed along its edges. Needs [`BEZIER`], [`POINT_NORMAL`] and
-/// [`PN_EDGE`].
+/// A point-normal triangle at a domain point, closed along its edges. Needs [`BEZIER`],
+/// [`POINT_NORMAL`] and [`PN_EDGE`].
 pub const PN_TRIANGLE: &str = module!("pn_triangle");
 
 /// Positions and normals of displaced surfaces.

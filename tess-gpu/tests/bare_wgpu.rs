@@ -1,5 +1,5 @@
-//! The example `bare_wgpu` over the recorded cases: every word that it leaves is that of the record, of `tess-core` and
-//! of `tess-simd`; and the README shows its lines.
+//! The example `bare_wgpu` over the recorded cases: every word that it leaves is that of the
+//! record, of `tess-core` and of `tess-simd`; and the README shows its lines.
 
 #[allow(dead_code, reason = "the tests call what `main` calls")]
 #[path = "../examples/bare_wgpu.rs"]
@@ -44,7 +44,8 @@ fn batches() -> Vec<(Setup, Vec<Listing>)> {
     batches
 }
 
-/// Patches after one another: their points numbered, their indices counting from the first point of the batch.
+/// Patches after one another: their points numbered, their indices counting from the first point of
+/// the batch.
 fn joined(patches: impl Iterator<Item = (Vec<DomainPoint>, Vec<u32>)>) -> Words {
     let (mut points, mut indices) = (Vec::new(), Vec::new());
     for (number, (own_points, own_indices)) in (0..).zip(patches) {
@@ -73,7 +74,8 @@ fn of_simd(setup: Setup, patches: &[PatchFactors]) -> Words {
     (numbered.collect(), output.indices().to_vec())
 }
 
-/// The first word in which the example's buffers differ from what they must hold: output, totals and draw arguments.
+/// The first word in which the example's buffers differ from what they must hold: output, totals
+/// and draw arguments.
 fn compare(
     gpu: &Gpu,
     setup: Setup,

@@ -227,7 +227,8 @@ fn quads() -> Setup {
     Setup::new(Domain::Quad, Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw))
 }
 
-/// Two portions of 65536 patches, two windows of 256 tiles of points and three of 170 tiles of triangles: 12 jobs.
+/// Two portions of 65536 patches, two windows of 256 tiles of points and three of 170 tiles of
+/// triangles: 12 jobs.
 #[test]
 fn buffers_have_the_bytes_of_their_layouts() {
     let room = Capacity { points: 600_000, primitives: 1_000_001 };
@@ -240,7 +241,8 @@ fn buffers_have_the_bytes_of_their_layouts() {
         (Resource::Tables, 4 * tables(SplitOrder::Ruler).len() as u64),
         (Resource::Topologies, 2 * 65_536 * 8),
         (Resource::Contexts, 2 * 65_536 * 48),
-        // 65536 patches, 256 blocks twice and a section, the first portion's rounded up to 256 bytes.
+        // 65536 patches, 256 blocks twice and a section, the first portion's rounded up to 256
+        // bytes.
         (Resource::Offsets, 528_640 + 528_392),
         (Resource::Status, 32 + 2 * 16),
         // 293 tiles of points, 489 of triangles, two entries more for each.
@@ -386,8 +388,8 @@ fn the_least_binding_is_4_mib() {
     assert_eq!(plan.portion_patches(), 65_536, "a whole section");
 }
 
-/// Sixteen patches of 65 by 65 points are more than 16-bit indices can name, unless they begin anew with each patch or
-/// are not written.
+/// Sixteen patches of 65 by 65 points are more than 16-bit indices can name, unless they begin anew
+/// with each patch or are not written.
 #[test]
 fn points_beyond_16_bits_are_no_room() {
     let most = 1 << 16;

@@ -51,7 +51,8 @@ fn stages() -> &'static [(Stage, String, Module)] {
     &STAGES
 }
 
-/// A planted fault changes a shader, and is no error in it: the comparison has to notice it, not the compiler.
+/// A planted fault changes a shader, and is no error in it: the comparison has to notice it, not
+/// the compiler.
 #[test]
 fn every_fault_can_be_planted() {
     let setups = all_setups();
@@ -218,7 +219,8 @@ fn words_of_one_bit() -> impl Iterator<Item = [u32; 2]> {
     })
 }
 
-/// Topologies and contexts have the same bits in both languages: each accessor reads them from the same place.
+/// Topologies and contexts have the same bits in both languages: each accessor reads them from the
+/// same place.
 #[test]
 fn packed_words_are_read_alike() {
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);

@@ -1,5 +1,5 @@
-//! The worked numbers in the heads of the shaders: computed here from the golden model, and each line found in its
-//! file, so that none of them can rot. The patch is the one of docs/tour-gpu.md.
+//! The worked numbers in the heads of the shaders: computed here from the golden model, and each
+//! line found in its file, so that none of them can rot. The patch is the one of docs/tour-gpu.md.
 
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, PointOrigin, Primitive,
@@ -166,7 +166,8 @@ fn inverse_of(size: u32) -> u32 {
     (0x1f_ffff + size) / size
 }
 
-/// The claim of shared/alike.wgsl and src/sizes.rs: the multiplication divides exactly, and does not overflow.
+/// The claim of shared/alike.wgsl and src/sizes.rs: the multiplication divides exactly, and does
+/// not overflow.
 #[test]
 fn divisions_by_an_inverse_are_exact() {
     for size in 1_u32..=640 {

@@ -1,5 +1,5 @@
-//! Rounds a cube by its corners' normals, displaces it by a height image, and finds the same bits on
-//! both sides of every edge.
+//! Rounds a cube by its corners' normals, displaces it by a height image, and finds the same bits
+//! on both sides of every edge.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use tess_surface::glam::Vec3;

@@ -1,13 +1,14 @@
 //! Vertices on edges and corners, eight at a time.
 //!
-//! A point on an edge must be computed from the edge alone, or else two patches that share it round differently and a
-//! crack opens; so [`SurfacePatch::boundary`] replaces what the formulas of the inside gave there. `Formulas::evaluate` calls it
-//! once for each eight points, after the inside; `SurfacePatch::sample` has the same rules for one point, with branches.
+//! A point on an edge must be computed from the edge alone, or else two patches that share it round
+//! differently and a crack opens; so [`SurfacePatch::boundary`] replaces what the formulas of the
+//! inside gave there. `Formulas::evaluate` calls it once for each eight points, after the inside;
+//! `SurfacePatch::sample` has the same rules for one point, with branches.
 //!
 //! # The data
 //!
-//! A block has eight lanes, a point in each, and all eight are computed alike. `on_edges` has a word for each lane, with a
-//! bit for each edge that the point is on:
+//! A block has eight lanes, a point in each, and all eight are computed alike. `on_edges` has a
+//! word for each lane, with a bit for each edge that the point is on:
 //!
 //! ```text
 //!   bit            3        2        1        0
@@ -19,8 +20,9 @@
 //!
 //! # One block
 //!
-//! A flat quad with corners (0,0,0), (4,0,0), (4,4,2), (0,4,0), at eight points. The edge u = 1 runs from (4,0,0) to
-//! (4,4,2), which is also its canonical direction, so a lane's parameter on it is v.
+//! A flat quad with corners (0,0,0), (4,0,0), (4,4,2), (0,4,0), at eight points. The edge u = 1
+//! runs from (4,0,0) to (4,4,2), which is also its canonical direction, so a lane's parameter on it
+//! is v.
 //!
 //! ```text
 //!   lane          0         1         2         3         4         5         6         7
@@ -34,7 +36,8 @@
 //!   position   2,2,.5    0,1,0     4,1,.5    2,0,0     4,4,2     2,4,1     4,3,1.5   1,2,.25
 //! ```
 //!
-//! Pass 2 computes all eight lanes at t = v, then keeps lanes 2 and 6 by a select. This is the same block:
+//! Pass 2 computes all eight lanes at t = v, then keeps lanes 2 and 6 by a select. This is the same
+//! block:
 //!
 //! ```
 //! use tess_surface::glam::Vec3;
@@ -52,22 +55,26 @@
 //!
 //! # What must hold
 //!
-//! - A lane's result depends on its own point alone: never on the other lanes, nor on which lane it is. Otherwise a block
-//!   of another length would give other bits (`tests/surfaces/samples.rs` compares blocks of 1, 3, 8 and 13 points).
-//! - On an edge the only inputs are the edge's control points in canonical direction, and the parameter in that direction.
-//!   Anything of the patch itself, and both sides would differ.
+//! - A lane's result depends on its own point alone: never on the other lanes, nor on which lane it
+//!   is. Otherwise a block of another length would give other bits (`tests/surfaces/samples.rs`
+//!   compares blocks of 1, 3, 8 and 13 points).
+//! - On an edge the only inputs are the edge's control points in canonical direction, and the
+//!   parameter in that direction. Anything of the patch itself, and both sides would differ.
 //! - The parameter of the other direction, 1 - t, is exact: domain points are multiples of 2^-16.
-//! - At t = 0 and t = 1 the position is the end control point itself, not what the formula rounds to: corners belong to
-//!   more edges than one.
+//! - At t = 0 and t = 1 the position is the end control point itself, not what the formula rounds
+//!   to: corners belong to more edges than one.
 //! - Zeros are positive in the results, as equal positions must have equal bits.
-//! - What runs in lanes has no branch that a lane decides, and is `#[inline(always)]` from the level's function down to
-//!   here. Otherwise the compiler makes no vectors, or only those of the baseline.
+//! - What runs in lanes has no branch that a lane decides, and is `#[inline(always)]` from the
+//!   level's function down to here. Otherwise the compiler makes no vectors, or only those of the
+//!   baseline.
 //!
 //! # The simpler form
 //!
-//! Point by point, as `SurfacePatch::sample`: then the inside ran in lanes and every point of an edge alone. At factor 8, where
-//! 32 of 81 points are on the boundary, that took 27 ns a vertex on bicubic patches and 29 on PN triangles; with edges in
-//! lanes it takes 17 and 12 (docs/experiments.md, "Evaluation in lanes"). Corners are still one by one: a patch has three or four.
+//! Point by point, as `SurfacePatch::sample`: then the inside ran in lanes and every point of an
+//! edge alone. At factor 8, where 32 of 81 points are on the boundary, that took 27 ns a vertex on
+//! bicubic patches and 29 on PN triangles; with edges in lanes it takes 17 and 12
+//! (docs/experiments.md, "Evaluation in lanes"). Corners are still one by one: a patch has three or
+//! four.
 
 use crate::curve::{Curve, Direction, Edge};
 use crate::lanes::{LANES, Lanes, Vertices};

@@ -1,4 +1,5 @@
-//! Evaluation at a CPU level: each kernel is compiled once for every level, and one is chosen at run time.
+//! Evaluation at a CPU level: each kernel is compiled once for every level, and one is chosen at
+//! run time.
 
 use crate::displaced::{self, DisplacedPatch};
 use crate::patch::{Sample, SurfacePatch};
@@ -17,13 +18,14 @@ at_each_level! {
 }
 
 impl SurfacePatch {
-    /// The vertices at these domain points: the bits of [`SurfacePatch::sample`] at each, several times as fast. Vertices or
-    /// points that the other slice has no partner for are left alone.
+    /// The vertices at these domain points: the bits of [`SurfacePatch::sample`] at each, several
+    /// times as fast. Vertices or points that the other slice has no partner for are left alone.
     pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
         plain(Level::detect(), self, points, samples);
     }
 
-    /// [`SurfacePatch::samples`] with the instructions of a CPU level, which gives the same bits as every other.
+    /// [`SurfacePatch::samples`] with the instructions of a CPU level, which gives the same bits as
+    /// every other.
     ///
     /// # Errors
     /// [`LevelUnavailableError`] if this machine cannot run the level.
@@ -48,13 +50,15 @@ impl DisplacedPatch<'_> {
         sample[0]
     }
 
-    /// The displaced vertices at these domain points: the bits of [`DisplacedPatch::sample`] at each, several times as
-    /// fast. Vertices or points that the other slice has no partner for are left alone.
+    /// The displaced vertices at these domain points: the bits of [`DisplacedPatch::sample`] at
+    /// each, several times as fast. Vertices or points that the other slice has no partner for are
+    /// left alone.
     pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
         of_displaced(Level::detect(), self, points, samples);
     }
 
-    /// [`DisplacedPatch::samples`] with the instructions of a CPU level, which gives the same bits as every other.
+    /// [`DisplacedPatch::samples`] with the instructions of a CPU level, which gives the same bits
+    /// as every other.
     ///
     /// # Errors
     /// [`LevelUnavailableError`] if this machine cannot run the level.

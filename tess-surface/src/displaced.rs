@@ -79,7 +79,8 @@ impl Anchors {
     }
 }
 
-/// At the first corner of each anchor, the sum of its corners' normals and its own texture coordinates.
+/// At the first corner of each anchor, the sum of its corners' normals and its own texture
+/// coordinates.
 fn sums(corners: &[Option<Sample>], of_corner: &[u32]) -> Vec<Anchor> {
     let none = Anchor { direction: Vec3::ZERO, texcoord: Vec2::ZERO };
     let mut anchors = vec![none; corners.len()];
@@ -93,8 +94,8 @@ fn sums(corners: &[Option<Sample>], of_corner: &[u32]) -> Vec<Anchor> {
     anchors
 }
 
-/// Gives each sheet its own anchor where sheets with different normals meet at a corner. Returns whether there is such
-/// a corner.
+/// Gives each sheet its own anchor where sheets with different normals meet at a corner. Returns
+/// whether there is such a corner.
 fn separate_sheets(
     model: &Model,
     corners: &[Option<Sample>],
@@ -332,8 +333,8 @@ impl Anchors8 {
 /// 2^-45, which brings the fourth powers of tangents of 2^32 to 2^58 into range.
 const SMALLER: f32 = 1.0 / 35_184_372_088_832.0;
 
-/// The normal over heights with these slopes along u and v: Blinn's N' = N + hu (n x Sv) + hv (Su x n), with
-/// N = Su x Sv taken along the shading normal.
+/// The normal over heights with these slopes along u and v: Blinn's N' = N + hu (n x Sv) + hv (Su x
+/// n), with N = Su x Sv taken along the shading normal.
 #[inline(always)]
 fn wrinkled_normal(normal: Vec3, Tangents { du, dv }: Tangents, [hu, hv]: [f32; 2]) -> Vec3 {
     // The area is a square root of fourth powers. Where these overflow, so does it, and the

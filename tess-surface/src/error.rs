@@ -6,9 +6,9 @@ use thiserror::Error;
 /// The largest magnitude that a coordinate may have: 1e16.
 ///
 /// Lengths, bounds of derivatives and normals are square roots of sums of squares of differences of
-/// coordinates. The largest such differences are the tangents of curved quads, up to 32 times as large
-/// as the corners' coordinates, so that the sums stay below 1e36; binary32 ends at 3.4e38. Beyond
-/// that, positions would be infinite or NaN.
+/// coordinates. The largest such differences are the tangents of curved quads, up to 32 times as
+/// large as the corners' coordinates, so that the sums stay below 1e36; binary32 ends at 3.4e38.
+/// Beyond that, positions would be infinite or NaN.
 pub const MAX_COORDINATE: f32 = 1e16;
 
 /// Fault of one face or patch.

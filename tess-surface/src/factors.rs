@@ -1,19 +1,22 @@
 //! Tessellation factors by rule, each a function of the edge.
 //!
-//! A rule gets what both patches of an edge share, and gives the same bits whichever patch asks. So neighbours have the
-//! same factor, and no crack opens. Inside factors open no crack whatever they are.
+//! A rule gets what both patches of an edge share, and gives the same bits whichever patch asks. So
+//! neighbours have the same factor, and no crack opens. Inside factors open no crack whatever they
+//! are.
 //!
-//! As WGSL, tess-gpu's `surfaces::FACTORS` has the functions for straight edges, and `surfaces::BEZIER_FACTORS` the rules
-//! of [`FactorRule`] for cubic ones.
+//! As WGSL, tess-gpu's `surfaces::FACTORS` has the functions for straight edges, and
+//! `surfaces::BEZIER_FACTORS` the rules of [`FactorRule`] for cubic ones.
 //!
 //! # Insides
 //!
-//! Rules that look at edges only give an inside factor the *mean* of the edges: on a quad of the two that run the same
-//! way, on a triangle of all three. The Direct3D 11 samples do so, and HLSL's `ProcessQuadTessFactorsAvg`. Opposite
-//! edges differ because one is nearer to the eye, and the middle of the patch is between them, so its segments get about
-//! the length that the rule asks for. The larger of the edges would make them too short, up to half.
+//! Rules that look at edges only give an inside factor the *mean* of the edges: on a quad of the
+//! two that run the same way, on a triangle of all three. The Direct3D 11 samples do so, and HLSL's
+//! `ProcessQuadTessFactorsAvg`. Opposite edges differ because one is nearer to the eye, and the
+//! middle of the patch is between them, so its segments get about the length that the rule asks
+//! for. The larger of the edges would make them too short, up to half.
 //!
-//! [`FactorRule::Flatness`] takes the *larger* instead: its bound holds for powers of two, and a mean is none.
+//! [`FactorRule::Flatness`] takes the *larger* instead: its bound holds for powers of two, and a
+//! mean is none.
 
 use crate::bend::Bend;
 use crate::curve::Curve;
@@ -43,8 +46,9 @@ pub enum FactorRule {
         scale: f32,
     },
     /// Segments of about `segment` pixels. The edge is seen as the sphere around its middle whose
-    /// diameter is its length; a sphere looks the same from all sides, so edges that point away from
-    /// the eye keep their segments (I. Cantlay, *DirectX 11 Terrain Tessellation*, NVIDIA 2011).
+    /// diameter is its length; a sphere looks the same from all sides, so edges that point away
+    /// from the eye keep their segments (I. Cantlay, *DirectX 11 Terrain Tessellation*,
+    /// NVIDIA 2011).
     ScreenSize {
         /// The position of the eye.
         eye: Vec3,
@@ -54,11 +58,11 @@ pub enum FactorRule {
         /// The wanted length of a segment, in pixels.
         segment: f32,
     },
-    /// The number of segments that keeps every point of a triangle within `tolerance` of the surface's
-    /// point with the same domain coordinates, unless a factor would exceed 64. [`crate::bend`] has the
-    /// formula. The factors are powers of two; with others, the triangles between different factors
-    /// would deviate more. Under `fractional_odd`, which has no powers of two, the tolerance is
-    /// approximate.
+    /// The number of segments that keeps every point of a triangle within `tolerance` of the
+    /// surface's point with the same domain coordinates, unless a factor would exceed 64.
+    /// [`crate::bend`] has the formula. The factors are powers of two; with others, the triangles
+    /// between different factors would deviate more. Under `fractional_odd`, which has no powers of
+    /// two, the tolerance is approximate.
     Flatness {
         /// The largest distance, in the model's units.
         tolerance: f32,
@@ -74,8 +78,8 @@ pub const fn clamp_factor(factor: f32) -> f32 {
     if factor > RANGE.0 { factor.min(RANGE.1) } else { RANGE.0 }
 }
 
-/// `dividend / divisor` within 1..=64, also for a divisor of 0. The result is 1 unless both are numbers and
-/// `dividend > divisor >= 0`.
+/// `dividend / divisor` within 1..=64, also for a divisor of 0. The result is 1 unless both are
+/// numbers and `dividend > divisor >= 0`.
 #[must_use]
 pub fn quotient(dividend: f32, divisor: f32) -> f32 {
     within(dividend, divisor, RANGE.1, |quotient| quotient)
@@ -87,8 +91,8 @@ pub fn root_quotient(dividend: f32, divisor: f32) -> f32 {
     within(dividend, divisor, RANGE.1 * RANGE.1, sqrt)
 }
 
-/// A function of a quotient, which is computed only between 1 and `most`, a power of two: WGSL leaves the result of a
-/// division that overflows to the device.
+/// A function of a quotient, which is computed only between 1 and `most`, a power of two: WGSL
+/// leaves the result of a division that overflows to the device.
 fn within(dividend: f32, divisor: f32, most: f32, function: impl Fn(f32) -> f32) -> f32 {
     if dividend > divisor && divisor >= 0.0 {
         let is_most = dividend * (1.0 / most) >= divisor;
@@ -106,59 +110,61 @@ pub fn edge_by_screen_size(ends: [Vec3; 2], eye: Vec3, pixels_per_unit: f32, seg
     quotient(pixels, eye.distance(middle(ends)) * segment)
 }
 
-/// A factor for segments of `segment` pixels on the straight edge between these ends, under a camera without
-/// perspective: a length of 1 covers `pixels_per_unit` pixels at any distance.
+/// A factor for segments of `segment` pixels on the straight edge between these ends, under a
+/// camera without perspective: a length of 1 covers `pixels_per_unit` pixels at any distance.
 #[must_use]
 pub fn edge_by_length(ends: [Vec3; 2], pixels_per_unit: f32, segment: f32) -> f32 {
     quotient(ends[0].distance(ends[1]) * pixels_per_unit, segment)
 }
 
-/// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative or NaN, still does
-/// if `most` is positive.
+/// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative
+/// or NaN, still does if `most` is positive.
 #[must_use]
 pub const fn at_most(factor: f32, most: f32) -> f32 {
     if factor > most { most } else { factor }
 }
 
-/// `scale` divided by the distance from the eye to the middle of the straight edge between these ends, as
-/// [`FactorRule::Distance`].
+/// `scale` divided by the distance from the eye to the middle of the straight edge between these
+/// ends, as [`FactorRule::Distance`].
 #[must_use]
 pub fn edge_by_distance(ends: [Vec3; 2], eye: Vec3, scale: f32) -> f32 {
     quotient(scale, eye.distance(middle(ends)))
 }
 
-/// A factor that keeps equal segments within `tolerance`, in units of the positions, of the point-normal edge between
-/// two corners.
+/// A factor that keeps equal segments within `tolerance`, in units of the positions, of the
+/// point-normal edge between two corners.
 ///
-/// The edge's second derivative is at most M = 6 [`edge_bend`], and a chord over 1/n of the edge is within M / (8 n^2)
-/// of it.
+/// The edge's second derivative is at most M = 6 [`edge_bend`], and a chord over 1/n of the edge is
+/// within M / (8 n^2) of it.
 #[must_use]
 pub fn edge_by_curvature(ends: [PnCorner; 2], tolerance: f32) -> f32 {
     root_quotient(0.75 * edge_bend(ends), tolerance)
 }
 
-/// A factor that keeps triangles within `tolerance` of a surface whose [`Bend`] along the edge is at most `bend`, as
+/// A factor that keeps triangles within `tolerance` of a surface whose [`Bend`] along the edge is
+/// at most `bend`, as
 /// [`FactorRule::Flatness`]: a power of two.
 #[must_use]
 pub fn edge_by_flatness(bend: f32, tolerance: f32) -> f32 {
     next_power_of_two(root_quotient(bend, 4.0 * tolerance))
 }
 
-/// The factors of an edge beside two edges of half its length, from the factor that a rule has for the whole edge: of
-/// the whole, a power of two in 2..=64, and of each half, half as much. The whole never gets less than the rule's.
+/// The factors of an edge beside two edges of half its length, from the factor that a rule has for
+/// the whole edge: of the whole, a power of two in 2..=64, and of each half, half as much. The
+/// whole never gets less than the rule's.
 ///
-/// With these the domain points of the whole edge are those of both halves, under [`Partitioning::Integer`] and
-/// [`Partitioning::Pow2`]. With other factors, such as 6 beside 3 and 3, they differ by up to 9.5/65536 of the edge: the
-/// tessellator rounds every location to 1/65536, and the rounded halves are not the whole's. Neighbours must compute
-/// both from the whole edge.
+/// With these the domain points of the whole edge are those of both halves, under
+/// [`Partitioning::Integer`] and [`Partitioning::Pow2`]. With other factors, such as 6 beside 3 and
+/// 3, they differ by up to 9.5/65536 of the edge: the tessellator rounds every location to 1/65536,
+/// and the rounded halves are not the whole's. Neighbours must compute both from the whole edge.
 #[must_use]
 pub fn edge_beside_halves(factor: f32) -> [f32; 2] {
     let whole = next_power_of_two(clamp_factor(factor)).max(2.0);
     [whole, 0.5 * whole]
 }
 
-/// The inside factors along u and v of a quad with these factors on its edges u = 0, v = 0, u = 1, v = 1: the mean of the
-/// two edges that run the same way.
+/// The inside factors along u and v of a quad with these factors on its edges u = 0, v = 0, u = 1,
+/// v = 1: the mean of the two edges that run the same way.
 #[must_use]
 pub fn inside_quad([u0, v0, u1, v1]: [f32; 4]) -> [f32; 2] {
     [0.5 * (v0 + v1), 0.5 * (u0 + u1)]
@@ -176,8 +182,8 @@ fn middle([a, b]: [Vec3; 2]) -> Vec3 {
 }
 
 impl FactorRule {
-    /// The factor of an edge, 1..=64, from its canonical curve ([`Edge::curve`](crate::Edge::curve))
-    /// and the largest [`Bend::along`] it of all its patches.
+    /// The factor of an edge, 1..=64, from its canonical curve
+    /// ([`Edge::curve`](crate::Edge::curve)) and the largest [`Bend::along`] it of all its patches.
     #[must_use]
     pub fn edge(&self, curve: &Curve, bend: f32) -> f32 {
         match *self {
@@ -192,7 +198,8 @@ impl FactorRule {
     }
 
     /// The factors of patch `number` of a model, prepared for `partitioning` as a hull shader does:
-    /// under `pow2` they are rounded up to powers of two, inside factors after their mean was taken.
+    /// under `pow2` they are rounded up to powers of two, inside factors after their mean was
+    /// taken.
     ///
     /// Inside factors are the means of the edges' ([`inside_quad`], [`inside_triangle`]). Under
     /// [`FactorRule::Flatness`] they are the largest of what the edges have and the inside needs.
@@ -241,7 +248,8 @@ impl FactorRule {
             Partitioning::Pow2 => next_power_of_two(factor),
             _ => factor,
         };
-        // The larger of these edges and what a bend needs, if the rule is about bends; or else their mean.
+        // The larger of these edges and what a bend needs, if the rule is about bends; or else
+        // their mean.
         let inside = |bend: f32, edges: &[f32], mean: f32| match *self {
             Self::Flatness { tolerance } => {
                 edges.iter().copied().fold(edge_by_flatness(bend, tolerance), f32::max)

@@ -1,7 +1,7 @@
 //! The formulas of a surface's inside in the form that loops over lanes evaluate.
 //!
-//! They are methods of types, not closures: what is compiled for a CPU level is what is inlined into the
-//! level's function, and only functions can be inlined always.
+//! They are methods of types, not closures: what is compiled for a CPU level is what is inlined
+//! into the level's function, and only functions can be inlined always.
 
 use crate::bezier::Net;
 use crate::frame::{Frame, Frames, Tangents};
@@ -109,8 +109,8 @@ impl<'a> Formulas<'a> {
         }
     }
 
-    /// The vertices at these points: what is inside by the formulas of the inside, the rest by those of
-    /// edges and corners.
+    /// The vertices at these points: what is inside by the formulas of the inside, the rest by
+    /// those of edges and corners.
     #[inline(always)]
     pub(crate) fn evaluate(&self, vertices: &mut Vertices) {
         self.inside(vertices);

@@ -58,23 +58,25 @@ impl HeightMap {
         &self.texels
     }
 
-    /// The height and its derivatives by the texture coordinates, bilinear between texel centres. (0, 0) is the
-    /// lower left corner of the image.
+    /// The height and its derivatives by the texture coordinates, bilinear between texel centres.
+    /// (0, 0) is the lower left corner of the image.
     #[must_use]
     pub fn sample(&self, texcoord: Vec2) -> (f32, Vec2) {
         self.at(Vec2::new(texcoord.x, 1.0 - texcoord.y), |texels| texels)
     }
 
-    /// The height at a place that is counted from the top: (0, 0) is the upper left corner of the image, (1, 1) the lower
-    /// right one. The place is rounded to 1/256 of a texel, the precision of samplers, as `tess_sample` of
-    /// tess-gpu's `surfaces::HEIGHT` does, which clamps. Beyond a clamped image every place has a height,
-    /// infinity too; an image that repeats or is mirrored has none at infinity: NaN.
+    /// The height at a place that is counted from the top: (0, 0) is the upper left corner of the
+    /// image, (1, 1) the lower right one. The place is rounded to 1/256 of a texel, the precision
+    /// of samplers, as `tess_sample` of tess-gpu's `surfaces::HEIGHT` does, which clamps. Beyond a
+    /// clamped image every place has a height, infinity too; an image that repeats or is mirrored
+    /// has none at infinity: NaN.
     #[must_use]
     pub fn height_at(&self, place: Vec2) -> f32 {
         self.at(place, |texels| round(texels * 256.0) / 256.0).0
     }
 
-    /// [`HeightMap::sample`] at a place that is counted from the top, in texels rounded by `precision`.
+    /// [`HeightMap::sample`] at a place that is counted from the top, in texels rounded by
+    /// `precision`.
     fn at(&self, place: Vec2, precision: fn(f32) -> f32) -> (f32, Vec2) {
         let cell = match self.address {
             Address::Repeat => repeated,
@@ -144,7 +146,8 @@ struct Cell {
     texels: [u32; 2],
     /// The way from the first texel to the second one, 0 to 1.
     part: f32,
-    /// The derivative of the place in the image by the coordinate: 1, or -1 where the image is reversed.
+    /// The derivative of the place in the image by the coordinate: 1, or -1 where the image is
+    /// reversed.
     way: f32,
 }
 
@@ -185,7 +188,8 @@ fn repeated(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cel
     Cell { texels: [texel as u32, after as u32], part: scaled - before, way: 1.0 }
 }
 
-/// The cell of a coordinate in an image that is clamped. Beyond the image both texels are the outermost one.
+/// The cell of a coordinate in an image that is clamped. Beyond the image both texels are the
+/// outermost one.
 #[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,
@@ -193,7 +197,8 @@ fn repeated(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cel
     reason = "casts of floats saturate, and images are far smaller than 2^24"
 )]
 fn clamped(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cell {
-    // Within a texel of the image, so that the fraction is a number; further out both texels are the same.
+    // Within a texel of the image, so that the fraction is a number; further out both texels are
+    // the same.
     let scaled = precision(coordinate * texels(size) - 0.5).max(-1.0).min(texels(size));
     let before = floor(scaled);
     // Casts turn NaN and numbers below 0 to 0.

@@ -1,9 +1,9 @@
 //! Several points side by side.
 //!
-//! A formula is written once, for one point, as a branch-free function of numbers. A loop over lanes that
-//! calls it becomes vectors of whatever width the CPU level has. Every lane has the bits that one point
-//! has: both run the same additions, multiplications, divisions and square roots, each correctly
-//! rounded, and nothing fuses two of them.
+//! A formula is written once, for one point, as a branch-free function of numbers. A loop over
+//! lanes that calls it becomes vectors of whatever width the CPU level has. Every lane has the bits
+//! that one point has: both run the same additions, multiplications, divisions and square roots,
+//! each correctly rounded, and nothing fuses two of them.
 
 use crate::patch::Sample;
 use glam::{Vec2, Vec3};

@@ -43,7 +43,8 @@ pub(crate) fn sqrt(x: f32) -> f32 {
 /// The nearest integer, the even one of two, as `libm::rintf`, in operations that vectors have.
 #[inline(always)]
 pub(crate) fn round(x: f32) -> f32 {
-    // From 2^23 on every number is an integer; adding it to a smaller one rounds that to an integer.
+    // From 2^23 on every number is an integer; adding it to a smaller one rounds that to an
+    // integer.
     const INTEGERS: f32 = 8_388_608.0;
     let nearest = ((x.abs() + INTEGERS) - INTEGERS).copysign(x);
     if x.abs() < INTEGERS { nearest } else { x }
@@ -92,8 +93,8 @@ pub(crate) fn unit_or_not(v: Vec3) -> (Vec3, bool) {
     (scaled * reciprocal, is_positive(largest) & is_positive(reciprocal))
 }
 
-/// The unit vector of du x dv, and whether there is one, without a branch: not where one of them is zero
-/// or they are parallel to within 2^-15.
+/// The unit vector of du x dv, and whether there is one, without a branch: not where one of them is
+/// zero or they are parallel to within 2^-15.
 #[inline(always)]
 pub(crate) fn normal_or_not(du: Vec3, dv: Vec3) -> (Vec3, bool) {
     const PARALLEL: f32 = 1.0 / (1u32 << 30) as f32;
@@ -137,8 +138,8 @@ pub(crate) fn de_casteljau<V: Vector>([a, b, c, d]: [V; 4], t: f32) -> (V, V) {
     (lerp(abc, bcd, t), derivative)
 }
 
-/// A homogeneous point, (w x, w y, w z) and w, as four separate numbers: [`Vec4`] fills a register of the processor,
-/// so loops over lanes could not be vectorized.
+/// A homogeneous point, (w x, w y, w z) and w, as four separate numbers: [`Vec4`] fills a register
+/// of the processor, so loops over lanes could not be vectorized.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Homogeneous {
     pub(crate) xyz: Vec3,

@@ -21,9 +21,9 @@ pub struct Face {
 
 /// Faces over shared positions, normals and texture coordinates.
 ///
-/// A face may be there twice, with its corners in both orders, once for each side: the two are different sheets. Smooth
-/// normals are made for each sheet alone: from faces that are neighbours, run the same way round, and do not lie on
-/// each other.
+/// A face may be there twice, with its corners in both orders, once for each side: the two are
+/// different sheets. Smooth normals are made for each sheet alone: from faces that are neighbours,
+/// run the same way round, and do not lie on each other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolygonMesh {
     /// Positions, in the model's units, each coordinate within [`MAX_COORDINATE`] of 0.
@@ -93,7 +93,8 @@ impl PolygonMesh {
         face.positions.map(|position| self.positions[position as usize])
     }
 
-    /// The unit normal of the plane through a face's corners, as nearly as there is one; zero for none.
+    /// The unit normal of the plane through a face's corners, as nearly as there is one; zero for
+    /// none.
     pub(crate) fn face_normal(&self, face: &Face) -> Vec3 {
         let [a, b] = diagonals(&self.corners(face));
         a.cross(b).normalize_or_zero().as_vec3()

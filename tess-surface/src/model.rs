@@ -23,8 +23,8 @@ pub enum Style {
     PointNormal,
 }
 
-/// Patches with adjacency, numbered from 0 in the order of the faces or Bezier patches that the model was made of.
-/// Methods that take a number panic beyond the last patch, as slices do.
+/// Patches with adjacency, numbered from 0 in the order of the faces or Bezier patches that the
+/// model was made of. Methods that take a number panic beyond the last patch, as slices do.
 #[derive(Clone, Debug)]
 pub struct Model {
     source: ModelSource,
@@ -96,33 +96,36 @@ impl Model {
         }
     }
 
-    /// The other side of an edge; `None` on the border of the model, on seams, for collapsed edges and
-    /// for edges that do not exist.
+    /// The other side of an edge; `None` on the border of the model, on seams, for collapsed edges
+    /// and for edges that do not exist.
     #[must_use]
     pub fn twin(&self, half: HalfEdge) -> Option<HalfEdge> {
         self.topology.twin(half)
     }
 
-    /// One side of each edge with more than two patches that are neighbours in pairs, as where two cubes touch along an
-    /// edge; in ascending order.
+    /// One side of each edge with more than two patches that are neighbours in pairs, as where two
+    /// cubes touch along an edge; in ascending order.
     ///
-    /// An equal number of patches runs each way along such an edge, and each is the neighbour of one that runs the other
-    /// way. So the surfaces that touch there have no cracks, but they may be divided differently.
+    /// An equal number of patches runs each way along such an edge, and each is the neighbour of
+    /// one that runs the other way. So the surfaces that touch there have no cracks, but they may
+    /// be divided differently.
     #[must_use]
     pub fn crowded_edges(&self) -> &[HalfEdge] {
         &self.topology.crowded
     }
 
-    /// All sides of each edge with more than two patches that have no single neighbour, as where a fin stands on a
-    /// surface; each in ascending order.
+    /// All sides of each edge with more than two patches that have no single neighbour, as where a
+    /// fin stands on a surface; each in ascending order.
     ///
-    /// The patches there keep their own normals. They share the edge's curve and factor, so no crack opens.
+    /// The patches there keep their own normals. They share the edge's curve and factor, so no
+    /// crack opens.
     #[must_use]
     pub fn seams(&self) -> &[Vec<HalfEdge>] {
         &self.topology.seams
     }
 
-    /// The mesh that the model was made of, if it was; faces where several sheets meet may have got normals.
+    /// The mesh that the model was made of, if it was; faces where several sheets meet may have got
+    /// normals.
     #[must_use]
     pub const fn mesh(&self) -> Option<&PolygonMesh> {
         match &self.source {

@@ -1,8 +1,8 @@
 //! Evaluating one patch so that neighbours agree to the bit.
 //!
-//! A point inside is a function of the patch. A point on an edge is a function of the edge alone, in
-//! the edge's canonical direction ([`Edge`]), and a point on a corner is a function of the corner
-//! alone. So two patches that share an edge give the same bits along it.
+//! A point inside is a function of the patch. A point on an edge is a function of the edge alone,
+//! in the edge's canonical direction ([`Edge`]), and a point on a corner is a function of the
+//! corner alone. So two patches that share an edge give the same bits along it.
 
 use crate::bezier::BezierPatch;
 use crate::curve::{Curve, Direction, Edge};

@@ -33,8 +33,8 @@ pub fn edge_points(a: PnCorner, b: PnCorner) -> [Vec3; 2] {
     [inner(a, b), inner(b, a)]
 }
 
-/// A sixth of the largest second derivative of the edge between two corners, in units of their positions. The same
-/// whichever comes first.
+/// A sixth of the largest second derivative of the edge between two corners, in units of their
+/// positions. The same whichever comes first.
 #[must_use]
 pub fn edge_bend([a, b]: [PnCorner; 2]) -> f32 {
     let [near_a, near_b] = edge_points(a, b);
@@ -76,8 +76,8 @@ pub struct PnTriangle {
 }
 
 impl PnTriangle {
-    /// The triangle with these inner control points of its edges: from [`edge_points`], or the means
-    /// of both sides' points.
+    /// The triangle with these inner control points of its edges: from [`edge_points`], or the
+    /// means of both sides' points.
     #[must_use]
     pub fn new(corners: [PnCorner; 3], edges: [[Vec3; 2]; 3]) -> Self {
         let [[b012, b021], [b102, b201], [b120, b210]] = edges;

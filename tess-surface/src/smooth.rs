@@ -1,9 +1,10 @@
 //! Smooth normals: one for each corner of a sheet, from the faces around it.
 //!
-//! G. Thürmer, C. A. Wüthrich, *Computing Vertex Normals from Polygonal Facets*, Journal of Graphics Tools 3(1), 1998:
-//! the sum of the faces' normals, each weighted by the angle there. The sum is over the faces of one sheet
-//! ([`crate::sheets`]): neighbours that run the same way round and do not lie on each other. Faces without a common
-//! edge, as on both sides of a crack, are summed too if their normals are within 60 degrees.
+//! G. Thürmer, C. A. Wüthrich, *Computing Vertex Normals from Polygonal Facets*, Journal of
+//! Graphics Tools 3(1), 1998: the sum of the faces' normals, each weighted by the angle there. The
+//! sum is over the faces of one sheet ([`crate::sheets`]): neighbours that run the same way round
+//! and do not lie on each other. Faces without a common edge, as on both sides of a crack, are
+//! summed too if their normals are within 60 degrees.
 
 use crate::math::unit;
 use crate::mesh::{Face, PolygonMesh};
@@ -18,13 +19,15 @@ use glam::{DVec3, Vec3};
 /// The cosine of the smallest angle between normals at which neighbours lie on each other.
 const FOLDED: f32 = -0.9999;
 
-/// The cosine of the largest angle between normals at which fans without a common edge are one sheet.
+/// The cosine of the largest angle between normals at which fans without a common edge are one
+/// sheet.
 const ONE_SHEET: f32 = 0.5;
 
-/// Makes smooth normals for the faces that have none. `vertices` maps positions to those that they coincide with.
+/// Makes smooth normals for the faces that have none. `vertices` maps positions to those that they
+/// coincide with.
 ///
-/// Returns a unit normal for each position. A face with a corner where several sheets meet gets normals of its own in
-/// the mesh instead.
+/// Returns a unit normal for each position. A face with a corner where several sheets meet gets
+/// normals of its own in the mesh instead.
 pub(crate) fn smooth_normals(
     mesh: &mut PolygonMesh,
     vertices: &[u32],
@@ -119,7 +122,8 @@ fn weighted_normal(mesh: &PolygonMesh, slot: u32) -> Vec3 {
     angle_weighted(&mesh.corners(&mesh.faces[patch]), corner)
 }
 
-/// The unit normal of each corner at a place, from the first corner of each one's fan and their weighted normals.
+/// The unit normal of each corner at a place, from the first corner of each one's fan and their
+/// weighted normals.
 fn sheet_normals(fans: &[usize], own: &[Vec3]) -> Vec<Vec3> {
     let mut sums = vec![Vec3::ZERO; fans.len()];
     fans.iter().zip(own).for_each(|(&fan, &normal)| sums[fan] += normal);

@@ -69,8 +69,8 @@ impl Topology {
     /// Pairs the half-edges that are equal. `hashes` has each one's hash and slot.
     ///
     /// More than two are pairs if as many run one way as the other: sheets that touch, as where two
-    /// cubes stand edge to edge, or the two sides of a sheet that has a face for each (A. Guéziec et
-    /// al., *Cutting and Stitching*, IEEE TVCG 7(2), 2001). Pairs are those that bend the least.
+    /// cubes stand edge to edge, or the two sides of a sheet that has a face for each (A. Guéziec
+    /// et al., *Cutting and Stitching*, IEEE TVCG 7(2), 2001). Pairs are those that bend the least.
     /// Where the numbers differ there is no single neighbour, and the edge is a seam.
     pub(crate) fn pair(
         patches: usize,
@@ -198,8 +198,8 @@ fn place(hash: u64, bits: u32) -> usize {
     (mixed >> (u64::BITS - bits.max(1))) as usize & ((1 << bits) - 1)
 }
 
-/// Sorts pairs by what comes first in them, then by the second: into buckets by their high bits, then
-/// bucket by bucket.
+/// Sorts pairs by what comes first in them, then by the second: into buckets by their high bits,
+/// then bucket by bucket.
 #[expect(clippy::cast_possible_truncation, reason = "there are as many buckets as pairs at most")]
 fn sort(pairs: &mut Vec<(u64, u32)>) {
     let largest = pairs.iter().fold(0, |largest, &(hash, _)| largest.max(hash));

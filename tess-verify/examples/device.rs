@@ -1,9 +1,9 @@
 //! Compares a device under test with the model: reads what was captured from it, in a format of its
 //! own, and says how near each patch is and what explains the others.
 //!
-//! The capture has a line `draw DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...` for each patch, then what
-//! the device gave for it: `at U V` for each domain point, as the floats that a domain shader saw, and
-//! `prim I...` for each primitive.
+//! The capture has a line `draw DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...` for each patch, then
+//! what the device gave for it: `at U V` for each domain point, as the floats that a domain shader
+//! saw, and `prim I...` for each primitive.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::error::Error;

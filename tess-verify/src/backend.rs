@@ -10,8 +10,8 @@ use tess_core::{
 /// An implementation of the specification under test.
 ///
 /// Every method takes a batch, in any number, zero included, and answers in the same order. An
-/// implementation that gives whole patches alone needs no more than the first three methods: the others
-/// answer with an error, and a difference then points to the stage that its output shows.
+/// implementation that gives whole patches alone needs no more than the first three methods: the
+/// others answer with an error, and a difference then points to the stage that its output shows.
 pub trait Backend: Send {
     /// Its name, as `--backend` takes it: `core`, `simd` or `gpu`.
     fn name(&self) -> &'static str;
@@ -26,7 +26,8 @@ pub trait Backend: Send {
     fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation>;
 
     /// Factor processing (spec section 3) alone: for each value `x` the fixed-point u = 0 factor of
-    /// the triangle patch (x, 3, 3; 3), zero if it is culled, and the inside factor of (3, 3, 3; x).
+    /// the triangle patch (x, 3, 3; 3), zero if it is culled, and the inside factor of (3, 3, 3;
+    /// x).
     ///
     /// Where (x, 3, 3; x) is not culled, its factors are the same (`golden/factor.csv` has those).
     ///
@@ -69,7 +70,8 @@ fn whole_patches_alone(name: &str) -> BackendError {
     BackendError::new(format!("{name} gives whole patches alone, no stages"))
 }
 
-/// Answers of an implementation to a batch, one for each element, in their order; or why it could not run.
+/// Answers of an implementation to a batch, one for each element, in their order; or why it could
+/// not run.
 pub type Answers<T> = Result<Vec<T>, BackendError>;
 
 /// An implementation could not run: no adapter, no such CPU level, a device lost.
@@ -90,7 +92,8 @@ impl BackendError {
         Self { message: message.to_string(), source: None }
     }
 
-    /// The answer of an implementation that does not have a configuration. A fuzz target leaves such a case out:
+    /// The answer of an implementation that does not have a configuration. A fuzz target leaves
+    /// such a case out:
     ///
     /// ```
     /// use tess_verify::BackendError;

@@ -59,21 +59,22 @@ pub struct Checked<'a> {
     pub before: Option<Case>,
     /// The records.
     pub records: &'a [Record],
-    /// For each, whether it is wrong for the case that it states. A record that is right for its case but
-    /// answers another one than was asked, or contradicts another record, counts in the report alone.
+    /// For each, whether it is wrong for the case that it states. A record that is right for its
+    /// case but answers another one than was asked, or contradicts another record, counts in the
+    /// report alone.
     pub different: &'a [bool],
 }
 
 /// Checks every record of a file.
 ///
 /// `tested` decides which side is right; nothing in the file does. Give one backend for each thread
-/// to use; the report does not depend on their number. `checked` is called from any thread, with the
-/// records that were checked since its last call; each comes once.
+/// to use; the report does not depend on their number. `checked` is called from any thread, with
+/// the records that were checked since its last call; each comes once.
 ///
 /// # Errors
-/// A file that is malformed, truncated or too long: the error has the report of the records before that, which
-/// is no verdict. [`Tested::Listings`] for a file that has none. A backend
-/// that could not run, or no backend at all.
+/// A file that is malformed, truncated or too long: the error has the report of the records before
+/// that, which is no verdict. [`Tested::Listings`] for a file that has none. A backend that could
+/// not run, or no backend at all.
 pub fn check<R: BufRead + Send>(
     file: VectorFile<R>,
     backends: &mut [Box<dyn Backend>],
@@ -83,11 +84,11 @@ pub fn check<R: BufRead + Send>(
     check_asked(file, None, &Known::default(), backends, tested, checked)
 }
 
-/// [`check`], where a record that differs from what is right for its case is no mismatch if that is `known`, and
-/// the records must answer the cases that were `asked`, one for one and in this order: a
-/// record that answers another case is a difference, and so is a case without a record. The fewest
-/// differences count that explain what is there: the comparison is in step again behind them, if
-/// fewer than 4096 cases in a row have no record.
+/// [`check`], where a record that differs from what is right for its case is no mismatch if that is
+/// `known`, and the records must answer the cases that were `asked`, one for one and in this order:
+/// a record that answers another case is a difference, and so is a case without a record. The
+/// fewest differences count that explain what is there: the comparison is in step again behind
+/// them, if fewer than 4096 cases in a row have no record.
 ///
 /// # Errors
 /// The errors of [`check`] and of reading `asked`.
@@ -283,7 +284,8 @@ fn run<R: BufRead>(
         for ((number, record), (astray, found)) in answers {
             let (line, is_astray) = (Some(record.line()), astray.is_some());
             let found = astray.map_or(found, |mismatch| Found::new(Some(mismatch), None));
-            // A record that answers another case is not shown again by itself: the case is what is wrong.
+            // A record that answers another case is not shown again by itself: the case is what is
+            // wrong.
             let again = || {
                 if is_astray {
                     return (None, false);

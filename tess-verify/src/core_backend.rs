@@ -50,8 +50,8 @@ impl Backend for CoreBackend {
     }
 }
 
-/// The u = 0 factor of the triangle patch (x, 3, 3; x), zero if it is culled, and the inside factor,
-/// if need be of (3, 3, 3; x).
+/// The u = 0 factor of the triangle patch (x, 3, 3; x), zero if it is culled, and the inside
+/// factor, if need be of (3, 3, 3; x).
 fn outer_and_inside(partitioning: Partitioning, x: f32) -> [FixedFactor; 2] {
     let both = TriangleFactors { u0: x, v0: 3.0, w0: 3.0, inside: x };
     if let Some(factors) = processed(partitioning, both) {

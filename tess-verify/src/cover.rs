@@ -24,8 +24,8 @@ pub struct Coverage {
     hits: BTreeMap<String, u64>,
 }
 
-/// The numbers, in the order of [`Coverage::bins`], of the bins that a case hits: each as often as it
-/// is hit. For benches whose own covergroups count, which are generated in that order.
+/// The numbers, in the order of [`Coverage::bins`], of the bins that a case hits: each as often as
+/// it is hit. For benches whose own covergroups count, which are generated in that order.
 #[must_use]
 pub fn bins_hit(case: &Case) -> Vec<usize> {
     let mut numbers = Vec::new();
@@ -68,8 +68,9 @@ impl Coverage {
         });
     }
 
-    /// Counts the bins that the patches of a stream hit, those of sequences too: each patch follows the one before it,
-    /// and the first follows `before`. Part of a stream, such as a shard, has other sequences than the whole.
+    /// Counts the bins that the patches of a stream hit, those of sequences too: each patch follows
+    /// the one before it, and the first follows `before`. Part of a stream, such as a shard, has
+    /// other sequences than the whole.
     pub fn record_stream(&mut self, before: Option<Case>, cases: impl IntoIterator<Item = Case>) {
         let mut before = before.map(|case| observe::sequence_values_of(&case));
         for case in cases {
@@ -127,7 +128,8 @@ impl Coverage {
         self.missed().filter(|bin| !exclusions.has(bin))
     }
 
-    /// The bins that are excluded and were hit all the same, in alphabetical order: wrong exclusions.
+    /// The bins that are excluded and were hit all the same, in alphabetical order: wrong
+    /// exclusions.
     pub(crate) fn hit_though_excluded<'a>(
         &'a self,
         exclusions: &'a Exclusions,

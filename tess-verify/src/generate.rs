@@ -46,8 +46,8 @@ pub enum GenLevel {
     Rules,
 }
 
-/// The version of the levels. It grows when a level or `Rules` gets other cases, so that a file says which it has;
-/// level 3 never changed.
+/// The version of the levels. It grows when a level or `Rules` gets other cases, so that a file
+/// says which it has; level 3 never changed.
 pub const LEVEL_VERSION: u8 = 3;
 
 /// One of `of` disjoint parts that together are everything.
@@ -225,7 +225,8 @@ pub fn configurations() -> impl Iterator<Item = (Domain, Config)> {
     Domain::ALL.into_iter().flat_map(move |domain| configs.clone().map(move |c| (domain, c)))
 }
 
-/// The configurations of which each part is one of these, in the same order; an empty list stands for all.
+/// The configurations of which each part is one of these, in the same order; an empty list stands
+/// for all.
 pub fn configurations_among<'a>(
     domains: &'a [Domain],
     partitionings: &'a [Partitioning],
@@ -247,7 +248,8 @@ pub(crate) fn pick<T: Copy>(random: &mut impl Draw, from: &[T]) -> T {
     from[random.below(u32::try_from(from.len()).unwrap_or(u32::MAX)) as usize]
 }
 
-/// The binary32 with this 15.16 value, exact for values below 2^24; larger ones are rounded to nearest even.
+/// The binary32 with this 15.16 value, exact for values below 2^24; larger ones are rounded to
+/// nearest even.
 #[expect(
     clippy::cast_precision_loss,
     clippy::float_arithmetic,

@@ -32,9 +32,10 @@
 //! # Ok::<(), tess_verify::CaseError>(())
 //! ```
 //!
-//! - A patch whose indices name no points, or whose points are outside the domain, is judged only by [`Rule::Range`].
-//! - Lengths that a standard calls equal may differ by 16/65536, as coordinates are rounded; everything
-//!   else is compared bit for bit.
+//! - A patch whose indices name no points, or whose points are outside the domain, is judged only
+//!   by [`Rule::Range`].
+//! - Lengths that a standard calls equal may differ by 16/65536, as coordinates are rounded;
+//!   everything else is compared bit for bit.
 //! - Where a standard allows two results, a patch that shows either does not count as judged.
 
 mod answer;

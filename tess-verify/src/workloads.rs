@@ -105,8 +105,8 @@ impl Workload {
         workloads
     }
 
-    /// The workloads that a name stands for: the one of that name, or all of a family such as `uniform` or
-    /// `seed-table` or `single`; none for an unknown name.
+    /// The workloads that a name stands for: the one of that name, or all of a family such as
+    /// `uniform` or `seed-table` or `single`; none for an unknown name.
     #[must_use]
     pub fn named(name: &str) -> Vec<Self> {
         let all = Self::all();
@@ -148,8 +148,8 @@ impl Workload {
         totals
     }
 
-    /// The digest that a correct implementation's output has, its triangles in this order, chained over all patches as
-    /// [`Fnv1a::patch`] does.
+    /// The digest that a correct implementation's output has, its triangles in this order, chained
+    /// over all patches as [`Fnv1a::patch`] does.
     #[must_use]
     pub fn digest(&self, order: Order) -> u64 {
         let mut digest = Fnv1a::default();
@@ -160,8 +160,8 @@ impl Workload {
     }
 
     /// The working set `cache`: consecutive batches that cover all patches, each of about 1 MiB of
-    /// output and of at least 8 patches; the patches of one call each if the workload says what that
-    /// is.
+    /// output and of at least 8 patches; the patches of one call each if the workload says what
+    /// that is.
     ///
     /// A remainder that would make a batch of its own too small joins the batch before it.
     #[must_use]

@@ -151,7 +151,8 @@ fn the_shortest_explanation_is_given() {
     }
 }
 
-/// Answers out of step in several places, each farther from the next than is looked through, and as far as that.
+/// Answers out of step in several places, each farther from the next than is looked through, and as
+/// far as that.
 #[test]
 fn long_files_come_into_step_again() {
     let asked = cases(5 * WINDOW);
@@ -174,7 +175,8 @@ fn long_files_come_into_step_again() {
     assert_eq!(check(&asked, &answered).mismatches, 51, "a gap at the end of a window");
 }
 
-/// Answers that share nothing with what was asked take no longer than three times the time of right ones.
+/// Answers that share nothing with what was asked take no longer than three times the time of right
+/// ones.
 #[test]
 fn foreign_answers_take_the_time_of_right_ones() {
     let all = cases(80_000);

@@ -1,5 +1,5 @@
-//! Captures: vertices by coordinates, files without a count, what was asked, outputs that are turned
-//! round as a whole.
+//! Captures: vertices by coordinates, files without a count, what was asked, outputs that are
+//! turned round as a whole.
 
 use std::fmt::Write;
 use tess_core::fixed_point::ONE;
@@ -180,7 +180,8 @@ fn third_coordinates_stand_everywhere_or_nowhere() {
     }
 }
 
-/// Points get the model's numbers: the model's sequence is its listing, and what differs stands out.
+/// Points get the model's numbers: the model's sequence is its listing, and what differs stands
+/// out.
 #[test]
 fn coordinates_with_the_models_numbers() {
     let listing = |text: &str| coordinates(text).numbered();
@@ -325,7 +326,8 @@ fn what_was_asked_must_be_answered() {
     assert!(error("case tri\n").starts_with("asked:1: case: a case is"), "{}", error("case tri\n"));
 }
 
-/// An answer with more indices than a patch can have does not hide what differs before it, in step or out of it.
+/// An answer with more indices than a patch can have does not hide what differs before it, in step
+/// or out of it.
 #[test]
 fn what_differs_before_a_malformed_answer_is_reported() {
     let [tri, quad] = [TRI, QUAD].map(|line| record(line, "hex", hex));

@@ -56,7 +56,8 @@ fn a_right_device_passes() {
     assert_eq!((report.cases, report.mismatches), (1, 0), "{report:?}");
 }
 
-/// A device that fails at every hundredth patch, whichever thread checks it; and one that fails once more.
+/// A device that fails at every hundredth patch, whichever thread checks it; and one that fails
+/// once more.
 #[test]
 fn differences_at_regular_distances_have_a_period() {
     let mut outputs = vec![(case(TRIANGLE), right(TRIANGLE)); 1000];
@@ -359,8 +360,8 @@ fn a_value_that_does_not_show_is_not_decided() {
     }
 }
 
-/// One factor off by a unit in the last place or by one, in each position and each way, and a patch that
-/// is culled, point to the factors; the other split order points to the context.
+/// One factor off by a unit in the last place or by one, in each position and each way, and a patch
+/// that is culled, point to the factors; the other split order points to the context.
 #[test]
 fn the_stage_of_a_wrong_factor() {
     let quad =
@@ -399,7 +400,8 @@ fn a_value_has_one_conversion_in_a_patch() {
     assert_eq!(observe(case(&both), all, WITHIN_06_ULP).mismatches, 0, "one way");
 }
 
-/// In any order too: the first difference is the moved point, not one of those that the other conversion moves.
+/// In any order too: the first difference is the moved point, not one of those that the other
+/// conversion moves.
 #[test]
 fn differences_beside_a_legal_conversion_in_any_order() {
     let bits = |fixed| DomainPoint::from_bits(fixed, 0).to_f32()[0].to_bits();

@@ -1,5 +1,5 @@
-//! Reports of many differences: what explains all of them, where the model's elements come from, and how
-//! many there are of each kind.
+//! Reports of many differences: what explains all of them, where the model's elements come from,
+//! and how many there are of each kind.
 
 use tess_core::{Domain, DomainPoint, Tessellation};
 use tess_verify::Case;

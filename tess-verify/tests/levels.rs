@@ -32,8 +32,8 @@ fn digest(cases: impl IntoIterator<Item = Case>) -> String {
     format!("{:016x}", digest.finish())
 }
 
-/// Whoever names a level, a seed and a number means the same case on every machine and in every release that does not
-/// say otherwise.
+/// Whoever names a level, a seed and a number means the same case on every machine and in every
+/// release that does not say otherwise.
 #[test]
 fn cases_are_the_recorded_ones() {
     let some = |level, seed| Selection { random: Some(2000), ..Selection::level(level, seed) };
@@ -87,7 +87,8 @@ fn level_1_hits_every_bin() {
     assert!(missed.is_empty(), "{} bins missed: {missed:#?}", missed.len());
 }
 
-/// Each factor alone makes a patch that is no minimum patch: a device that decides it by the others is seen.
+/// Each factor alone makes a patch that is no minimum patch: a device that decides it by the others
+/// is seen.
 #[test]
 fn level_1_has_patches_beside_minimum_ones() {
     let cases = level(GenLevel::One);
@@ -125,7 +126,8 @@ fn random_patches_reach_what_there_is() {
             cases += 1;
         }
     }
-    // Only the list of thresholds lies exactly beside each, and has inside factors of nearly the same size.
+    // Only the list of thresholds lies exactly beside each, and has inside factors of nearly the
+    // same size.
     let rare = ["boundary/", "rings/", "sequence/"];
     let missed = coverage.missed().filter(|bin| !rare.iter().any(|group| bin.starts_with(group)));
     let (transitions, others): (Vec<_>, Vec<_>) =
@@ -136,7 +138,8 @@ fn random_patches_reach_what_there_is() {
     assert!((20..120).contains(&mean), "{mean} points in the mean");
 }
 
-/// The state behind a patch may change the next one: each pair of neighbours in a stream hits its bin, and no other.
+/// The state behind a patch may change the next one: each pair of neighbours in a stream hits its
+/// bin, and no other.
 #[test]
 fn sequences_are_pairs_of_neighbours() {
     let [tri, culled, line] = [
@@ -227,7 +230,8 @@ fn shards_are_disjoint_and_complete() {
     assert_eq!(Shard { part: 9, of: 20 }.items(9), 0, "no item for this part");
 }
 
-/// Cases, points and indices of levels 1 and 2, which docs/verification.md has: level 1 is small enough to simulate.
+/// Cases, points and indices of levels 1 and 2, which docs/verification.md has: level 1 is small
+/// enough to simulate.
 #[test]
 fn levels_have_the_documented_sizes() {
     let size = |cases: Vec<Case>| {

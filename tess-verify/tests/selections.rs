@@ -1,5 +1,6 @@
-//! Level 1 of any selection: it hits every bin that the selection's patches can hit, so that a device is asked as much
-//! as its configurations allow, and it sees devices whose mistakes only some of its cases show.
+//! Level 1 of any selection: it hits every bin that the selection's patches can hit, so that a
+//! device is asked as much as its configurations allow, and it sees devices whose mistakes only
+//! some of its cases show.
 
 use std::collections::BTreeSet;
 use tess_core::{
@@ -15,8 +16,9 @@ fn or_all<T: Copy>(all: &[T]) -> Vec<Option<T>> {
     all.iter().copied().map(Some).chain([None]).collect()
 }
 
-/// Selections of level 1, without the random cases at its end: every one without an output, as outputs differ in their
-/// own bins only; each output alone; and each single configuration, outputs in turn.
+/// Selections of level 1, without the random cases at its end: every one without an output, as
+/// outputs differ in their own bins only; each output alone; and each single configuration, outputs
+/// in turn.
 fn selections() -> Vec<Selection> {
     let level = Selection { random: Some(0), ..Selection::level(GenLevel::One, 1) };
     let each_output =
@@ -113,8 +115,9 @@ fn differences(selection: &Selection, wrong: (u32, u32, &str)) -> u64 {
     check_device(answers, Strength::default()).mismatches
 }
 
-/// Masks of a device that were wrong where half of an odd outer count (19, 23, 27 or 31 segments and a middle one) met
-/// 64 inside, and 11 segments against 10: no case of one split order showed them.
+/// Masks of a device that were wrong where half of an odd outer count (19, 23, 27 or 31 segments
+/// and a middle one) met 64 inside, and 11 segments against 10: no case of one split order showed
+/// them.
 #[test]
 fn level_1_sees_a_wrong_transition_of_one_split_order() {
     for outer in [12, 38, 46, 54, 62] {
@@ -153,7 +156,8 @@ const fn with(case: &Case, config: Config) -> Case {
     Case { config, factors: case.factors }
 }
 
-/// Of the systematic cases, how many a device answers wrongly that keeps something from the case before.
+/// Of the systematic cases, how many a device answers wrongly that keeps something from the case
+/// before.
 fn wrong_in_sequence(selection: Selection, keep: fn(&Case, Config) -> Case) -> usize {
     let cases: Vec<Case> = Selection { random: Some(0), ..selection }.cases().collect();
     let answer = |case: &Case| -> Tessellation { case.patch().tessellate() };

@@ -151,8 +151,8 @@ fn each_value_has_a_neighbour_of_its_own() {
     }
 }
 
-/// Whatever the model's sequence accepts, any order accepts: points that the model lacks, points of a
-/// culled patch, and points that no primitive uses are wrong in both.
+/// Whatever the model's sequence accepts, any order accepts: points that the model lacks, points of
+/// a culled patch, and points that no primitive uses are wrong in both.
 #[test]
 fn a_sequence_is_never_weaker_than_any_order() {
     let sequence = Strength { order: ListOrder::Sequence, ..Strength::default() };
@@ -223,7 +223,8 @@ fn denormals_may_be_flushed_where_asked() {
     assert!(flush.accepts(&case, &output(&case)), "kept");
 }
 
-/// From 1 to 2 a binary32 has 128 steps to a unit of 2^-16: 52 of them are 0.406 units, 51 are 0.398.
+/// From 1 to 2 a binary32 has 128 steps to a unit of 2^-16: 52 of them are 0.406 units, 51
+/// are 0.398.
 #[test]
 fn both_neighbours_are_legal_from_four_tenths_on() {
     let with = |bits: u32| case(&QUAD.replace("40600000", &format!("{bits:08x}")));

@@ -1,5 +1,5 @@
-//! The list of thresholds: each case lies exactly beside its comparison, level 1 has it, and the neighbouring threshold
-//! changes its answer, which `dev/xtask/faults/thresholds.faults` plants.
+//! The list of thresholds: each case lies exactly beside its comparison, level 1 has it, and the
+//! neighbouring threshold changes its answer, which `dev/xtask/faults/thresholds.faults` plants.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use tess_core::{Domain, Partitioning, Tessellation};
@@ -68,8 +68,8 @@ fn answers_are_the_recorded_ones() {
     assert_eq!(answers.collect::<Vec<_>>(), expected);
 }
 
-/// The output of a device that makes no picture frame unless a factor is above `highest`, where it is another than the
-/// model's: where an inside factor would be raised, it has no inside.
+/// The output of a device that makes no picture frame unless a factor is above `highest`, where it
+/// is another than the model's: where an inside factor would be raised, it has no inside.
 fn late(case: &Case, highest: u32) -> Option<Tessellation> {
     const LOWEST: u32 = 0x3F80_0041;
     let is_late = case.domain() != Domain::Isoline

@@ -76,7 +76,8 @@ impl Backend for Stateful {
     }
 }
 
-/// A patch that differs is asked for again: right by itself if every thousandth fails, wrong if each does.
+/// A patch that differs is asked for again: right by itself if every thousandth fails, wrong if
+/// each does.
 #[test]
 fn what_came_before_is_told_from_the_patch() {
     for (every, passes_alone) in [(1000, true), (1, false)] {

@@ -1,5 +1,5 @@
-//! Each mistake that a report names: planted in the model's output, seen, and named only where it explains every
-//! difference.
+//! Each mistake that a report names: planted in the model's output, seen, and named only where it
+//! explains every difference.
 
 use tess_core::fixed_point::ONE;
 use tess_core::{
@@ -74,7 +74,8 @@ fn inside_factors(case: &Case) -> Tessellation {
     with_factors(case, PatchFactors::Quad(exchanged))
 }
 
-/// The nearest number with a significand of 11 bits, ties to even: binary16, as long as it is normal there.
+/// The nearest number with a significand of 11 bits, ties to even: binary16, as long as it is
+/// normal there.
 fn half(factor: f32) -> f32 {
     let bits = factor.to_bits();
     let tie = 0xFFF + (bits >> 13 & 1);
@@ -96,7 +97,8 @@ const DEVICES: [(Way, Device); 12] = [
     (Way::HalfFactors, |case| with_factors(case, case.factors.map(half))),
 ];
 
-/// Small random patches of every configuration with factors in range, of which binary16 has no subnormals.
+/// Small random patches of every configuration with factors in range, of which binary16 has no
+/// subnormals.
 fn cases() -> Vec<Case> {
     let mut random = SplitMix64::new(1);
     let patch = |(domain, config)| {

@@ -90,8 +90,8 @@ impl Batch {
         self.buffers.of(Resource::Arguments)
     }
 
-    /// The arguments of one `draw_indexed_indirect` for each group, 20 bytes each and in order, after
-    /// the batch has run. A batch without groups has none.
+    /// The arguments of one `draw_indexed_indirect` for each group, 20 bytes each and in order,
+    /// after the batch has run. A batch without groups has none.
     #[must_use]
     pub fn group_arguments(&self) -> &wgpu::Buffer {
         self.buffers.of(Resource::Draws)
@@ -119,8 +119,8 @@ impl Batch {
         self.buffers.of(Resource::Offsets)
     }
 
-    /// The [`tess_gpu::layout::Job`] of each part of the batch, 256 bytes apart. A shader of [`tess_gpu::Pull`] binds
-    /// the first.
+    /// The [`tess_gpu::layout::Job`] of each part of the batch, 256 bytes apart. A shader of
+    /// [`tess_gpu::Pull`] binds the first.
     #[must_use]
     pub fn jobs(&self) -> &wgpu::Buffer {
         self.buffers.of(Resource::Job)

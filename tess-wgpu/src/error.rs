@@ -14,11 +14,12 @@ use tess_gpu::Resource;
 #[non_exhaustive]
 pub enum Error {
     /// No adapter gives a device. Install a Vulkan driver; Debian's `mesa-vulkan-drivers` has one
-    /// in software. OpenGL from 4.3 or ES 3.1 on works too, with the feature `gles`. In a browser: it has no
-    /// WebGPU, or the page is neither from https nor from localhost.
+    /// in software. OpenGL from 4.3 or ES 3.1 on works too, with the feature `gles`. In a browser:
+    /// it has no WebGPU, or the page is neither from https nor from localhost.
     #[error("no graphics adapter could be used ({reason}); {}", remedy())]
     NoDevice {
-        /// wgpu's reason for each adapter or backend that was tried, and whether `WGPU_BACKEND` restricts them.
+        /// wgpu's reason for each adapter or backend that was tried, and whether `WGPU_BACKEND`
+        /// restricts them.
         reason: String,
     },
     /// The device was lost. Open another one and make every object again.
@@ -30,8 +31,8 @@ pub enum Error {
     /// The device has too little memory left. Free some, or tessellate fewer patches at a time.
     #[error("the graphics device is out of memory")]
     OutOfMemory,
-    /// A limit of the device is too low for any batch. Open the device with WebGPU's default limits or higher ones;
-    /// WebGL, and OpenGL without compute shaders, cannot tessellate.
+    /// A limit of the device is too low for any batch. Open the device with WebGPU's default limits
+    /// or higher ones; WebGL, and OpenGL without compute shaders, cannot tessellate.
     #[error(
         "the device's limit {limit} is {got}, and {needed} is needed; open it with WebGPU's \
          default limits or higher ones (WebGL has no compute shaders, so it cannot tessellate)"
@@ -95,8 +96,8 @@ pub enum Error {
         /// Patches of the batch.
         got: usize,
     },
-    /// A group begins before the one in front of it or behind the batch. Put the groups in ascending
-    /// order.
+    /// A group begins before the one in front of it or behind the batch. Put the groups in
+    /// ascending order.
     #[error(
         "group {group} begins at patch {begin}; it must begin at one of {} to {}, as groups ascend and lie within \
          the batch",
@@ -141,7 +142,8 @@ pub enum Error {
         /// The most that the device's `max_storage_buffer_binding_size` allows.
         most: u32,
     },
-    /// The device lacks features. Ask for them when it is opened, as [`crate::Gpu::open_with`] does.
+    /// The device lacks features. Ask for them when it is opened, as [`crate::Gpu::open_with`]
+    /// does.
     #[error(
         "the device lacks {missing}; ask for it when the device is opened, if the adapter has it"
     )]

@@ -43,8 +43,8 @@ use wgpu::BufferUsages as Usage;
 
 /// A tessellation stage for a render pass.
 ///
-/// The user's WGSL declares `struct Vertex`, with `@builtin(position)` and the members that are interpolated, and
-/// two functions. Their parameters may have any names:
+/// The user's WGSL declares `struct Vertex`, with `@builtin(position)` and the members that are
+/// interpolated, and two functions. Their parameters may have any names:
 ///
 /// ```wgsl
 /// fn hull(number: u32) -> QuadFactors              // or TriFactors, IsolineFactors, as the domain is
@@ -57,11 +57,11 @@ use wgpu::BufferUsages as Usage;
 /// | `TriFactors(edges: vec3<f32>, inside: f32)` | edges u = 0, v = 0, w = 0; inside |
 /// | `IsolineFactors(density: f32, detail: f32)` | number of lines; segments of each line |
 ///
-/// An edge factor that is 0, negative or NaN culls the patch. On a triangle the third coordinate is exactly
-/// `1.0 - uv.x - uv.y`.
+/// An edge factor that is 0, negative or NaN culls the patch. On a triangle the third coordinate is
+/// exactly `1.0 - uv.x - uv.y`.
 ///
-/// Names that begin with `tess_` are the stage's. A name of WGSL's own that the stage's functions use, such as
-/// `distance`, cannot be declared.
+/// Names that begin with `tess_` are the stage's. A name of WGSL's own that the stage's functions
+/// use, such as `distance`, cannot be declared.
 #[derive(Debug)]
 pub struct TessellationStage {
     device: wgpu::Device,
@@ -114,17 +114,18 @@ impl TessellationStage {
         StageBuilder::new(source, domain, config, patches)
     }
 
-    /// Draws all patches of the last frame that was prepared. A stage without a pipeline draws with the pass's pipeline
-    /// and bind groups, which must be set.
+    /// Draws all patches of the last frame that was prepared. A stage without a pipeline draws with
+    /// the pass's pipeline and bind groups, which must be set.
     ///
-    /// A render bundle would keep buffers that [`Self::prepare`] may replace, so there is no call that draws in one.
-    /// Record your own with [`Self::vertices`], [`Self::indices`] and [`Self::indirect`], anew whenever
-    /// [`Self::capacity`] changes.
+    /// A render bundle would keep buffers that [`Self::prepare`] may replace, so there is no call
+    /// that draws in one. Record your own with [`Self::vertices`], [`Self::indices`] and
+    /// [`Self::indirect`], anew whenever [`Self::capacity`] changes.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.draw_as(pass, None);
     }
 
-    /// Draws one group of patches. Call [`Self::set_bind_group`] before it to give the group its own material.
+    /// Draws one group of patches. Call [`Self::set_bind_group`] before it to give the group its
+    /// own material.
     ///
     /// # Errors
     /// [`StageError::NoSuchGroup`].
@@ -152,38 +153,41 @@ impl TessellationStage {
         output.draw(pass, own, group);
     }
 
-    /// The vertices of the last frame that was prepared, or `None` if the vertex shader computes them. They are laid out
-    /// as [`Self::vertex_layout`] says: with [`Points::Evaluated`] the user's `Vertex` structs, with [`Points::Stored`]
-    /// packed points. The buffer has the usages `VERTEX`, `STORAGE` and `COPY_SRC`; evaluated vertices also have
-    /// `BLAS_INPUT` where the device was opened with `EXPERIMENTAL_RAY_QUERY`.
+    /// The vertices of the last frame that was prepared, or `None` if the vertex shader computes
+    /// them. They are laid out as [`Self::vertex_layout`] says: with [`Points::Evaluated`] the
+    /// user's `Vertex` structs, with [`Points::Stored`] packed points. The buffer has the usages
+    /// `VERTEX`, `STORAGE` and `COPY_SRC`; evaluated vertices also have `BLAS_INPUT` where the
+    /// device was opened with `EXPERIMENTAL_RAY_QUERY`.
     ///
-    /// - **Your own render pass:** set this vertex buffer and [`Self::indices`], and draw with [`Self::indirect`].
-    /// - **A compute pass:** declare your `struct Vertex` there and bind the buffer as `array<Vertex>`, read-only; the
-    ///   first word of [`Self::status`] is the number of vertices. Patches, and the points of a patch, follow each other
-    ///   in the model's order.
-    /// - **Reading back:** copy a part of it, once [`Self::feedback`] or [`Self::make_room`] says how much there is.
-    /// - **Ray tracing:** a bottom-level structure reads `Float32x3` at the beginning of each vertex, so the position in
-    ///   the world is the struct's first member. The buffers can be longer than the frame's output; see the example
-    ///   `rays`.
+    /// - **Your own render pass:** set this vertex buffer and [`Self::indices`], and draw with
+    ///   [`Self::indirect`].
+    /// - **A compute pass:** declare your `struct Vertex` there and bind the buffer as
+    ///   `array<Vertex>`, read-only; the first word of [`Self::status`] is the number of vertices.
+    ///   Patches, and the points of a patch, follow each other in the model's order.
+    /// - **Reading back:** copy a part of it, once [`Self::feedback`] or [`Self::make_room`] says
+    ///   how much there is.
+    /// - **Ray tracing:** a bottom-level structure reads `Float32x3` at the beginning of each
+    ///   vertex, so the position in the world is the struct's first member. The buffers can be
+    ///   longer than the frame's output; see the example `rays`.
     ///
-    /// A call of [`Self::prepare`] replaces the buffers if it makes more room, which [`Self::capacity`] shows. So ask
-    /// for them in each frame.
+    /// A call of [`Self::prepare`] replaces the buffers if it makes more room, which
+    /// [`Self::capacity`] shows. So ask for them in each frame.
     #[must_use]
     pub fn vertices(&self) -> Option<wgpu::Buffer> {
         self.output().stored.loaded().cloned()
     }
 
-    /// The index buffer, 32 bits an index, or `None` with [`Points::PullWithoutIndices`]. An index is the number of a
-    /// vertex of the frame. Primitives are triangles unless the configuration's output says otherwise. The usages are
-    /// `INDEX` and those of [`Self::vertices`] but `VERTEX`.
+    /// The index buffer, 32 bits an index, or `None` with [`Points::PullWithoutIndices`]. An index
+    /// is the number of a vertex of the frame. Primitives are triangles unless the configuration's
+    /// output says otherwise. The usages are `INDEX` and those of [`Self::vertices`] but `VERTEX`.
     #[must_use]
     pub fn indices(&self) -> Option<wgpu::Buffer> {
         self.output().stored.indices
     }
 
-    /// The arguments of `draw_indexed_indirect` for all patches, at offset 0, with the usages `INDIRECT`, `STORAGE` and
-    /// `COPY_SRC`. Their first word is the number of indices. Without indices the first four words are those of
-    /// `draw_indirect`.
+    /// The arguments of `draw_indexed_indirect` for all patches, at offset 0, with the usages
+    /// `INDIRECT`, `STORAGE` and `COPY_SRC`. Their first word is the number of indices. Without
+    /// indices the first four words are those of `draw_indirect`.
     #[must_use]
     pub fn indirect(&self) -> wgpu::Buffer {
         self.output().batch.draw_arguments().clone()
@@ -195,8 +199,8 @@ impl TessellationStage {
         self.output().batch.group_arguments().clone()
     }
 
-    /// A [`Status`](tess_gpu::layout::Status) after the frame has run: the numbers of points and primitives, and whether
-    /// they fitted. The usages are `STORAGE` and `COPY_SRC`.
+    /// A [`Status`](tess_gpu::layout::Status) after the frame has run: the numbers of points and
+    /// primitives, and whether they fitted. The usages are `STORAGE` and `COPY_SRC`.
     #[must_use]
     pub fn status(&self) -> wgpu::Buffer {
         self.output().batch.status().clone()
@@ -208,11 +212,12 @@ impl TessellationStage {
         &self.vertices
     }
 
-    /// Draws this many instances of everything, from the next call of [`Self::prepare`] on; 1 at first. The WGSL asks
-    /// `tess_instance()` for the number of the instance that is drawn.
+    /// Draws this many instances of everything, from the next call of [`Self::prepare`] on; 1 at
+    /// first. The WGSL asks `tess_instance()` for the number of the instance that is drawn.
     ///
     /// # Errors
-    /// [`StageError::DrawsAnother`] for a stage that draws another's output; [`Error::OutOfMemory`].
+    /// [`StageError::DrawsAnother`] for a stage that draws another's output;
+    /// [`Error::OutOfMemory`].
     pub fn set_instances(&mut self, instances: u32) -> Result<(), Error> {
         if self.factor_pass.is_none() {
             return Err(StageError::DrawsAnother.into());
@@ -222,13 +227,13 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Replaces the groups that [`StageBuilder::groups`] gave, from the next call of [`Self::prepare`] on. Until then
-    /// the frame that was prepared is drawn with its own groups. Nothing is compiled; as many groups as before are a copy
-    /// of their numbers.
+    /// Replaces the groups that [`StageBuilder::groups`] gave, from the next call of
+    /// [`Self::prepare`] on. Until then the frame that was prepared is drawn with its own groups.
+    /// Nothing is compiled; as many groups as before are a copy of their numbers.
     ///
     /// # Errors
-    /// [`Error::MisplacedGroup`]; [`StageError::DrawsAnother`] for a stage that draws another's output;
-    /// [`Error::OutOfMemory`]. The groups are then what they were.
+    /// [`Error::MisplacedGroup`]; [`StageError::DrawsAnother`] for a stage that draws another's
+    /// output; [`Error::OutOfMemory`]. The groups are then what they were.
     pub fn set_groups(&mut self, first_patches: &[u32]) -> Result<(), Error> {
         if self.factor_pass.is_none() {
             return Err(StageError::DrawsAnother.into());
@@ -246,10 +251,11 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or `draw` on.
+    /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or
+    /// `draw` on.
     ///
-    /// A group of another layout than the builder got is an error of wgpu's when the frame's encoder is finished. It
-    /// names the group's number and the binding.
+    /// A group of another layout than the builder got is an error of wgpu's when the frame's
+    /// encoder is finished. It names the group's number and the binding.
     ///
     /// # Errors
     /// [`StageError::NoSuchBindGroup`]. The bind groups are then what they were.
@@ -258,9 +264,9 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// The dynamic offsets of one of the user's bind groups, in bytes and in the order of its bindings, from the next
-    /// call of `prepare` or `draw` on. At first there are none. Too many or too few are an error of wgpu's when the
-    /// frame's encoder is finished.
+    /// The dynamic offsets of one of the user's bind groups, in bytes and in the order of its
+    /// bindings, from the next call of `prepare` or `draw` on. At first there are none. Too many or
+    /// too few are an error of wgpu's when the frame's encoder is finished.
     ///
     /// # Errors
     /// [`StageError::NoSuchBindGroup`]. The offsets are then what they were.
@@ -275,8 +281,8 @@ impl TessellationStage {
         Ok(own.ok_or(StageError::NoSuchBindGroup { number, groups })?)
     }
 
-    /// Records new factors from the host for the first `patches.len()` patches. Patches that never had
-    /// factors are culled.
+    /// Records new factors from the host for the first `patches.len()` patches. Patches that never
+    /// had factors are culled.
     ///
     /// # Errors
     /// [`StageError::NotHostFactors`], [`StageError::TooManyPatches`], [`StageError::OtherDevice`],
@@ -304,8 +310,9 @@ impl TessellationStage {
         })
     }
 
-    /// The needs of the latest frame whose numbers have arrived; `None` at first. Numbers arrive a frame or two after
-    /// the submission. This asks the device without waiting, as [`Self::prepare`] does.
+    /// The needs of the latest frame whose numbers have arrived; `None` at first. Numbers arrive a
+    /// frame or two after the submission. This asks the device without waiting, as
+    /// [`Self::prepare`] does.
     #[must_use]
     pub fn feedback(&self) -> Option<Feedback> {
         let mut feedback = locked(&self.feedback);
@@ -314,9 +321,9 @@ impl TessellationStage {
         feedback.last()
     }
 
-    /// The raw factors of the last frame that was submitted, as [`factor_words`] lays them out, with the usages
-    /// `STORAGE` and `COPY_SRC`. If the frame did not fit, they are the ones that it was scaled down to. Patches beyond
-    /// the frame's number have factors of 0.
+    /// The raw factors of the last frame that was submitted, as [`factor_words`] lays them out,
+    /// with the usages `STORAGE` and `COPY_SRC`. If the frame did not fit, they are the ones that
+    /// it was scaled down to. Patches beyond the frame's number have factors of 0.
     #[must_use]
     pub const fn factors(&self) -> &wgpu::Buffer {
         &self.factors
@@ -332,7 +339,8 @@ impl TessellationStage {
         locked(&self.output).clone()
     }
 
-    /// The batch that the frames run, and the buffers of its points and indices, where there are any.
+    /// The batch that the frames run, and the buffers of its points and indices, where there are
+    /// any.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn inside(&self) -> (Arc<crate::Batch>, [Option<wgpu::Buffer>; 2]) {

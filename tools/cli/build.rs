@@ -29,7 +29,8 @@ fn packaged() -> Option<String> {
     Some(after.split('"').nth(1)?.to_owned())
 }
 
-/// The commit of the clone, with `+changes` if a file that the program is built from differs from it.
+/// The commit of the clone, with `+changes` if a file that the program is built from differs from
+/// it.
 fn checked_out() -> Option<String> {
     if !SOURCES.iter().all(|folder| Path::new(folder).is_dir()) {
         return None; // in another project's repository

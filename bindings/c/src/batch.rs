@@ -48,8 +48,9 @@ pub struct TessBatch {
 ///
 /// `level` is `TESS_LEVEL_...`. All levels give the same bits; one that this machine lacks gives
 /// `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
-/// millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it grows, at
-/// most 1.1 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with `tess_batch_free`.
+/// millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it
+/// grows, at most 1.1 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with
+/// `tess_batch_free`.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -89,7 +90,8 @@ pub unsafe extern "C" fn tess_batch_free(batch: *mut TessBatch) {
     }
 }
 
-/// Takes all the memory that a batch may ever need, 1.1 MB per thread, so that no later call allocates.
+/// Takes all the memory that a batch may ever need, 1.1 MB per thread, so that no later call
+/// allocates.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -109,10 +111,11 @@ pub const TESS_TRIANGLES_SPECIFIED: u32 = 0;
 /// Triangle order: the same triangles and points, in columns that suit the vertex caches of GPUs.
 pub const TESS_TRIANGLES_VERTEX_CACHE: u32 = 1;
 
-/// Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch has the specification's.
+/// Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch has the
+/// specification's.
 ///
-/// `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two to four times as
-/// long with it. The batch forgets what it learned of patches.
+/// `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two
+/// to four times as long with it. The batch forgets what it learned of patches.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -128,17 +131,19 @@ pub unsafe extern "C" fn tess_batch_set_triangles(batch: *mut TessBatch, order: 
     })
 }
 
-/// Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads` threads. A new batch has
-/// one; 0 gives `TESS_OUT_OF_RANGE`. The output does not depend on the number.
+/// Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads`
+/// threads. A new batch has one; 0 gives `TESS_OUT_OF_RANGE`. The output does not depend on the
+/// number.
 ///
-/// A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the process share: a thread for
-/// each processor, or as many as the environment variable `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.1 MB.
-/// The batch forgets what it learned of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and
-/// changes nothing.
+/// A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the
+/// process share: a thread for each processor, or as many as the environment variable
+/// `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.1 MB. The batch forgets what it learned
+/// of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and changes
+/// nothing.
 ///
-/// After `fork` the child may use batches that its parent made, with any number of threads: it starts threads of its own
-/// with the first large batch. Where it cannot, it writes batches on the calling thread. No other thread may be in a
-/// call on these batches when the process forks.
+/// After `fork` the child may use batches that its parent made, with any number of threads: it
+/// starts threads of its own with the first large batch. Where it cannot, it writes batches on the
+/// calling thread. No other thread may be in a call on these batches when the process forks.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -215,12 +220,12 @@ pub unsafe extern "C" fn tess_batch_count(
 
 /// Tessellates a batch into the caller's buffers.
 ///
-/// The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has its
-/// sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the sizes that are needed;
-/// `tess_shortage` names the buffer. With any other status nothing is written. No ranges are written if
-/// `ranges` is null and `range_capacity` 0. Buffers, factors and `counts` must not overlap
-/// (`TESS_OVERLAP`). A call allocates where a patch has point counts that this batch has not met before;
-/// after `tess_batch_reserve` none does.
+/// The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has
+/// its sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the sizes that are
+/// needed; `tess_shortage` names the buffer. With any other status nothing is written. No ranges
+/// are written if `ranges` is null and `range_capacity` 0. Buffers, factors and `counts` must not
+/// overlap (`TESS_OVERLAP`). A call allocates where a patch has point counts that this batch has
+/// not met before; after `tess_batch_reserve` none does.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -257,11 +262,11 @@ pub unsafe extern "C" fn tess_batch_run(
 
 /// Gets the range of each group of patches in a batch's output.
 ///
-/// `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them; `starts` holds the
-/// numbers of the patches at which `group_count` groups begin, in ascending order. A group ends where the
-/// next one begins, the last one at the end of the batch. A start below the one before it, or past the end
-/// of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written. `groups` must not overlap the other
-/// arrays (`TESS_OVERLAP`).
+/// `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them; `starts`
+/// holds the numbers of the patches at which `group_count` groups begin, in ascending order. A
+/// group ends where the next one begins, the last one at the end of the batch. A start below the
+/// one before it, or past the end of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written.
+/// `groups` must not overlap the other arrays (`TESS_OVERLAP`).
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:

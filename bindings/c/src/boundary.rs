@@ -21,8 +21,8 @@ pub(crate) fn check<T>(pointer: *const T) -> Result<(), TessStatus> {
 /// The addresses of a caller's array.
 pub(crate) type Bytes = Range<usize>;
 
-/// The addresses of an array of `len` values. Refuses arrays larger than memory can be, and null where
-/// there are values: two such arrays do not share memory.
+/// The addresses of an array of `len` values. Refuses arrays larger than memory can be, and null
+/// where there are values: two such arrays do not share memory.
 pub(crate) fn bytes<T>(pointer: *const T, len: usize) -> Result<Bytes, TessStatus> {
     if len > 0 && pointer.is_null() {
         return Err(TESS_NULL_POINTER);

@@ -28,8 +28,8 @@ pub(crate) fn checked(given: TessContext) -> Result<FactorContext, TessStatus> {
         .ok_or(TESS_NOT_A_CONTEXT)
 }
 
-/// The signals of the placement of point `p` of an edge, in the order in which hardware computes them
-/// (specification, section 5):
+/// The signals of the placement of point `p` of an edge, in the order in which hardware computes
+/// them (specification, section 5):
 ///
 /// - flip: 1 on the second half of the edge, else 0,
 /// - the position on the half edge, 0..32; equal to `half_points` in the exact middle,

@@ -12,10 +12,10 @@ pub const TESS_DEVICE_UNSUPPORTED: i32 = -1;
 
 /// A tessellator under test: it writes the points and indices of one patch and their counts.
 ///
-/// `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices; both and
-/// `counts` are zero before the call, and `counts->primitives` is not looked at. `user` is what the function
-/// that calls it was given. It answers 0, `TESS_DEVICE_UNSUPPORTED`, or any other number if it could not run,
-/// which is a finding.
+/// `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices;
+/// both and `counts` are zero before the call, and `counts->primitives` is not looked at. `user` is
+/// what the function that calls it was given. It answers 0, `TESS_DEVICE_UNSUPPORTED`, or any other
+/// number if it could not run, which is a finding.
 pub type TessDevice = Option<
     unsafe extern "C" fn(
         user: *mut c_void,

@@ -70,7 +70,8 @@ pub unsafe extern "C" fn tess_dpi_place(
     })
 }
 
-/// Factor `number` of a patch after factor processing; if the patch is culled, only `outcome` means something.
+/// Factor `number` of a patch after factor processing; if the patch is culled, only `outcome` means
+/// something.
 ///
 /// # Safety
 /// - Every pointer, if not null and aligned, must be valid for writing one number.

@@ -72,17 +72,19 @@ impl Default for TessFuzzOptions {
 
 /// Compares a tessellator with the model on the patch that a fuzzer's bytes stand for.
 ///
-/// Any bytes are a patch of a configuration that the options ask for. Most patches are small, and boundaries
-/// are frequent. Without options (null) the comparison is exact, and every configuration is asked for.
+/// Any bytes are a patch of a configuration that the options ask for. Most patches are small, and
+/// boundaries are frequent. Without options (null) the comparison is exact, and every configuration
+/// is asked for.
 ///
 /// - `TESS_OK`: equal.
-/// - `TESS_LEFT_OUT`: the tessellator does not have the configuration; nothing was compared. Count these: a run
-///   in which every patch is left out shows nothing.
-/// - `TESS_DIFFERENT`: a finding. `message` receives the case as a line for `tess patch --cases`, a command
-///   that shows the right output, and the first difference. The message ends with a zero byte and is cut
-///   off at `message_capacity` bytes; 1024 are enough.
+/// - `TESS_LEFT_OUT`: the tessellator does not have the configuration; nothing was compared. Count
+///   these: a run in which every patch is left out shows nothing.
+/// - `TESS_DIFFERENT`: a finding. `message` receives the case as a line for `tess patch --cases`, a
+///   command that shows the right output, and the first difference. The message ends with a zero
+///   byte and is cut off at `message_capacity` bytes; 1024 are enough.
 ///
-/// `message` must not overlap `data` (`TESS_OVERLAP`; nothing was compared). This function allocates.
+/// `message` must not overlap `data` (`TESS_OVERLAP`; nothing was compared). This function
+/// allocates.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:

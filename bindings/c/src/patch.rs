@@ -31,10 +31,11 @@ pub unsafe extern "C" fn tess_count(
 
 /// Tessellates a patch into the caller's buffers.
 ///
-/// With `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only
-/// `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With any
-/// other status nothing is written. Buffers and `counts` must not overlap (`TESS_OVERLAP`). A buffer of capacity 0 may be null. `TESS_MAX_POINTS` and
-/// `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
+/// With `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL`
+/// only `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With
+/// any other status nothing is written. Buffers and `counts` must not overlap (`TESS_OVERLAP`). A
+/// buffer of capacity 0 may be null. `TESS_MAX_POINTS` and `TESS_MAX_INDICES` are enough for any
+/// patch. Allocates nothing.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:

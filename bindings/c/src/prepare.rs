@@ -35,8 +35,9 @@ pub struct TessPreparation {
     pub axes: u32,
 }
 
-/// Prepares the factors of one patch, as the HLSL functions `Process...TessFactors` do in Shader Model 5
-/// (compiler FXC). DXC generates another form, which this library does not have (specification, section 9).
+/// Prepares the factors of one patch, as the HLSL functions `Process...TessFactors` do in Shader
+/// Model 5 (compiler FXC). DXC generates another form, which this library does not have
+/// (specification, section 9).
 ///
 /// `requested` holds the outer factors and, in the places of the inside factors, the inside
 /// scales. `unrounded` and `rounded` receive `factor_count` factors each; the rounded ones are

@@ -56,7 +56,8 @@ pub const TESS_PRIMITIVE_ORIGIN_RING: u32 = 4;
 /// Origin of a primitive: triangle `step` inside the innermost ring.
 pub const TESS_PRIMITIVE_ORIGIN_CENTRE: u32 = 5;
 
-/// The origin of a primitive (specification, sections 7, 8). Fields that its kind does not use are 0.
+/// The origin of a primitive (specification, sections 7, 8). Fields that its kind does not use
+/// are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessPrimitiveOrigin {

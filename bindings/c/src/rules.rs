@@ -19,19 +19,22 @@ pub const TESS_SPECIFICATION_D3D11: u32 = 2;
 const SPECIFICATIONS: [Specification; 3] =
     [Specification::Vulkan, Specification::OpenGl, Specification::D3d11];
 
-/// Asks a tessellator for the patches of `tess gen --rules`, and judges its outputs by the rules of a standard.
+/// Asks a tessellator for the patches of `tess gen --rules`, and judges its outputs by the rules of
+/// a standard.
 ///
-/// `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come after the 12 671
-/// systematic ones of the standard split order. For Direct3D 11 the model says where vertices are; for the other
-/// standards it is not asked. Patches of configurations that the tessellator does not have are left out.
+/// `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come
+/// after the 12 671 systematic ones of the standard split order. For Direct3D 11 the model says
+/// where vertices are; for the other standards it is not asked. Patches of configurations that the
+/// tessellator does not have are left out.
 ///
 /// - `TESS_OK`: no rule is broken.
 /// - `TESS_DIFFERENT`: a rule is broken, or the tessellator failed.
 /// - `TESS_LEFT_OUT`: it has none of the configurations; nothing was judged.
 ///
-/// `report` receives the text that `tess check --rules` prints: each rule as held, broken or not exercised, with the
-/// smallest patches that break it; or the patch at which the tessellator failed. It ends with a zero byte and is cut
-/// off at `report_capacity` bytes; 16384 are enough. This function allocates.
+/// `report` receives the text that `tess check --rules` prints: each rule as held, broken or not
+/// exercised, with the smallest patches that break it; or the patch at which the tessellator
+/// failed. It ends with a zero byte and is cut off at `report_capacity` bytes; 16384 are enough.
+/// This function allocates.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:

@@ -32,7 +32,8 @@ pub const TESS_INDEX_TOO_LARGE: TessStatus = 10;
 pub const TESS_LEVEL_UNAVAILABLE: TessStatus = 11;
 /// A defect of this library; nothing was written.
 pub const TESS_INTERNAL: TessStatus = 12;
-/// A tessellator under test differs from the model (`tess_fuzz`), or breaks a rule (`tess_check_rules`).
+/// A tessellator under test differs from the model (`tess_fuzz`), or breaks a rule
+/// (`tess_check_rules`).
 pub const TESS_DIFFERENT: TessStatus = 13;
 /// Nothing was compared: the tessellator under test does not have the configuration.
 pub const TESS_LEFT_OUT: TessStatus = 14;
@@ -61,8 +62,8 @@ const MESSAGES: [&CStr; 16] = [
 
 /// Meaning of a status, in English, without a newline.
 ///
-/// Never null: an unknown number gives "unknown status". The text lives as long as the program and must
-/// not be freed.
+/// Never null: an unknown number gives "unknown status". The text lives as long as the program and
+/// must not be freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_status_message(status: TessStatus) -> *const c_char {
     let message = usize::try_from(status).ok().and_then(|status| MESSAGES.get(status));

@@ -1,8 +1,9 @@
-//! The steps of an engine before tessellation: factors that open no cracks, and tests that cull patches.
+//! The steps of an engine before tessellation: factors that open no cracks, and tests that cull
+//! patches.
 //!
-//! The factor of an edge depends only on data that both patches of the edge share, and is the same to the bit
-//! whichever end comes first.
-//! All factors are within 1..=64; NaN gives 1. The formulas and their sources are `tess-surface`'s.
+//! The factor of an edge depends only on data that both patches of the edge share, and is the same
+//! to the bit whichever end comes first. All factors are within 1..=64; NaN gives 1. The formulas
+//! and their sources are `tess-surface`'s.
 
 use tess_surface::glam::{Mat4, Vec3};
 use tess_surface::{PnCorner, culling, factors};
@@ -49,8 +50,9 @@ impl From<TessCorner> for PnCorner {
     }
 }
 
-/// A factor for segments of `segment` pixels on the straight edge from `a` to `b`. `pixels_per_unit` is the number of
-/// pixels that a length of 1 covers at distance 1: for a picture of height h and field of view f, h / (2 tan(f / 2)).
+/// A factor for segments of `segment` pixels on the straight edge from `a` to `b`.
+/// `pixels_per_unit` is the number of pixels that a length of 1 covers at distance 1: for a picture
+/// of height h and field of view f, h / (2 tan(f / 2)).
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_edge_by_screen_size(
     a: TessVec3,
@@ -62,8 +64,8 @@ pub extern "C" fn tess_edge_by_screen_size(
     factors::edge_by_screen_size([a.into(), b.into()], eye.into(), pixels_per_unit, segment)
 }
 
-/// A factor for segments of `segment` pixels on the straight edge from `a` to `b`, under a camera without perspective: a
-/// length of 1 covers `pixels_per_unit` pixels at any distance.
+/// A factor for segments of `segment` pixels on the straight edge from `a` to `b`, under a camera
+/// without perspective: a length of 1 covers `pixels_per_unit` pixels at any distance.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_edge_by_length(
     a: TessVec3,
@@ -74,8 +76,8 @@ pub extern "C" fn tess_edge_by_length(
     factors::edge_by_length([a.into(), b.into()], pixels_per_unit, segment)
 }
 
-/// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative or NaN, still does
-/// if `most` is positive.
+/// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative
+/// or NaN, still does if `most` is positive.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_at_most(factor: f32, most: f32) -> f32 {
     factors::at_most(factor, most)
@@ -92,8 +94,8 @@ pub extern "C" fn tess_edge_by_distance(
     factors::edge_by_distance([a.into(), b.into()], eye.into(), scale)
 }
 
-/// A factor that keeps equal segments within `tolerance`, in units of the positions, of the point-normal edge between
-/// two corners.
+/// A factor that keeps equal segments within `tolerance`, in units of the positions, of the
+/// point-normal edge between two corners.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_edge_by_curvature(a: TessCorner, b: TessCorner, tolerance: f32) -> f32 {
     factors::edge_by_curvature([a.into(), b.into()], tolerance)
@@ -105,25 +107,27 @@ pub extern "C" fn tess_inside_triangle(u0: f32, v0: f32, w0: f32) -> f32 {
     factors::inside_triangle([u0, v0, w0])
 }
 
-/// An inside factor of a quad with these factors on the two edges that run the same way: their mean. Inside factor U is
-/// the mean of the edges V=0 and V=1, inside factor V the mean of the edges U=0 and U=1.
+/// An inside factor of a quad with these factors on the two edges that run the same way: their
+/// mean. Inside factor U is the mean of the edges V=0 and V=1, inside factor V the mean of the
+/// edges U=0 and U=1.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_inside_quad(one: f32, other: f32) -> f32 {
     let [inside, _] = factors::inside_quad([0.0, one, 0.0, other]);
     inside
 }
 
-/// Whether a ball is wholly outside one of the six planes of a projection with z from 0 to w, as in Direct3D, Vulkan,
-/// Metal and WebGPU: 1 or 0. The ball must hold the whole patch, including its displacement. Give a patch that is
-/// outside factors of 0.
+/// Whether a ball is wholly outside one of the six planes of a projection with z from 0 to w, as in
+/// Direct3D, Vulkan, Metal and WebGPU: 1 or 0. The ball must hold the whole patch, including its
+/// displacement. Give a patch that is outside factors of 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_is_outside(clip_from_world: TessMat4, center: TessVec3, radius: f32) -> u32 {
     let matrix = Mat4::from_cols_array(&clip_from_world.columns);
     u32::from(culling::is_outside(&matrix, center.into(), radius))
 }
 
-/// Whether all of a surface faces away from the eye: 1 or 0. The ball holds the surface. Its normals are within an angle
-/// of less than 90 degrees of the unit vector `axis`; `sine` is the sine of that angle.
+/// Whether all of a surface faces away from the eye: 1 or 0. The ball holds the surface. Its
+/// normals are within an angle of less than 90 degrees of the unit vector `axis`; `sine` is the
+/// sine of that angle.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_faces_away(
     center: TessVec3,

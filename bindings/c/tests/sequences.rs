@@ -1,11 +1,12 @@
 //! Sequences of calls on several batches, compared with the model after every call.
 //!
-//! A sequence is drawn at random: batches of three slots are made, used and freed in any order, with calls between that
-//! must be refused. Every buffer lies between guards, and after each call every byte of every buffer, guards included,
-//! must be what the model says: the output, or what it was before.
+//! A sequence is drawn at random: batches of three slots are made, used and freed in any order,
+//! with calls between that must be refused. Every buffer lies between guards, and after each call
+//! every byte of every buffer, guards included, must be what the model says: the output, or what it
+//! was before.
 //!
-//! A sequence that fails is shrunk, and printed as a call of [`replay`] that a test can hold. `TESS_LONG_SECONDS`
-//! draws sequences for that long instead of a fixed number.
+//! A sequence that fails is shrunk, and printed as a call of [`replay`] that a test can hold.
+//! `TESS_LONG_SECONDS` draws sequences for that long instead of a fixed number.
 #![expect(
     clippy::undocumented_unsafe_blocks,
     clippy::multiple_unsafe_ops_per_block,
@@ -47,7 +48,8 @@ const SEQUENCES: u32 = 100;
 /// How often each status was answered.
 type Tally = BTreeMap<TessStatus, u64>;
 
-/// The sequence that runs now: a panic inside the library ends the program, and the hook prints this.
+/// The sequence that runs now: a panic inside the library ends the program, and the hook prints
+/// this.
 static RUNNING: Mutex<String> = Mutex::new(String::new());
 
 /// Makes the calls of a sequence.
@@ -193,8 +195,8 @@ fn planted_faults_are_found_and_shrunk() {
     }
 }
 
-/// A chunk that begins with equal patches, once wrong in `tess-simd` where batches had no ranges. It is also what a
-/// printed sequence looks like.
+/// A chunk that begins with equal patches, once wrong in `tess-simd` where batches had no ranges.
+/// It is also what a printed sequence looks like.
 #[test]
 fn equal_patches_before_others() {
     let quads = |times: u8, factor: u32| (times, Bits([factor; 6]));

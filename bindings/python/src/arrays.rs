@@ -14,9 +14,9 @@ use tess_core::{Domain, DomainPoint};
 use tess_simd::PatchRange;
 use tess_verify::Named;
 
-/// The factors of a batch: a copy, so that a thread that writes to the array meanwhile changes nothing. Errors:
-/// nothing of shape (patches, factors of the domain): floats that are binary32 numbers exactly, or uint32 (bit
-/// patterns). Other integers are refused: they could be either.
+/// The factors of a batch: a copy, so that a thread that writes to the array meanwhile changes
+/// nothing. Errors: nothing of shape (patches, factors of the domain): floats that are binary32
+/// numbers exactly, or uint32 (bit patterns). Other integers are refused: they could be either.
 pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
     let factors = domain.factors();
     let wrong = |found: String| {
@@ -63,8 +63,8 @@ fn narrowed(factor: f64) -> Option<f32> {
     (factor.is_nan() || f64::from(narrow).to_bits() == factor.to_bits()).then_some(narrow)
 }
 
-/// Integers as uint32: an array of any integer type, or what numpy makes one of, if nothing is lost. Errors:
-/// something else than integers, or one that is negative or 2**32 and more.
+/// Integers as uint32: an array of any integer type, or what numpy makes one of, if nothing is
+/// lost. Errors: something else than integers, or one that is negative or 2**32 and more.
 pub(crate) fn exact_words<'py>(
     what: &str,
     integers: &Bound<'py, PyAny>,
@@ -89,8 +89,8 @@ pub(crate) fn exact_words<'py>(
     Ok(words.cast_into()?)
 }
 
-/// The elements in a new vector. Errors: `MemoryError`: a broadcast array can have more elements than there is
-/// memory.
+/// The elements in a new vector. Errors: `MemoryError`: a broadcast array can have more elements
+/// than there is memory.
 pub(crate) fn copied<T>(elements: impl ExactSizeIterator<Item = T>) -> PyResult<Vec<T>> {
     let mut copy = Vec::new();
     copy.try_reserve_exact(elements.len()).map_err(|_| {
@@ -124,8 +124,8 @@ pub(crate) fn described(array: &Bound<'_, PyUntypedArray>) -> String {
     format!("{} of shape {:?}", array.dtype(), array.shape())
 }
 
-/// An array of `out`, which is C-contiguous (see [`addresses`]), to be written as one slice. Errors: it is read-only,
-/// misaligned, or borrowed by another call.
+/// An array of `out`, which is C-contiguous (see [`addresses`]), to be written as one slice.
+/// Errors: it is read-only, misaligned, or borrowed by another call.
 pub(crate) fn writable<'py, T: Element, D: Dimension>(
     what: &str,
     array: &Bound<'py, PyArray<T, D>>,
@@ -139,8 +139,8 @@ pub(crate) fn writable<'py, T: Element, D: Dimension>(
     })
 }
 
-/// The addresses that an array of `out` covers. Errors: it is not C-contiguous: its elements may lie before its first
-/// one, and apart.
+/// The addresses that an array of `out` covers. Errors: it is not C-contiguous: its elements may
+/// lie before its first one, and apart.
 pub(crate) fn addresses<T: Element, D: Dimension>(
     what: &str,
     array: &Bound<'_, PyArray<T, D>>,
@@ -182,9 +182,9 @@ pub(crate) fn fixed_points(words: &mut [u32]) -> &mut [DomainPoint] {
     }
     let (pairs, _) = words.as_chunks_mut::<2>();
     #[expect(unsafe_code, reason = "a reinterpretation that safe Rust has no words for")]
-    // SAFETY: `DomainPoint` is `repr(C)` of two `U16F16`, each of which is a transparent `u32`, so it
-    // has the size, the alignment and the valid bit patterns of `[u32; 2]`; the slice is borrowed
-    // exclusively for as long as the result.
+    // SAFETY: `DomainPoint` is `repr(C)` of two `U16F16`, each of which is a transparent `u32`, so
+    // it has the size, the alignment and the valid bit patterns of `[u32; 2]`; the slice is
+    // borrowed exclusively for as long as the result.
     unsafe {
         std::slice::from_raw_parts_mut(pairs.as_mut_ptr().cast(), pairs.len())
     }
@@ -197,8 +197,9 @@ pub(crate) fn ranges(words: &mut [u32]) -> &mut [PatchRange] {
     }
     let (groups, _) = words.as_chunks_mut::<4>();
     #[expect(unsafe_code, reason = "a reinterpretation that safe Rust has no words for")]
-    // SAFETY: `PatchRange` is `repr(C)` of four `u32`, so it has the size, the alignment and the valid
-    // bit patterns of `[u32; 4]`; the slice is borrowed exclusively for as long as the result.
+    // SAFETY: `PatchRange` is `repr(C)` of four `u32`, so it has the size, the alignment and the
+    // valid bit patterns of `[u32; 4]`; the slice is borrowed exclusively for as long as the
+    // result.
     unsafe {
         std::slice::from_raw_parts_mut(groups.as_mut_ptr().cast(), groups.len())
     }

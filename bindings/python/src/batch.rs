@@ -17,14 +17,12 @@ use work::{ArrayRoom, BatchSizes, BatchWork, How};
 
 /// Tessellates batches in one configuration, on the CPU's vector units.
 ///
-/// Making the first one of a configuration takes about a millisecond, others a microsecond. Any number of threads
-/// may use it at a time; its knowledge of patches takes up to 1.1 MB for each of them. The interpreter's lock is not
-/// held.
+/// Making the first one of a configuration takes about a millisecond, others a microsecond. Any
+/// number of threads may use it at a time; its knowledge of patches takes up to 1.1 MB for each of
+/// them. The interpreter's lock is not held.
 ///
-/// Args:
-///     partitioning, output, split: As for :class:`Patch`.
-///     threads: The number of threads that write a batch, 1..256. The output does not depend on it. A forked child
-///         starts its own threads.
+/// Args: partitioning, output, split: As for :class:`Patch`. threads: The number of threads that
+/// write a batch, 1..256. The output does not depend on it. A forked child starts its own threads.
 ///
 /// Raises:
 ///     ArgumentError: Wrong names, or another number of threads.
@@ -118,25 +116,21 @@ impl Tessellator {
 
     /// Tessellates a batch into a :class:`Batch`.
     ///
-    /// Args:
-    ///     domain: ``isoline``, ``tri`` or ``quad``.
-    ///     factors: Array of shape (patches, k), k being 2, 4 or 6: raw factors in the order of
-    ///         :class:`Patch`, outer then inside, float32, or uint32 for their bit patterns. Any
-    ///         strides.
-    ///     points: ``float32`` or ``fixed`` (uint32, 16.16); both exact.
-    ///     indices: ``uint32`` or ``uint16``. With ``base_vertex`` 16 bits number 65536 points; the last
-    ///         index, 65535, restarts primitives in WebGL 2 and wherever primitive restart is on.
-    ///     base_vertex: ``None`` if the indices of each patch count from its own first point; a
-    ///         number if they count through the batch, whose first point has that number.
-    ///     out: Arrays (points, indices) or (points, indices, ranges) to write instead of new ones:
-    ///         C-contiguous, of shapes (>= points, 2), (>= indices,) and (>= patches, 4). Their types
-    ///         are the formats. The result has views of them; elements past the output keep their values.
+    /// Args: domain: ``isoline``, ``tri`` or ``quad``. factors: Array of shape (patches, k), k
+    /// being 2, 4 or 6: raw factors in the order of :class:`Patch`, outer then inside, float32, or
+    /// uint32 for their bit patterns. Any strides. points: ``float32`` or ``fixed``
+    /// (uint32, 16.16); both exact. indices: ``uint32`` or ``uint16``. With ``base_vertex`` 16 bits
+    /// number 65536 points; the last index, 65535, restarts primitives in WebGL 2 and wherever
+    /// primitive restart is on. base_vertex: ``None`` if the indices of each patch count from its
+    /// own first point; a number if they count through the batch, whose first point has that
+    /// number. out: Arrays (points, indices) or (points, indices, ranges) to write instead of new
+    /// ones: C-contiguous, of shapes (>= points, 2), (>= indices,) and (>= patches, 4). Their types
+    /// are the formats. The result has views of them; elements past the output keep their values.
     ///
-    /// Raises:
-    ///     ArgumentError: Wrong names or factors; indices that do not fit 16 bits; more than
-    ///         2**32 - 1 points or indices.
-    ///     OutputError: An array of ``out`` cannot be written. Nothing was written.
-    ///     KeyboardInterrupt: Or another exception of a signal handler; a part of ``out`` may be written then.
+    /// Raises: ArgumentError: Wrong names or factors; indices that do not fit 16 bits; more than
+    /// 2**32 - 1 points or indices. OutputError: An array of ``out`` cannot be written. Nothing was
+    /// written. KeyboardInterrupt: Or another exception of a signal handler; a part of ``out`` may
+    /// be written then.
     #[pyo3(signature = (domain, factors, *, points = "float32", indices = "uint32",
         base_vertex = None, out = None))]
     #[expect(clippy::too_many_arguments, reason = "they are named in Python")]

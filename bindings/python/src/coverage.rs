@@ -20,8 +20,9 @@ const RECORDED_TOGETHER: usize = 4096;
 
 /// Which of the specification's cases were hit, and how often.
 ///
-/// A bin is a path such as ``middle/ruler/oddxeven``; its first part is its group. All bins are declared, so
-/// that each missed one has a name. Any number of threads may count. It can be pickled and copied.
+/// A bin is a path such as ``middle/ruler/oddxeven``; its first part is its group. All bins are
+/// declared, so that each missed one has a name. Any number of threads may count. It can be pickled
+/// and copied.
 ///
 /// >>> from tess_model import Coverage, Patch
 /// >>> coverage = Coverage()
@@ -43,8 +44,8 @@ impl Coverage {
         Self::default()
     }
 
-    /// Counts the bins that one patch or several patches hit. Returns the number of bins that were hit for the
-    /// first time, so that a bench can choose the patches that are worth their clocks.
+    /// Counts the bins that one patch or several patches hit. Returns the number of bins that were
+    /// hit for the first time, so that a bench can choose the patches that are worth their clocks.
     fn record(&self, py: Python<'_>, patches: &Bound<'_, PyAny>) -> PyResult<usize> {
         if let Ok(patch) = patches.cast::<Patch>() {
             return Ok(self.record_cases(&[patch.get().case]));
@@ -64,8 +65,9 @@ impl Coverage {
         }
     }
 
-    /// Counts the bins of one factor's context, those of the groups ``context`` and ``exceptional``, for the bench
-    /// of a stage that sees no patch. The arguments are those of :func:`context`.
+    /// Counts the bins of one factor's context, those of the groups ``context`` and
+    /// ``exceptional``, for the bench of a stage that sees no patch. The arguments are those of
+    /// :func:`context`.
     #[pyo3(signature = (factor, parity, split_order = "ruler"))]
     fn record_context(
         &self,
@@ -117,18 +119,17 @@ impl Coverage {
 
     /// The bins that were never hit and are not excluded, in alphabetical order.
     ///
-    /// Args:
-    ///     exclude: Patterns of bins that cannot be hit, such as the result of :func:`exclusions`: a bin's path or
-    ///         its first parts, each of which may be ``*``. The lines of a file are accepted: the text after a ``#``
-    ///         is ignored.
+    /// Args: exclude: Patterns of bins that cannot be hit, such as the result of
+    /// :func:`exclusions`: a bin's path or its first parts, each of which may be ``*``. The lines
+    /// of a file are accepted: the text after a ``#`` is ignored.
     #[pyo3(signature = (exclude = None))]
     fn holes(&self, exclude: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         let exclusions = patterns(exclude)?;
         Ok(self.lock().holes(&exclusions).map(str::to_owned).collect())
     }
 
-    /// The text report of ``tess coverage``: a line for each group, by stage of the specification, then every
-    /// hole. ``exclude`` is as in :meth:`holes`.
+    /// The text report of ``tess coverage``: a line for each group, by stage of the specification,
+    /// then every hole. ``exclude`` is as in :meth:`holes`.
     #[pyo3(signature = (exclude = None))]
     fn report(&self, exclude: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
         let exclusions = patterns(exclude)?;
@@ -199,10 +200,11 @@ impl Coverage {
     }
 }
 
-/// The bins that no patch of a device's configurations can hit, for ``exclude`` of :meth:`Coverage.report`.
+/// The bins that no patch of a device's configurations can hit, for ``exclude`` of
+/// :meth:`Coverage.report`.
 ///
-/// Args:
-///     domain, partitioning, output, split: The device's configurations, a name or several; ``None``: all.
+/// Args: domain, partitioning, output, split: The device's configurations, a name or several;
+/// ``None``: all.
 ///
 /// >>> import tess_model
 /// >>> bins = tess_model.exclusions(domain=["tri", "quad"], partitioning="integer")
@@ -249,8 +251,8 @@ impl Coverage {
         Self(Arc::clone(&self.0), Arc::clone(&self.1))
     }
 
-    /// Counts the bins that patches hit, which follow those that were recorded last; gives how many of the bins were hit
-    /// for the first time.
+    /// Counts the bins that patches hit, which follow those that were recorded last; gives how many
+    /// of the bins were hit for the first time.
     fn record_cases(&self, cases: &[Case]) -> usize {
         let mut coverage = self.lock();
         let mut before = self.1.lock().unwrap_or_else(PoisonError::into_inner);

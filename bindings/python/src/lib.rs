@@ -2,8 +2,8 @@
 //! objects.
 //!
 //! `patch` is one patch, `batch` many; `stages` single numbers of one stage; `vectors`, `rules` and
-//! `coverage` the verification kit. `names` and `arrays` turn arguments into the libraries' types, `values`
-//! makes the named tuples of `python/tess_model/values.py`, `errors` the exceptions;
+//! `coverage` the verification kit. `names` and `arrays` turn arguments into the libraries' types,
+//! `values` makes the named tuples of `python/tess_model/values.py`, `errors` the exceptions;
 //! `signals` lets Ctrl-C end what takes long.
 //!
 //! Nothing here holds the interpreter's lock while it tessellates or compares.

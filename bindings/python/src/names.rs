@@ -43,16 +43,16 @@ pub(crate) fn factors(domain: Domain, outer: &[f32], inner: &[f32]) -> PyResult<
     PatchFactors::from_slice(domain, &[outer, inner].concat()).ok_or_else(wrong)
 }
 
-/// One factor or several, as binary32 rounded to the nearest. Errors: something else than a number, a sequence of
-/// numbers or an array.
+/// One factor or several, as binary32 rounded to the nearest. Errors: something else than a number,
+/// a sequence of numbers or an array.
 #[expect(clippy::cast_possible_truncation, reason = "to the nearest binary32, as documented")]
 pub(crate) fn floats(factors: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
     let all: Vec<f64> = one_or_many(factors, "numbers")?;
     Ok(all.into_iter().map(|factor| factor as f32).collect())
 }
 
-/// One factor or several, from the bits of binary32 numbers. Errors: something else than an integer below 2^32, a
-/// sequence of such integers or an array.
+/// One factor or several, from the bits of binary32 numbers. Errors: something else than an integer
+/// below 2^32, a sequence of such integers or an array.
 pub(crate) fn bits(factors: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
     let all: Vec<u32> = one_or_many(factors, "integers from 0 to 2**32 - 1")?;
     Ok(all.into_iter().map(f32::from_bits).collect())

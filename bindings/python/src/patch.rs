@@ -17,15 +17,12 @@ use tess_verify::{Case, Named};
 
 /// One patch: a configuration and raw factors, and the model's results for them.
 ///
-/// Args:
-///     domain: ``isoline``, ``tri`` or ``quad``.
-///     outer: The outer factors, floats: density, detail (isoline); u0, v0, w0 (tri); u0, v0, u1, v1
-///         (quad). Each is rounded to the nearest binary32; any value is valid, including NaN.
-///     inner: The inside factors: none (isoline), one or a plain number (tri), along u and along v
-///         (quad).
-///     partitioning: ``integer``, ``pow2``, ``fractional_odd`` or ``fractional_even``.
-///     output: ``point``, ``line``, ``triangle_cw`` or ``triangle_ccw``.
-///     split: ``ruler`` (the standard) or ``center``.
+/// Args: domain: ``isoline``, ``tri`` or ``quad``. outer: The outer factors, floats: density,
+/// detail (isoline); u0, v0, w0 (tri); u0, v0, u1, v1 (quad). Each is rounded to the nearest
+/// binary32; any value is valid, including NaN. inner: The inside factors: none (isoline), one or a
+/// plain number (tri), along u and along v (quad). partitioning: ``integer``, ``pow2``,
+/// ``fractional_odd`` or ``fractional_even``. output: ``point``, ``line``, ``triangle_cw`` or
+/// ``triangle_ccw``. split: ``ruler`` (the standard) or ``center``.
 ///
 /// Raises:
 ///     ArgumentError: An unknown name, or a wrong number of factors.
@@ -59,8 +56,8 @@ impl Patch {
         Self::of(domain, &floats(outer)?, &inner, config(partitioning, output, split)?)
     }
 
-    /// The patch whose factors have these binary32 bit patterns: like the constructor, with integers
-    /// below 2**32 as factors.
+    /// The patch whose factors have these binary32 bit patterns: like the constructor, with
+    /// integers below 2**32 as factors.
     ///
     /// >>> from tess_model import Patch
     /// >>> Patch.from_bits("isoline", [0x40000000, 0x7fc00000]).kind
@@ -227,8 +224,8 @@ impl Patch {
     }
 
     /// The location of point ``p`` of an edge with a factor of this patch, with every step:
-    /// :class:`Placement`. ``factor`` is a name as in :attr:`processed`; ``p`` is below the ``points``
-    /// of its context.
+    /// :class:`Placement`. ``factor`` is a name as in :attr:`processed`; ``p`` is below the
+    /// ``points`` of its context.
     fn place<'py>(
         &self,
         py: Python<'py>,
@@ -246,8 +243,8 @@ impl Patch {
         values::placement(py, &stages::placed(&processed.context, p)?)
     }
 
-    /// The text of ``tess explain``: every stage of the patch, or the origin of one point or one primitive,
-    /// or the processing of one factor.
+    /// The text of ``tess explain``: every stage of the patch, or the origin of one point or one
+    /// primitive, or the processing of one factor.
     #[pyo3(signature = (*, point = None, primitive = None, factor = None))]
     fn explain(
         &self,
@@ -258,9 +255,10 @@ impl Patch {
         Ok(self.report(part(point, primitive, factor)?)?.0)
     }
 
-    /// Compares a circuit's signals for a point, a primitive, a factor or (without any of these) the patch's
-    /// counts with the model. Returns a :class:`SignalDifference` for each signal that differs, in the order of
-    /// the data flow. ``observed`` maps signal names, which ``tess explain --help`` lists, to values.
+    /// Compares a circuit's signals for a point, a primitive, a factor or (without any of these)
+    /// the patch's counts with the model. Returns a :class:`SignalDifference` for each signal that
+    /// differs, in the order of the data flow. ``observed`` maps signal names, which ``tess
+    /// explain --help`` lists, to values.
     ///
     /// >>> from tess_model import Patch
     /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)

@@ -19,8 +19,8 @@ use tess_verify::vectors::{Kind, Record};
 ///     answers: As for :func:`check_device`; or the path of a file of listings.
 ///     specification: ``vulkan``, ``opengl`` or ``d3d11``.
 ///
-/// Returns:
-///     A :class:`RulesReport`. ``generate(rules=True, split="ruler")`` gives patches that exercise every rule.
+/// Returns: A :class:`RulesReport`. ``generate(rules=True, split="ruler")`` gives patches that
+/// exercise every rule.
 ///
 /// >>> from tess_model import Patch, check_rules
 /// >>> patch = Patch.from_bits("isoline", [0x3f800000, 0x40400001], partitioning="fractional_odd", output="line")

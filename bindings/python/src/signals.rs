@@ -1,4 +1,5 @@
-//! Signals such as Ctrl-C: Python handles them between its own steps, so what takes long asks for them.
+//! Signals such as Ctrl-C: Python handles them between its own steps, so what takes long asks for
+//! them.
 
 use crate::errors::TessError;
 use pyo3::prelude::*;
@@ -96,9 +97,10 @@ impl Read for Watched {
     }
 }
 
-/// Does work on another thread while this one looks for signals. If a handler raises, the flag that `work` got is
-/// set. Work that looks at it has ended when this returns; a thread that waits for a pipe, perhaps for ever, is left
-/// to end by itself. Errors: a signal handler's error; no thread can be started; the work panicked.
+/// Does work on another thread while this one looks for signals. If a handler raises, the flag that
+/// `work` got is set. Work that looks at it has ended when this returns; a thread that waits for a
+/// pipe, perhaps for ever, is left to end by itself. Errors: a signal handler's error; no thread
+/// can be started; the work panicked.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(Arc<AtomicBool>) -> T + Send + 'static,

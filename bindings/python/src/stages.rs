@@ -11,8 +11,8 @@ use tess_core::{
     TriangleFactors,
 };
 
-/// The context of a 15.16 factor. Errors: an unknown name, or a factor that factor processing never gives to this
-/// parity.
+/// The context of a 15.16 factor. Errors: an unknown name, or a factor that factor processing never
+/// gives to this parity.
 pub(crate) fn factor_context(
     factor: u32,
     parity: &str,
@@ -50,13 +50,12 @@ pub(crate) fn context<'py>(
     values::context(py, &factor_context(factor, parity, split_order)?.1)
 }
 
-/// One factor after factor processing (specification, section 3), a :class:`ProcessedFactor`. ``None`` if it culls
-/// the patch: an outer factor that is NaN or not above 0.
+/// One factor after factor processing (specification, section 3), a :class:`ProcessedFactor`.
+/// ``None`` if it culls the patch: an outer factor that is NaN or not above 0.
 ///
-/// Args:
-///     factor: The raw factor, rounded to the nearest binary32.
-///     partitioning, split: As for :class:`Patch`.
-///     role: ``outer`` or ``inside``: the factor ``u0`` or ``inside`` of a triangle patch whose others are 3.
+/// Args: factor: The raw factor, rounded to the nearest binary32. partitioning, split: As for
+/// :class:`Patch`. role: ``outer`` or ``inside``: the factor ``u0`` or ``inside`` of a triangle
+/// patch whose others are 3.
 ///
 /// >>> import tess_model
 /// >>> tess_model.process_factor(2.5, "fractional_odd").fixed
@@ -90,7 +89,8 @@ pub(crate) fn process_factor<'py>(
 ///
 /// >>> import tess_model
 /// >>> tess_model.place(0x28000, "odd", 1)
-/// Placement(flip=False, position=1, blend=Blend(coarse=0, fine=21845, fraction=49152), half_location=16384, location=16384)
+/// Placement(flip=False, position=1, blend=Blend(coarse=0, fine=21845, fraction=49152),
+/// half_location=16384, location=16384)
 #[pyfunction]
 #[pyo3(signature = (factor, parity, p, split_order = "ruler"))]
 pub(crate) fn place<'py>(

@@ -143,7 +143,8 @@ fn patches_of(patches: &Bound<'_, PyAny>) -> PyResult<Vec<Case>> {
     all_of(patches, case, "at least one patch is needed")
 }
 
-/// The results of `each` for the elements of an iterable. Errors: the message `none` if there is none; signals.
+/// The results of `each` for the elements of an iterable. Errors: the message `none` if there is
+/// none; signals.
 fn all_of<T>(
     iterable: &Bound<'_, PyAny>,
     each: impl Fn(&Bound<'_, PyAny>) -> PyResult<T>,
@@ -266,19 +267,15 @@ impl Record {
     }
 }
 
-/// Checks a vector file, as ``tess check`` does. A file of listings holds a device's answers, which are compared
-/// with the model. A file of any other kind, or any file with ``tested="model"``, is taken as right and the model
-/// is tested.
+/// Checks a vector file, as ``tess check`` does. A file of listings holds a device's answers, which
+/// are compared with the model. A file of any other kind, or any file with ``tested="model"``, is
+/// taken as right and the model is tested.
 ///
-/// Args:
-///     path: The file.
-///     tested: ``auto``, or ``model``.
-///     order: ``exact``; ``sequence``: the model's order, with points told apart by coordinates; or ``any``.
-///     elements: ``primitives``, or only ``points``.
-///     conversion: ``exact``, or ``0.6ulp``.
-///     denormals: ``keep``, or ``flush``.
-///     coverage: A :class:`Coverage` that counts the bins that the file's patches hit.
-///     cases: The patches that the device was asked for: the file must answer each of them, in order.
+/// Args: path: The file. tested: ``auto``, or ``model``. order: ``exact``; ``sequence``: the
+/// model's order, with points told apart by coordinates; or ``any``. elements: ``primitives``, or
+/// only ``points``. conversion: ``exact``, or ``0.6ulp``. denormals: ``keep``, or ``flush``.
+/// coverage: A :class:`Coverage` that counts the bins that the file's patches hit. cases: The
+/// patches that the device was asked for: the file must answer each of them, in order.
 ///
 /// Returns:
 ///     A :class:`Report`. ``order`` to ``denormals`` set the strength of a comparison with a device
@@ -341,13 +338,12 @@ fn run_check(
 
 /// Compares a device's answers with the model.
 ///
-/// Args:
-///     answers: Tuples (patch, points, indices): a :class:`Patch`, integers of shape (points, 2) in
-///         16.16, and integers of any shape whose elements in order are the indices. Arrays of uint32 are the
-///         fastest; arrays of other integer types and lists are accepted if every element is below 2**32.
-///     order, elements, conversion, denormals: As for :func:`check`.
-///     cases: The patches that the device was asked for. Answers for other patches, too few or too many raise
-///         :class:`ArgumentError`. There must be at least one answer.
+/// Args: answers: Tuples (patch, points, indices): a :class:`Patch`, integers of shape (points, 2)
+/// in 16.16, and integers of any shape whose elements in order are the indices. Arrays of uint32
+/// are the fastest; arrays of other integer types and lists are accepted if every element is below
+/// 2**32. order, elements, conversion, denormals: As for :func:`check`. cases: The patches that the
+/// device was asked for. Answers for other patches, too few or too many raise
+/// :class:`ArgumentError`. There must be at least one answer.
 ///
 /// >>> from tess_model import Patch, check_device
 /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)

@@ -1,8 +1,10 @@
-//! The planted faults of the circuit: copies of the design that have one of them, or all behind a switch.
+//! The planted faults of the circuit: copies of the design that have one of them, or all behind a
+//! switch.
 //!
-//! The text of a fault occurs in its file once. It is an expression, `assign` with one (declarations may precede a
-//! wrong one), or whole statements of a procedure, so that a switch can choose between it and the wrong text. The third
-//! fault of the list, `wide[7]` replaced by `1'b1`, makes this of the design:
+//! The text of a fault occurs in its file once. It is an expression, `assign` with one
+//! (declarations may precede a wrong one), or whole statements of a procedure, so that a switch can
+//! choose between it and the wrong text. The third fault of the list, `wide[7]` replaced by `1'b1`,
+//! makes this of the design:
 //!
 //! ```text
 //! up = wide[7] && low;
@@ -43,8 +45,9 @@ pub fn faults(root: &Path) -> Result<Vec<(usize, ListedFault)>, String> {
     Ok((1..).zip(faults).collect())
 }
 
-/// Writes the design to `folder` with the fault of this number, 0 for none; without a number with every fault, of which a
-/// simulation's `+fault=N` plants one. A file that is right already is not touched.
+/// Writes the design to `folder` with the fault of this number, 0 for none; without a number with
+/// every fault, of which a simulation's `+fault=N` plants one. A file that is right already is not
+/// touched.
 ///
 /// # Errors
 /// There is no such fault, its text has not one place, or a file cannot be read or written.

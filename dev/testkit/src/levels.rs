@@ -5,8 +5,8 @@ use tess_simd::Level;
 /// The environment variable that names the levels that must be there.
 const VARIABLE: &str = "TESS_REQUIRE_LEVELS";
 
-/// The levels to compare at: every one of this machine. One that it lacks is reported, and fails the
-/// test if the environment variable `TESS_REQUIRE_LEVELS` asks for it.
+/// The levels to compare at: every one of this machine. One that it lacks is reported, and fails
+/// the test if the environment variable `TESS_REQUIRE_LEVELS` asks for it.
 ///
 /// # Panics
 /// The variable asks for a level that this machine lacks, or names none.

@@ -13,9 +13,9 @@
 //! >>>
 //! ```
 //!
-//! `in` and `seen by` apply until the next one. Both texts may have several lines, and the new one may be empty. A line
-//! that starts with `#` is a comment. `cargo xtask mutants planted`, the circuit's benches and tests of the shaders
-//! read such lists.
+//! `in` and `seen by` apply until the next one. Both texts may have several lines, and the new one
+//! may be empty. A line that starts with `#` is a comment. `cargo xtask mutants planted`, the
+//! circuit's benches and tests of the shaders read such lists.
 
 /// One wrong text.
 #[derive(Clone, Debug, PartialEq, Eq)]

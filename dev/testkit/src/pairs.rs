@@ -1,7 +1,8 @@
 //! Covering arrays: rows of options in which any two values of two options meet.
 //!
-//! Most faults of options need one value or two together. All rows of 10 options with 3 values are 59 049; 15
-//! of them have every two values together. Two values may exclude each other, and then no row has both:
+//! Most faults of options need one value or two together. All rows of 10 options with 3 values are
+//! 59 049; 15 of them have every two values together. Two values may exclude each other, and then
+//! no row has both:
 //!
 //! ```text
 //! domain  quad, tri    values [2, 2, 2]; index u16 and output points exclude each other
@@ -24,8 +25,8 @@ pub struct Options<E> {
 }
 
 impl<E: Fn(Choice, Choice) -> bool> Options<E> {
-    /// As many options as `values` has elements, of which each is a number of values. `excluded` gets two choices of
-    /// different options, the one of the lower option first.
+    /// As many options as `values` has elements, of which each is a number of values. `excluded`
+    /// gets two choices of different options, the one of the lower option first.
     ///
     /// # Panics
     /// If there are fewer than two options, or an option has no value.
@@ -34,17 +35,19 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
         Self { values: values.to_vec(), excluded, seldom: Vec::new() }
     }
 
-    /// The same options, of which a row has one of these choices only for a pair with it, or where there is no other.
+    /// The same options, of which a row has one of these choices only for a pair with it, or where
+    /// there is no other.
     #[must_use]
     pub fn seldom(self, choices: &[Choice]) -> Self {
         Self { seldom: choices.to_vec(), ..self }
     }
 
-    /// Rows with a value of each option, by number. None has a pair that is excluded; every other pair is in one
-    /// of them. The same options give the same rows.
+    /// Rows with a value of each option, by number. None has a pair that is excluded; every other
+    /// pair is in one of them. The same options give the same rows.
     ///
     /// # Panics
-    /// If no row can have a pair that is not excluded, as when one of the two excludes all values of a third option.
+    /// If no row can have a pair that is not excluded, as when one of the two excludes all values
+    /// of a third option.
     pub fn rows(&self) -> Vec<Vec<usize>> {
         let mut missing: BTreeSet<[Choice; 2]> = self.pairs(false).collect();
         let mut rows: Vec<Vec<usize>> = Vec::new();
@@ -78,7 +81,8 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
         two.filter(move |&[a, b]| (self.excluded)(a, b) == excluded)
     }
 
-    /// A row with the choices of `start`, and otherwise without excluded pairs; it has many pairs of `missing`.
+    /// A row with the choices of `start`, and otherwise without excluded pairs; it has many pairs
+    /// of `missing`.
     fn row(
         &self,
         start: &[Choice],
@@ -92,8 +96,8 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
         })
     }
 
-    /// Chooses a value of each option that has none yet: the one that adds most pairs of `missing`, and among equals
-    /// each in turn, those of `seldom` last. Goes back where no value is left.
+    /// Chooses a value of each option that has none yet: the one that adds most pairs of `missing`,
+    /// and among equals each in turn, those of `seldom` last. Goes back where no value is left.
     fn complete(
         &self,
         chosen: &mut Vec<Choice>,

@@ -1,4 +1,5 @@
-//! The faults of shaders that tests of `tess-gpu` and `tess-wgpu` plant on every run: `faults/shaders.faults`.
+//! The faults of shaders that tests of `tess-gpu` and `tess-wgpu` plant on every run:
+//! `faults/shaders.faults`.
 
 use crate::listed::{ListedFault, parse};
 

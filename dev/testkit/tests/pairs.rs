@@ -50,7 +50,8 @@ fn excluded_pairs_are_in_no_row_but_their_own() {
     checked(&values, |a, b| (a.1 + b.1) % 3 == 2 && b.0 == 4);
 }
 
-/// The best known arrays of these sizes have 4, 9 and 14 rows; three values with 10 options have 59 049 rows in all.
+/// The best known arrays of these sizes have 4, 9 and 14 rows; three values with 10 options have 59
+/// 049 rows in all.
 #[test]
 fn rows_are_few() {
     for (values, most) in [(&[2, 2, 2][..], 5), (&[3, 3, 3, 3], 12), (&[3; 10], 22)] {

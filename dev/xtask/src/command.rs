@@ -36,8 +36,8 @@ pub(crate) fn cargo_home() -> Result<PathBuf, String> {
     home.ok_or_else(|| "neither CARGO_HOME nor a home directory".into())
 }
 
-/// Flags of the compiler behind `first`, separated as cargo wants them, that take this machine's folders out of messages
-/// of panics, so that what is built has the same bytes everywhere.
+/// Flags of the compiler behind `first`, separated as cargo wants them, that take this machine's
+/// folders out of messages of panics, so that what is built has the same bytes everywhere.
 ///
 /// # Errors
 /// There is no home directory.
@@ -68,8 +68,8 @@ pub(crate) fn cargo(arguments: &str) -> Command {
     command
 }
 
-/// Gives a separate workspace the versions of the lock file at `root`; cargo adds to its copy what is missing there, and
-/// removes the rest.
+/// Gives a separate workspace the versions of the lock file at `root`; cargo adds to its copy what
+/// is missing there, and removes the rest.
 ///
 /// # Errors
 /// The file cannot be copied.

@@ -1,4 +1,5 @@
-//! Packs what a release has into `target/dist`, to the same bytes each time, and tries each archive by itself.
+//! Packs what a release has into `target/dist`, to the same bytes each time, and tries each archive
+//! by itself.
 
 mod bill;
 mod c;
@@ -32,10 +33,12 @@ const PARTS: &[(&str, Pack)] = &[
     ("crates", crates),
 ];
 
-/// Packs these parts, or all; with `--try` first among them, packs twice, compares, and uses what was packed.
+/// Packs these parts, or all; with `--try` first among them, packs twice, compares, and uses what
+/// was packed.
 ///
 /// # Errors
-/// There is no such part, a program is missing or fails, two packings differ, or an archive does not serve.
+/// There is no such part, a program is missing or fails, two packings differ, or an archive does
+/// not serve.
 pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     let (tries, names) = match words {
         ["--try", names @ ..] => (true, names),
@@ -105,8 +108,8 @@ fn wheel(release: &Release) -> Result<(), String> {
     python::release(&release.epoch, &release.out.join(bill::file(name)), |file| release.take(file))
 }
 
-/// `tess_uvm` with its covergroups, the DPI-C interface and the circuit of its example, in folders as its file lists expect
-/// them.
+/// `tess_uvm` with its covergroups, the DPI-C interface and the circuit of its example, in folders
+/// as its file lists expect them.
 fn covergroups(release: &Release) -> Result<(), String> {
     let stage = release.stage(&format!("tess-uvm-{VERSION}"))?;
     let files =
@@ -125,7 +128,8 @@ fn tess() -> Result<Command, String> {
     PROGRAM.get_or_init(explorer::program).clone().map(Command::new)
 }
 
-/// The command that tries the package for browsers in a process of its own, with this program `tess`.
+/// The command that tries the package for browsers in a process of its own, with this program
+/// `tess`.
 ///
 /// # Errors
 /// This program has no path.

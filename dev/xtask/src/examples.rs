@@ -21,7 +21,8 @@ pub(crate) fn lint() -> Result<(), String> {
     command::run(cargo("clippy --all-targets")?.args(["--", "-D", "warnings"]))
 }
 
-/// `cargo` with these words on their workspace, beside the builds of the others and with their versions.
+/// `cargo` with these words on their workspace, beside the builds of the others and with their
+/// versions.
 ///
 /// # Errors
 /// The versions cannot be copied.

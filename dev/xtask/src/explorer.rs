@@ -88,7 +88,8 @@ pub(crate) fn lacking() -> Option<String> {
     setup::provide(BROWSER).err()
 }
 
-/// Makes everything ready, and gives the command that runs the tests, which compare with this program `tess`.
+/// Makes everything ready, and gives the command that runs the tests, which compare with this
+/// program `tess`.
 ///
 /// # Errors
 /// As for [`test()`], but for the tests.
@@ -135,7 +136,8 @@ fn stage(folder: &Path) -> Result<PathBuf, String> {
     Ok(stage)
 }
 
-/// The program `tess` that files and texts are compared with: `TESS_PROGRAM`, or one that is built now.
+/// The program `tess` that files and texts are compared with: `TESS_PROGRAM`, or one that is built
+/// now.
 ///
 /// # Errors
 /// It does not compile.

@@ -7,7 +7,8 @@ use crate::{packages, setup};
 /// `--no-default-features`, which nothing else of the suite compiles.
 ///
 /// # Errors
-/// cargo-hack cannot be installed, a combination does not compile, or no published package has a name.
+/// cargo-hack cannot be installed, a combination does not compile, or no published package has a
+/// name.
 pub(crate) fn check(names: &[&str]) -> Result<(), String> {
     let published = packages::published()?;
     let is_published = |name: &str| published.iter().any(|package| package.name == name);

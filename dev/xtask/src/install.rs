@@ -1,5 +1,5 @@
-//! Installs the C library as C and C++ programs expect one: headers, static and shared library, and what pkg-config and
-//! CMake look for.
+//! Installs the C library as C and C++ programs expect one: headers, static and shared library, and
+//! what pkg-config and CMake look for.
 //!
 //! | system | archive | shared library | beside it |
 //! | --- | --- | --- | --- |
@@ -17,7 +17,8 @@ use std::process::Command;
 /// System libraries that a Rust static library needs.
 const SYSTEM_LIBRARIES: &str = "-lpthread -ldl -lm";
 
-/// Has the linker of this system leave out the functions of an archive that a program does not call.
+/// Has the linker of this system leave out the functions of an archive that a program does not
+/// call.
 const WITHOUT_UNUSED: &str =
     if cfg!(target_os = "macos") { "-Wl,-dead_strip" } else { "-Wl,--gc-sections" };
 
@@ -27,8 +28,8 @@ const MESSAGES: &str = "--message-format=json-render-diagnostics";
 /// The version of the package, `MAJOR.MINOR.PATCH`: all packages of the workspace have one.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Builds the C library for `target`, or for this machine, and installs it below `prefix`. Files that are there are
-/// replaced.
+/// Builds the C library for `target`, or for this machine, and installs it below `prefix`. Files
+/// that are there are replaced.
 ///
 /// # Errors
 /// The system is none of the table above, the build fails, or a file cannot be written.
@@ -106,7 +107,8 @@ impl System {
     }
 }
 
-/// The name by which programs find the shared library: another one for each version that may break them.
+/// The name by which programs find the shared library: another one for each version that may break
+/// them.
 pub(crate) fn soname() -> String {
     let numbers: Vec<&str> = VERSION.split('.').collect();
     match *numbers {
@@ -206,9 +208,9 @@ impl Files {
         }
     }
 
-    /// The archive without symbols for debuggers, which are most of its bytes and those of Rust's library; the linker
-    /// takes what a program calls. Windows keeps them: `strip` of mingw-w64 refuses the archive's members without
-    /// sections.
+    /// The archive without symbols for debuggers, which are most of its bytes and those of Rust's
+    /// library; the linker takes what a program calls. Windows keeps them: `strip` of mingw-w64
+    /// refuses the archive's members without sections.
     fn archive(&self, built: &Path) -> Result<(), String> {
         let archive = self.at("lib/libtess.a")?;
         replace(built, &archive)?;
@@ -238,7 +240,8 @@ impl Files {
     }
 }
 
-/// The file `tess.pc` for pkg-config. Paths are relative to the file, so that the installation may move.
+/// The file `tess.pc` for pkg-config. Paths are relative to the file, so that the installation may
+/// move.
 fn description() -> String {
     format!(
         "prefix=${{pcfiledir}}/../..\n\
@@ -254,7 +257,8 @@ fn description() -> String {
     )
 }
 
-/// Copies a file to where another may be, which a running program may use. An equal one stays, with its time.
+/// Copies a file to where another may be, which a running program may use. An equal one stays, with
+/// its time.
 fn replace(from: &Path, to: &Path) -> Result<(), String> {
     let new = fs::read(from).map_err(|error| in_file(from, &error))?;
     if fs::read(to).is_ok_and(|old| old == new) {

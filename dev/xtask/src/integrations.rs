@@ -1,4 +1,5 @@
-//! Integrations into engines, workspaces of their own: builds, tests and runs them, and compares their pictures.
+//! Integrations into engines, workspaces of their own: builds, tests and runs them, and compares
+//! their pictures.
 
 use crate::command::{self, in_file, workspace};
 use crate::setup;
@@ -7,8 +8,8 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A pixel differs if a channel does by more than this: the GPU and the CPU round heights, normals and light
-/// in ways of their own.
+/// A pixel differs if a channel does by more than this: the GPU and the CPU round heights, normals
+/// and light in ways of their own.
 const CHANNEL: u8 = 4;
 /// So many pixels of a thousand may differ: on the edges of triangles it may be one or the other.
 const PER_THOUSAND: usize = 1;
@@ -16,8 +17,8 @@ const PER_THOUSAND: usize = 1;
 /// Checks the plugin for Bevy.
 ///
 /// # Errors
-/// A step that fails, pictures of the GPU and of the CPU that differ, a crack, or a comparison that does not see a
-/// planted fault.
+/// A step that fails, pictures of the GPU and of the CPU that differ, a crack, or a comparison that
+/// does not see a planted fault.
 pub(crate) fn run() -> Result<(), String> {
     let bevy = Integration::open("integrations/bevy")?;
     bevy.cargo("fmt --all --check")?;

@@ -11,9 +11,10 @@
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
 //! ```
 //!
-//! A command is an arm of [`run`], a paragraph of [`USAGE`] and a function of its module that gives `Err(message)` for
-//! what went wrong. Programs that it needs are a `Need` of `setup/needs.rs`, which installs them or says how. Tests are
-//! counted by [`tally`], which fails a job that ran none.
+//! A command is an arm of [`run`], a paragraph of [`USAGE`] and a function of its module that gives
+//! `Err(message)` for what went wrong. Programs that it needs are a `Need` of `setup/needs.rs`,
+//! which installs them or says how. Tests are counted by [`tally`], which fails a job that ran
+//! none.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program talks to its user")]
 
 mod ci;

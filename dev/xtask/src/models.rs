@@ -1,4 +1,5 @@
-//! `tess mesh` on model files, judged by programs that share nothing with it: tools/cli/tests/models.
+//! `tess mesh` on model files, judged by programs that share nothing with it:
+//! tools/cli/tests/models.
 
 use crate::command::{self, in_file, target, workspace};
 use crate::explorer::npm;

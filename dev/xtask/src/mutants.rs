@@ -98,7 +98,8 @@ pub(crate) fn planted(words: &[&str]) -> Result<(), String> {
     planted::run(words)
 }
 
-/// Writes the design of the circuit to a folder, with every fault or with one, and prints the numbers of those it has.
+/// Writes the design of the circuit to a folder, with every fault or with one, and prints the
+/// numbers of those it has.
 ///
 /// # Errors
 /// `number` is no number of a fault, or see [`circuit::plant`].
@@ -166,7 +167,8 @@ impl Missed {
     }
 }
 
-/// The missed faults that are not among these, whichever lines they are on; each of these excuses one.
+/// The missed faults that are not among these, whichever lines they are on; each of these excuses
+/// one.
 fn unlisted(missed: &[String], mut listed: Vec<String>) -> Vec<&str> {
     let is_unlisted = |line: &&str| match listed.iter().position(|name| *name == name_of(line)) {
         Some(at) => {

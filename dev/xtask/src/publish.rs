@@ -22,8 +22,8 @@ pub(crate) fn send() -> Result<(), String> {
     APART.iter().try_for_each(|folder| command::run(in_folder(&mut cargo("publish"), folder)))
 }
 
-/// Published packages that are workspaces of their own. They depend on published versions of the others, so they come
-/// after them, and nothing but `cargo xtask integrations` builds them before.
+/// Published packages that are workspaces of their own. They depend on published versions of the
+/// others, so they come after them, and nothing but `cargo xtask integrations` builds them before.
 const APART: &[&str] = &["integrations/bevy"];
 
 /// The command with the manifest in this folder of the workspace.
@@ -31,7 +31,8 @@ fn in_folder<'a>(cargo: &'a mut Command, folder: &str) -> &'a mut Command {
     cargo.arg("--manifest-path").arg(workspace().join(folder).join("Cargo.toml"))
 }
 
-/// Runs a command while each published package has a copy of the licences, as each is an archive of its own.
+/// Runs a command while each published package has a copy of the licences, as each is an archive of
+/// its own.
 fn with_licences(command: &mut Command) -> Result<(), String> {
     let copies = |act: &dyn Fn(&Path, &Path) -> std::io::Result<()>| {
         packages::published()?.iter().try_for_each(|package| {
@@ -61,8 +62,8 @@ pub(crate) fn pack() -> Result<Vec<PathBuf>, String> {
     Ok(names.iter().map(file).collect())
 }
 
-/// Packs the packages of [`APART`]; gives their names with their versions. Their locks are left out: no registry has the
-/// versions of this workspace that they would name.
+/// Packs the packages of [`APART`]; gives their names with their versions. Their locks are left
+/// out: no registry has the versions of this workspace that they would name.
 fn pack_apart() -> Result<Vec<String>, String> {
     let pack = |folder: &&str| {
         let mut pack = cargo("package --no-verify --allow-dirty --exclude-lockfile --target-dir");
@@ -89,7 +90,8 @@ pub(crate) fn dry_run() -> Result<(), String> {
 }
 
 /// Removes what an earlier dry run left of the packages. Cargo takes them from a registry that is a
-/// folder, and believes that a version in a registry never changes: it would build old sources, or none.
+/// folder, and believes that a version in a registry never changes: it would build old sources, or
+/// none.
 fn forget_packages() -> Result<(), String> {
     let (home, target) = (command::cargo_home()?, command::target());
     for package in packages::published()? {
@@ -118,7 +120,8 @@ fn remove_all(folders: &[PathBuf]) -> Result<(), String> {
 
 /// Checks dependencies against `deny.toml`: licences, banned and duplicate crates, sources.
 ///
-/// `advisories` asks for the database of known vulnerabilities too, which is fetched from the network.
+/// `advisories` asks for the database of known vulnerabilities too, which is fetched from the
+/// network.
 pub(crate) fn deny(advisories: bool) -> Result<(), String> {
     setup::subcommand("deny")?;
     let mut deny = cargo("deny --workspace --all-features check licenses bans sources");

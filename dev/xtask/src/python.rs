@@ -26,7 +26,8 @@ pub(crate) fn run_with(program: &Path) -> Result<(), String> {
     tally::run([tests(program)?])
 }
 
-/// The command that does [`run_with`] in a process of its own, so that other tests can run meanwhile.
+/// The command that does [`run_with`] in a process of its own, so that other tests can run
+/// meanwhile.
 ///
 /// # Errors
 /// This program has no path.
@@ -36,7 +37,8 @@ pub(crate) fn in_a_process(program: &Path) -> Result<Command, String> {
     Ok(command)
 }
 
-/// Makes everything ready, and gives the command that runs the tests, which compare with this program `tess`.
+/// Makes everything ready, and gives the command that runs the tests, which compare with this
+/// program `tess`.
 fn tests(program: &Path) -> Result<Command, String> {
     setup::provide(&[PYTHON, ICARUS])?;
     command::lock_versions(&workspace(), "bindings/python")?;
@@ -51,8 +53,9 @@ fn tests(program: &Path) -> Result<Command, String> {
     Ok(tests)
 }
 
-/// Builds the wheel, with this bill of materials, and the archive of sources of a release made at this time, and gives
-/// each to `take`. The wheel's name says the oldest glibc that maturin found it to run with.
+/// Builds the wheel, with this bill of materials, and the archive of sources of a release made at
+/// this time, and gives each to `take`. The wheel's name says the oldest glibc that maturin found
+/// it to run with.
 ///
 /// # Errors
 /// A build fails, or `take` does.
@@ -80,8 +83,9 @@ pub(crate) fn release(
 /// Imports of the tests that see planted faults.
 const FOR_FAULTS: &[&str] = &["numpy>=1.21", "hypothesis>=6", "pytest>=7"];
 
-/// Builds the package of the tree at `root` as `cargo build` does, which takes less time than a wheel, and gives the
-/// command that runs the tests in `file` on it. Everything that is made goes to `target`.
+/// Builds the package of the tree at `root` as `cargo build` does, which takes less time than a
+/// wheel, and gives the command that runs the tests in `file` on it. Everything that is made goes
+/// to `target`.
 ///
 /// # Errors
 /// It does not compile, or a package of the environment cannot be had.

@@ -1,5 +1,5 @@
-//! The circuit in `rtl`: lint, ports, comparison with the model, planted faults and clocks in one command; long comparisons,
-//! proofs and gates, and costs in others.
+//! The circuit in `rtl`: lint, ports, comparison with the model, planted faults and clocks in one
+//! command; long comparisons, proofs and gates, and costs in others.
 
 mod bench;
 mod budgets;
@@ -33,14 +33,17 @@ pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
     })
 }
 
-/// Checks the ports, compares the circuit with the model and plants its faults, as the tests of the C interface do; then clocks.
+/// Checks the ports, compares the circuit with the model and plants its faults, as the tests of the
+/// C interface do; then clocks.
 ///
 /// # Errors
-/// A tool is missing, the lint warns, an output depends on an input, an element differs, or a planted fault is not found.
+/// A tool is missing, the lint warns, an output depends on an input, an element differs, or a
+/// planted fault is not found.
 fn compare() -> Result<(), String> {
     setup::provide(&[setup::VERILATOR, setup::SYSTEMC, setup::YOSYS])?;
     ports::run()?;
-    // Only this package: the workspace has twice as many to compile. A test whose tool is missing fails.
+    // Only this package: the workspace has twice as many to compile. A test whose tool is missing
+    // fails.
     let mut tests = command::cargo(bench::CAPI);
     tests.args(["--", "rtl_"]).env("TESS_CAPI_BUILD", bench::CAPI).env("CI", "1");
     command::run(&mut tests)?;

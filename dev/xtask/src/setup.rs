@@ -75,8 +75,8 @@ fn apt() -> Command {
     command
 }
 
-/// Installs a Rust toolchain (`stable`, `nightly`, `1.89.0`) where it is missing, with these parts: a `component` or a
-/// `target` each.
+/// Installs a Rust toolchain (`stable`, `nightly`, `1.89.0`) where it is missing, with these parts:
+/// a `component` or a `target` each.
 pub(crate) fn toolchain(name: &str, parts: &[(&str, &str)]) -> Result<(), String> {
     let mut list = rustup(&["toolchain", "list"]);
     let known = command::output(&mut list).map_err(|error| {

@@ -1,8 +1,9 @@
 //! The test programs of the workspace, all built with one set of features.
 //!
-//! Cargo gives dependencies the features that the selected packages want together. A file of tests is therefore
-//! selected by its target, of the whole workspace, so that no dependency is compiled again. The folder of a package
-//! selects that package alone: its own dependencies may be compiled once more, other packages' tests never.
+//! Cargo gives dependencies the features that the selected packages want together. A file of tests
+//! is therefore selected by its target, of the whole workspace, so that no dependency is compiled
+//! again. The folder of a package selects that package alone: its own dependencies may be compiled
+//! once more, other packages' tests never.
 
 use crate::command::{self, cargo, workspace};
 use crate::levels;
@@ -17,7 +18,8 @@ use std::process::Command;
 /// The arguments of `cargo` for the tests of the workspace.
 const ALL: &str = "test --workspace --all-features --no-fail-fast";
 
-/// The packages that have no part in [`Extent::Comparisons`], and bring much that nothing else needs to compile.
+/// The packages that have no part in [`Extent::Comparisons`], and bring much that nothing else
+/// needs to compile.
 const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-benches"];
 
 /// Has cargo list what it built on its standard output.
@@ -49,7 +51,8 @@ const BEYOND: &[Beyond] = &[
     // They need OpenGL or a simulator.
     Beyond { program: "tess-wgpu/tests/gl/main.rs", tests: &[] },
     Beyond { program: "bindings/c/tests/foreign.rs", tests: &["rtl_", "uvm_"] },
-    // They are slow. The comparisons that stay reach the same code with fewer patches or in one language.
+    // They are slow. The comparisons that stay reach the same code with fewer patches or in one
+    // language.
     Beyond {
         program: "tools/cli/tests/program/main.rs",
         tests: &["backends::gpu_equals_recorded"],
@@ -96,7 +99,8 @@ pub(crate) struct TestSelection<'a> {
 }
 
 impl<'a> TestSelection<'a> {
-    /// The first argument is a path; so are those behind it that have a `/` or are a package's folder.
+    /// The first argument is a path; so are those behind it that have a `/` or are a package's
+    /// folder.
     pub(crate) fn of(arguments: &[&'a str]) -> Self {
         let is_path = |(number, argument): &(usize, &str)| {
             *number == 0
@@ -110,8 +114,9 @@ impl<'a> TestSelection<'a> {
     }
 }
 
-/// Builds the tests and gives a job for each program, the longest first, and one for the examples in the
-/// documentation. Of a part, only programs whose sources begin with one of its paths, and no documentation.
+/// Builds the tests and gives a job for each program, the longest first, and one for the examples
+/// in the documentation. Of a part, only programs whose sources begin with one of its paths, and no
+/// documentation.
 ///
 /// # Errors
 /// They do not compile, or a path has no tests.
@@ -145,8 +150,8 @@ pub(crate) fn jobs(extent: Extent, part: &TestSelection<'_>) -> Result<Vec<Job>,
     Ok(jobs)
 }
 
-/// The arguments of `cargo` that select the packages. With all of them every dependency has the same features, but the
-/// folder of a package says that no other is wanted.
+/// The arguments of `cargo` that select the packages. With all of them every dependency has the
+/// same features, but the folder of a package says that no other is wanted.
 fn base(extent: Extent, part: &TestSelection<'_>) -> Result<String, String> {
     let mut base = ALL.to_owned();
     if part.paths.is_empty() {
@@ -168,7 +173,8 @@ fn base(extent: Extent, part: &TestSelection<'_>) -> Result<String, String> {
     Ok(base)
 }
 
-/// Builds the test programs of `path` in another tree and gives their jobs; for tests in Python, the package.
+/// Builds the test programs of `path` in another tree and gives their jobs; for tests in Python,
+/// the package.
 ///
 /// # Errors
 /// They do not compile, or there are none.

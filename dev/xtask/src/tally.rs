@@ -18,7 +18,8 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Adds a line such as `test result: ok. 3 passed; 0 failed; 1 ignored; ...`; whether it is one.
+    /// Adds a line such as `test result: ok. 3 passed; 0 failed; 1 ignored; ...`; whether it is
+    /// one.
     fn add_line(&mut self, line: &str) -> bool {
         let Some(result) = line.trim_start().strip_prefix("test result: ") else { return false };
         let counts = result.split_once(". ").map_or("", |(_, counts)| counts);
@@ -77,7 +78,8 @@ impl TestReport {
     /// Runs the commands one after the other, and passes their output on.
     ///
     /// # Errors
-    /// A command that cannot be started. One that fails, or that passes without having run a test, is noted for
+    /// A command that cannot be started. One that fails, or that passes without having run a test,
+    /// is noted for
     /// [`TestReport::finish`]: a filter which matches nothing must not count as success.
     pub(crate) fn one_by_one(
         &mut self,
@@ -96,9 +98,9 @@ impl TestReport {
         Ok(())
     }
 
-    /// Runs the jobs, some of them at a time. Prints the line of each test when it ends, and the rest of a job's output
-    /// when the job ends. A job may have no test, but must say so: a program that ends before its tests would otherwise
-    /// pass.
+    /// Runs the jobs, some of them at a time. Prints the line of each test when it ends, and the
+    /// rest of a job's output when the job ends. A job may have no test, but must say so: a program
+    /// that ends before its tests would otherwise pass.
     ///
     /// # Errors
     /// As for [`TestReport::one_by_one`], and jobs that have no test together.
@@ -189,8 +191,8 @@ struct Captured {
     seconds: u64,
 }
 
-/// How many test programs run at a time. Each has a thread for every processor, but ends with few that are busy, so
-/// that a second one fills the gaps; more of them take memory and gain nothing.
+/// How many test programs run at a time. Each has a thread for every processor, but ends with few
+/// that are busy, so that a second one fills the gaps; more of them take memory and gain nothing.
 fn at_once() -> usize {
     std::thread::available_parallelism().map_or(1, |count| count.get().clamp(1, 4))
 }

@@ -13,8 +13,9 @@ pub(crate) enum Browser {
     IfThere,
 }
 
-/// Runs the tests of the workspace that need no more than a Vulkan driver and a C compiler, or those of a [`TestSelection`], on
-/// every CPU level that this machine should have; the last line printed is the tally.
+/// Runs the tests of the workspace that need no more than a Vulkan driver and a C compiler, or
+/// those of a [`TestSelection`], on every CPU level that this machine should have; the last line
+/// printed is the tally.
 ///
 /// # Errors
 /// A test fails, something cannot be installed, or a path has no tests.

@@ -325,8 +325,8 @@ impl File {
     }
 }
 
-/// The normal of a face that a matrix moves: the cofactors of the matrix, in units of its largest element, times the
-/// normal.
+/// The normal of a face that a matrix moves: the cofactors of the matrix, in units of its largest
+/// element, times the normal.
 fn turned(matrix: &Mat4, n: Vec3) -> Vec3 {
     let m = Mat3::from_mat4(*matrix).to_cols_array();
     let largest = m.iter().fold(0.0f32, |largest, x| largest.max(x.abs()));

@@ -11,7 +11,8 @@ pub fn check(data: &[u8]) -> Result<(), String> {
     if let Ok(mesh) = &read {
         models(mesh.clone())?;
     }
-    // Which triangles a polygon is cut into is not compared: tests of the program measure their areas.
+    // Which triangles a polygon is cut into is not compared: tests of the program measure their
+    // areas.
     let words = |mesh: &PolygonMesh| match has_polygons(data) {
         true => mesh_words(&PolygonMesh { faces: Vec::new(), ..mesh.clone() }),
         false => mesh_words(mesh),

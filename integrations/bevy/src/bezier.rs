@@ -46,7 +46,8 @@ impl fmt::Display for BezierError {
 impl std::error::Error for BezierError {}
 
 impl BezierPatches {
-    /// Patches of these control points. Patches that share the control points of an edge have no crack there.
+    /// Patches of these control points. Patches that share the control points of an edge have no
+    /// crack there.
     ///
     /// # Errors
     /// [`BezierError`] for what is missing.
@@ -118,7 +119,8 @@ impl CpuShape for BezierPatches {
     }
 }
 
-/// The factors of a quad by its edges u = 0, v = 0, u = 1, v = 1, as `tess_quad_factors` of the WGSL.
+/// The factors of a quad by its edges u = 0, v = 0, u = 1, v = 1, as `tess_quad_factors` of the
+/// WGSL.
 #[must_use]
 pub fn quad_factors(edges: [f32; 4]) -> QuadFactors {
     let ([u0, v0, u1, v1], [inside_u, inside_v]) = (edges, inside_quad(edges));

@@ -55,8 +55,9 @@ impl Tessellated {
     }
 }
 
-/// Numbers of an entity that change from frame to frame: the time, joint matrices. The surface reads them with `tess_value`,
-/// its Rust form with [`Eye::value`](crate::Eye::value). Only those that change are uploaded; keep their number.
+/// Numbers of an entity that change from frame to frame: the time, joint matrices. The surface
+/// reads them with `tess_value`, its Rust form with [`Eye::value`](crate::Eye::value). Only those
+/// that change are uploaded; keep their number.
 #[derive(Clone, Component, Debug, Default, PartialEq)]
 pub struct TessValues(pub Vec<f32>);
 
@@ -80,7 +81,8 @@ pub enum TessBackend {
     Cpu,
 }
 
-/// How many triangles the surfaces had lately, a frame or two late on the GPU, and what was uploaded for them.
+/// How many triangles the surfaces had lately, a frame or two late on the GPU, and what was
+/// uploaded for them.
 #[derive(Clone, Debug, Default, Resource)]
 pub struct TessStats(Arc<[AtomicU64; 2]>);
 
@@ -91,8 +93,8 @@ impl TessStats {
         self.0[0].load(Ordering::Relaxed)
     }
 
-    /// Bytes of shapes, places, materials and values that the last frame uploaded; 0 on the CPU. It uploads the view of each
-    /// camera too, and 4 bytes an entity if entities came or went.
+    /// Bytes of shapes, places, materials and values that the last frame uploaded; 0 on the CPU. It
+    /// uploads the view of each camera too, and 4 bytes an entity if entities came or went.
     #[must_use]
     pub fn uploaded(&self) -> u64 {
         self.0[1].load(Ordering::Relaxed)

@@ -33,7 +33,8 @@ pub(crate) struct Tessellation {
 }
 
 impl Tessellators {
-    /// Tessellates the patches with these factors; `vertices_of` appends a patch's vertices at domain points.
+    /// Tessellates the patches with these factors; `vertices_of` appends a patch's vertices at
+    /// domain points.
     pub(crate) fn run(
         &mut self,
         config: Config,
@@ -176,7 +177,8 @@ fn wants_tangents(material: &StandardMaterial) -> bool {
     )
 }
 
-/// Whether the camera sees nothing of a surface and its shadow; a mesh that it has is then as good as another.
+/// Whether the camera sees nothing of a surface and its shadow; a mesh that it has is then as good
+/// as another.
 fn is_unseen(surface: &Tessellated, eye: &Eye) -> bool {
     let Aabb { center, half_extents } = surface.shape.bounds();
     let corners =

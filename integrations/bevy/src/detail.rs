@@ -1,6 +1,7 @@
 //! How many segments an edge gets.
 
-/// How many segments an edge gets, 1 to 64, by the camera. Both patches of an edge get the same number.
+/// How many segments an edge gets, 1 to 64, by the camera. Both patches of an edge get the same
+/// number.
 ///
 /// [`tess_surface::factors`] has the rules.
 #[derive(Clone, Copy, Debug, PartialEq)]

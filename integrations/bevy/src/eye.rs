@@ -1,4 +1,5 @@
-//! The view of a surface, and its factors and culling on the CPU: `tess_edge` and `tess_is_unseen` of the WGSL in Rust.
+//! The view of a surface, and its factors and culling on the CPU: `tess_edge` and `tess_is_unseen`
+//! of the WGSL in Rust.
 
 use crate::detail::LevelOfDetail;
 use bevy::ecs::prelude::*;
@@ -92,8 +93,8 @@ impl Eye<'_> {
         self.world_from_local.transform_point3(local)
     }
 
-    /// The factor of an edge between two places in world space, by the entity's level of detail: 1 to 64, and 1
-    /// for NaN. The same in both directions.
+    /// The factor of an edge between two places in world space, by the entity's level of detail: 1
+    /// to 64, and 1 for NaN. The same in both directions.
     #[must_use]
     pub fn edge(&self, a: Vec3, b: Vec3) -> f32 {
         let View { eye, pixels_per_unit, is_orthographic, .. } = self.view;

@@ -29,7 +29,8 @@ pub struct HeightField {
     image: Option<(Handle<Image>, bool)>,
 }
 
-/// Linear colours of the ground, which multiply the material's base colour. All are white by default.
+/// Linear colours of the ground, which multiply the material's base colour. All are white by
+/// default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundColors {
     /// Of low ground.
@@ -101,8 +102,8 @@ impl HeightField {
     /// The most patches along a side: up to here places in patches are exact.
     pub const MOST_PATCHES: u32 = 256;
 
-    /// A field of `texels` heights, row by row along x, the first row at the least z. It is 1 unit wide along x and z, 1
-    /// unit high where a height is 1, and has 16 x 16 patches.
+    /// A field of `texels` heights, row by row along x, the first row at the least z. It is 1 unit
+    /// wide along x and z, 1 unit high where a height is 1, and has 16 x 16 patches.
     ///
     /// # Errors
     /// [`HeightFieldError::Image`].
@@ -118,9 +119,9 @@ impl HeightField {
         Ok(Self { texels, heights, range, patches, size: Vec3::ONE, colors, image: None })
     }
 
-    /// The same field, with the heights of a grey image once it is loaded, and again whenever it changes: its
-    /// [`AssetEvent`](bevy::asset::AssetEvent)s say so. Black is 0 and white 1, whatever the colour space; floats
-    /// are heights. Until then it has the heights that it has.
+    /// The same field, with the heights of a grey image once it is loaded, and again whenever it
+    /// changes: its [`AssetEvent`](bevy::asset::AssetEvent)s say so. Black is 0 and white 1,
+    /// whatever the colour space; floats are heights. Until then it has the heights that it has.
     #[must_use]
     pub fn with_image(mut self, image: Handle<Image>) -> Self {
         self.image = Some((image, false));

@@ -39,7 +39,8 @@ use bevy::transform::TransformSystems;
 use component::TessBackend as Chosen;
 use eye::Casting;
 
-/// Draws every entity with a [`Tessellated`] for every 3D camera, and into the shadow maps of every light.
+/// Draws every entity with a [`Tessellated`] for every 3D camera, and into the shadow maps of every
+/// light.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TessPlugin;
 

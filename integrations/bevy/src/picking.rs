@@ -128,8 +128,8 @@ fn boxes(surface: &Tessellated, shape: &dyn CpuShape, eye: &Eye<'_>, grid: &Grid
     (0..surface.shape.patches()).map(of).collect()
 }
 
-/// The nearest place that a ray hits in front of a surface, and the normal there, in world space. The place is on the
-/// surface, at the domain point where the ray hits a triangle of the grid.
+/// The nearest place that a ray hits in front of a surface, and the normal there, in world space.
+/// The place is on the surface, at the domain point where the ray hits a triangle of the grid.
 fn hit(
     shape: &dyn CpuShape,
     eye: &Eye<'_>,

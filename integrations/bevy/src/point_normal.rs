@@ -73,15 +73,16 @@ impl fmt::Display for PointNormalError {
 impl std::error::Error for PointNormalError {}
 
 impl PointNormalMesh {
-    /// WGSL that reads such a mesh, for surfaces built on it: `pn_factors(number)` for a hull function and
-    /// `pn_point(at, uv)`, position and normal in local space, for a domain function.
+    /// WGSL that reads such a mesh, for surfaces built on it: `pn_factors(number)` for a hull
+    /// function and `pn_point(at, uv)`, position and normal in local space, for a domain function.
     #[must_use]
     pub fn functions() -> String {
         let own = include_str!("../shaders/point_normal.wgsl");
         [surfaces::BEZIER, surfaces::POINT_NORMAL, surfaces::PN_TRIANGLE, own].join("\n")
     }
 
-    /// A mesh of corners with unit normals, and triangles that are counter-clockwise as seen from outside.
+    /// A mesh of corners with unit normals, and triangles that are counter-clockwise as seen from
+    /// outside.
     ///
     /// # Errors
     /// [`PointNormalError`] for what is missing.

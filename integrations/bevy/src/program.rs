@@ -77,7 +77,8 @@ fn fragment_shader(text: &str, name: &str) -> Shader {
     Shader::from_wesl(format!("{IMPORTS}{text}\n{own}"), format!("bevy_tess/{name}.wesl"))
 }
 
-/// The modules that an import may name: `a::b::c` is the module `c`, or the item `c` of the module `b`.
+/// The modules that an import may name: `a::b::c` is the module `c`, or the item `c` of the module
+/// `b`.
 fn modules_of(import: &ShaderImport) -> impl Iterator<Item = &str> {
     let path = match import {
         ShaderImport::Custom(path) => Some(path.as_str()),
@@ -117,8 +118,9 @@ impl FromWorld for Programs {
 }
 
 impl Programs {
-    /// Whether all of Bevy's modules are loaded that the shaders import, and those that these modules import. Bevy loads
-    /// some modules later than others, and warns of a shader that is compiled before.
+    /// Whether all of Bevy's modules are loaded that the shaders import, and those that these
+    /// modules import. Bevy loads some modules later than others, and warns of a shader that is
+    /// compiled before.
     pub(crate) fn are_ready(&self, server: &AssetServer, shaders: &Assets<Shader>) -> bool {
         let own = self.all.values().map(|program| &program.fragment).chain([&self.prepass]);
         let mut imports: Vec<&ShaderImport> = Vec::new();

@@ -20,8 +20,8 @@ pub trait Shape: Debug + Send + Sync + 'static {
     /// The domain of the patches: [`Domain::Quad`] or [`Domain::Triangle`].
     fn domain(&self) -> Domain;
 
-    /// Which triangles face outwards: [`OutputPrimitive::TriangleCw`] if the derivative by u times that by v does,
-    /// [`OutputPrimitive::TriangleCcw`] if it points inwards.
+    /// Which triangles face outwards: [`OutputPrimitive::TriangleCw`] if the derivative by u times
+    /// that by v does, [`OutputPrimitive::TriangleCcw`] if it points inwards.
     fn winding(&self) -> OutputPrimitive {
         OutputPrimitive::TriangleCw
     }
@@ -42,12 +42,12 @@ pub trait Shape: Debug + Send + Sync + 'static {
         Cow::Borrowed(DEFAULT_FRAGMENT)
     }
 
-    /// The words that `surface` reads with `tess_uint` and `tess_float`. They are uploaded once; a shape
-    /// that changes is another shape, or has [`TessValues`](crate::TessValues).
+    /// The words that `surface` reads with `tess_uint` and `tess_float`. They are uploaded once; a
+    /// shape that changes is another shape, or has [`TessValues`](crate::TessValues).
     fn words(&self) -> Vec<u32>;
 
-    /// The image that it is made of, and whether it has been. [`Self::of_image`] is called when the image is loaded and
-    /// whenever it changes.
+    /// The image that it is made of, and whether it has been. [`Self::of_image`] is called when the
+    /// image is loaded and whenever it changes.
     fn image(&self) -> Option<(&Handle<Image>, bool)> {
         None
     }
@@ -60,8 +60,8 @@ pub trait Shape: Debug + Send + Sync + 'static {
         Err("the shape is not made of an image".into())
     }
 
-    /// The Rust form of `hull` and `domain`, for devices without compute. Without it the shape is not
-    /// drawn there, and the log says so.
+    /// The Rust form of `hull` and `domain`, for devices without compute. Without it the shape is
+    /// not drawn there, and the log says so.
     fn on_cpu(&self) -> Option<&dyn CpuShape> {
         None
     }
@@ -72,7 +72,8 @@ pub trait CpuShape {
     /// `hull` in Rust: the factors of a patch.
     fn factors(&self, patch: u32, eye: &Eye) -> PatchFactors;
 
-    /// `domain` in Rust, in local space: appends a vertex for each of these domain points of a patch.
+    /// `domain` in Rust, in local space: appends a vertex for each of these domain points of a
+    /// patch.
     fn vertices(&self, patch: u32, eye: &Eye, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>);
 }
 

@@ -56,8 +56,8 @@ pub(crate) mod primitive;
 mod rings;
 mod stitch;
 
-/// The largest `ring` in `1..end` with `first(ring) <= target`, found bit by bit: five steps, because
-/// a patch has at most 32 rings. `first` grows with the ring and `first(1) <= target`.
+/// The largest `ring` in `1..end` with `first(ring) <= target`, found bit by bit: five steps,
+/// because a patch has at most 32 rings. `first` grows with the ring and `first(1) <= target`.
 fn last_ring_at_or_before(target: u32, end: u32, first: impl Fn(u32) -> u32) -> u32 {
     let mut ring = 1;
     for step in [16, 8, 4, 2, 1] {

@@ -23,7 +23,8 @@ pub struct Dispatch {
 pub enum Workgroups {
     /// These numbers along x, y and z.
     Direct([u32; 3]),
-    /// Three words at this byte offset of [`Resource::Arguments`], which an earlier dispatch writes.
+    /// Three words at this byte offset of [`Resource::Arguments`], which an earlier dispatch
+    /// writes.
     Indirect(u64),
 }
 

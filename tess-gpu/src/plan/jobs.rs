@@ -39,8 +39,9 @@ impl Plan {
         self.portions().max(1) * self.parts()
     }
 
-    /// The number of a job. Each portion has one job for the whole of it, one for each window of the
-    /// points and one for each window of the primitives; shared/finish.wgsl numbers dispatch sizes so.
+    /// The number of a job. Each portion has one job for the whole of it, one for each window of
+    /// the points and one for each window of the primitives; shared/finish.wgsl numbers dispatch
+    /// sizes so.
     pub(super) fn job_number(&self, portion: u32, part: JobPart) -> u32 {
         let in_portion = match part {
             JobPart::Whole => 0,

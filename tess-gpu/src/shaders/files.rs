@@ -1,8 +1,8 @@
 //! The files of `shaders/`, joined in the order in which they need each other.
 //!
-//! The first line of a file names the files that it needs by their paths: `// needs: layout/setup, {place}`. Names in
-//! braces stand for one of several files, which the setup chooses. Names behind a semicolon are
-//! bindings that whoever needs the file declares.
+//! The first line of a file names the files that it needs by their paths: `// needs: layout/setup,
+//! {place}`. Names in braces stand for one of several files, which the setup chooses. Names behind
+//! a semicolon are bindings that whoever needs the file declares.
 
 use crate::setup::{IndexType, Setup};
 
@@ -57,7 +57,8 @@ pub(super) const fn listing(lists: bool) -> Choice {
     ("listing", if lists { "variants/listing" } else { "variants/no_listing" })
 }
 
-/// Where the expansions of a short batch and of a long one differ: the catalogue and the size of tiles.
+/// Where the expansions of a short batch and of a long one differ: the catalogue and the size of
+/// tiles.
 pub(super) const fn expanding(is_short: bool) -> [Choice; 2] {
     if is_short {
         [("catalogue", "variants/no_catalogue"), ("elements", "variants/narrow_tiles")]

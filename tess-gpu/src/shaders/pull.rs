@@ -7,14 +7,15 @@ use crate::setup::Setup;
 /// WGSL to put in front of your own shader. It computes any point or primitive of a patch from its
 /// number, in constant time, so that nothing needs to be written out for drawing.
 ///
-/// Run a batch with room for nothing first, of one portion: it leaves topologies and contexts. The WGSL
-/// declares `topologies`, `tables` and, unless [`Setup::has_integer_factors`], `contexts` as read-only
-/// storage buffers and `job` as a uniform buffer with the batch's first [`crate::layout::Job`], which says where the
-/// contexts of each factor begin. Any of them may be bound in a larger buffer. It offers these functions:
+/// Run a batch with room for nothing first, of one portion: it leaves topologies and contexts. The
+/// WGSL declares `topologies`, `tables` and, unless [`Setup::has_integer_factors`], `contexts` as
+/// read-only storage buffers and `job` as a uniform buffer with the batch's first
+/// [`crate::layout::Job`], which says where the contexts of each factor begin. Any of them may be
+/// bound in a larger buffer. It offers these functions:
 /// - `tess_point(patch_index, i) -> vec2<u32>`: u and v of point `i` as 16.16 numbers,
 /// - `tess_location(patch_index, i) -> vec2<f32>`: the same as binary32, exactly,
-/// - `tess_primitive(patch_index, t) -> vec3<u32>`: the indices of primitive `t`, which count from the
-///   patch's first point; as many of the three as a primitive has.
+/// - `tess_primitive(patch_index, t) -> vec3<u32>`: the indices of primitive `t`, which count from
+///   the patch's first point; as many of the three as a primitive has.
 ///
 /// [`Pull::source_for_drawing`] also finds the patch of a vertex that is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -36,8 +37,9 @@ impl Pull {
         Resource::Tiles,
     ];
 
-    /// Declarations of [`Pull::source_for_drawing`]: numbers of bindings and their buffers. [`Pull::source`] declares the
-    /// first four of six, or with [`Setup::has_integer_factors`], where contexts are left out, two of five.
+    /// Declarations of [`Pull::source_for_drawing`]: numbers of bindings and their buffers.
+    /// [`Pull::source`] declares the first four of six, or with [`Setup::has_integer_factors`],
+    /// where contexts are left out, two of five.
     pub fn bindings(self, setup: Setup) -> impl Iterator<Item = (u32, Resource)> {
         let all = (self.first_binding..).zip(Self::RESOURCES);
         all.filter(move |(_, what)| *what != Resource::Contexts || !setup.has_integer_factors())
@@ -53,9 +55,10 @@ impl Pull {
     /// The same for the vertex shader of a batch that does not write everything
     /// ([`crate::Plan::writing`]).
     ///
-    /// The WGSL declares `job` in every setup, and the storage buffers `offsets` and `tiles`. It also offers
-    /// - `tess_point_at(i) -> vec2<u32>`: the patch of point `i` of the batch, and the point's number
-    ///   within the patch,
+    /// The WGSL declares `job` in every setup, and the storage buffers `offsets` and `tiles`. It
+    /// also offers
+    /// - `tess_point_at(i) -> vec2<u32>`: the patch of point `i` of the batch, and the point's
+    ///   number within the patch,
     /// - `tess_primitive_at(t) -> vec2<u32>`: the same for primitive `t` of the batch.
     #[must_use]
     pub fn source_for_drawing(self, setup: Setup) -> String {

@@ -1,4 +1,5 @@
-//! Evaluates WGSL functions that are one expression of integers, as the accessors of packed words are.
+//! Evaluates WGSL functions that are one expression of integers, as the accessors of packed words
+//! are.
 
 use naga::{BinaryOperator as Op, Expression, Function, Handle, Literal, Module, Statement};
 

@@ -6,8 +6,9 @@ use tess_core::{Patch, PatchFactors, ProcessedFactor, ProcessedPatch};
 use tess_gpu::Resource::{Contexts, Offsets, Topologies};
 use tess_gpu::layout::pack_context;
 
-/// Topologies, contexts, offsets within the block, and the topology that all its patches have, or 0. Slots of the
-/// catalogue are with that one, or else with each patch's. Returns the counts of the block.
+/// Topologies, contexts, offsets within the block, and the topology that all its patches have,
+/// or 0. Slots of the catalogue are with that one, or else with each patch's. Returns the counts of
+/// the block.
 pub(crate) fn process_block(
     pass: &Pass<'_>,
     block: u32,
@@ -69,7 +70,8 @@ pub(crate) fn topology(patch: &Patch) -> [u32; 2] {
     [outer, inside]
 }
 
-/// The same. Only the state of a culled patch says anything; its points are as the device left them.
+/// The same. Only the state of a culled patch says anything; its points are as the device left
+/// them.
 fn topology_left(patch: &Patch, at: u32, b: &Bound<'_>) -> [u32; 2] {
     match patch.processed() {
         ProcessedPatch::Culled => {

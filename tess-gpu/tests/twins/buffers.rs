@@ -20,8 +20,8 @@ pub(crate) struct Pass<'a> {
     pub(crate) patches: &'a [Patch],
 }
 
-/// The buffers as a pass binds them: a number of a word counts from the beginning of the binding. A twin reads what they
-/// hold and writes what they must hold.
+/// The buffers as a pass binds them: a number of a word counts from the beginning of the binding. A
+/// twin reads what they hold and writes what they must hold.
 #[derive(Debug)]
 pub(crate) struct Bound<'a> {
     words: &'a mut Words,
@@ -55,8 +55,8 @@ impl<'a> Bound<'a> {
         self.words[resource as usize][at] = value;
     }
 
-    /// The device's words. A twin looks only where the pass may choose: slots and places of the catalogue, and the
-    /// unused bits of culled topologies.
+    /// The device's words. A twin looks only where the pass may choose: slots and places of the
+    /// catalogue, and the unused bits of culled topologies.
     pub(crate) fn left(&self, resource: Resource, word: u32) -> u32 {
         self.left[resource as usize][self.at(resource, word)]
     }
@@ -77,8 +77,8 @@ impl<'a> Bound<'a> {
         u32::try_from(span).expect("below 2^32")
     }
 
-    /// Where in the batch's output a patch of the portion begins (shared/offsets.wgsl): the sum of its own entry, its
-    /// block's and its section's.
+    /// Where in the batch's output a patch of the portion begins (shared/offsets.wgsl): the sum of
+    /// its own entry, its block's and its section's.
     pub(crate) fn patch_offset(&self, job: &Job, patch: u32) -> [u32; 2] {
         let entries = [patch, job.blocks_at + patch / 256, job.sections_at + patch / 65536];
         entries.map(|entry| self.pair(Resource::Offsets, entry)).into_iter().fold([0; 2], sum)

@@ -42,8 +42,8 @@ fn assert_equal(machine: &mut Machine, batch: &Batch) -> Vec<Stage> {
     machine.run(batch).unwrap_or_else(|difference| panic!("{difference}"))
 }
 
-/// Every domain and partitioning as a short and as a long batch; outputs, formats, numberings, index types, orders and
-/// split orders in turn.
+/// Every domain and partitioning as a short and as a long batch; outputs, formats, numberings,
+/// index types, orders and split orders in turn.
 #[test]
 fn every_configuration() {
     let mut machine = Machine::open();
@@ -86,7 +86,8 @@ fn orders_and_numberings() {
     }
 }
 
-/// Output that does not fit: points, primitives or both, by one element; no room at all; and no patches.
+/// Output that does not fit: points, primitives or both, by one element; no room at all; and no
+/// patches.
 #[test]
 fn overflow_and_nothing() {
     let mut machine = Machine::open();
@@ -124,7 +125,8 @@ fn copies() {
     }
 }
 
-/// A catalogue that holds every topology: unlike patches, like ones, culled ones and ones too large for it.
+/// A catalogue that holds every topology: unlike patches, like ones, culled ones and ones too large
+/// for it.
 pub(crate) fn catalogued(domain: Domain) -> Vec<PatchFactors> {
     let mut patches = of(domain, CATALOGUE_PATCHES, &[1.0, 1.25, 2.0, 2.75, 4.0]);
     patches.extend(runs(domain, &[(3.0, 700), (0.0, 300), (17.0, 40)]));
@@ -144,8 +146,9 @@ fn catalogue() {
     }
 }
 
-/// As many blocks, and as many patches in the last block, as the steps of the search in the table of tiles add up to,
-/// and one more. Each patch has several tiles, so that every patch is looked for.
+/// As many blocks, and as many patches in the last block, as the steps of the search in the table
+/// of tiles add up to, and one more. Each patch has several tiles, so that every patch is looked
+/// for.
 #[test]
 fn searches_end_at_every_step() {
     let mut machine = Machine::open();

@@ -41,8 +41,9 @@ impl Catalogue {
 
     /// The slot of a topology, from 1 on, in which its key must stand; 0 if it has none.
     ///
-    /// Which of two keys that meet gets the first slot is not defined. What is: each key stands once, in one of the 16
-    /// slots from its hash on, behind taken ones; it has none only if other keys have all 16.
+    /// Which of two keys that meet gets the first slot is not defined. What is: each key stands
+    /// once, in one of the 16 slots from its hash on, behind taken ones; it has none only if other
+    /// keys have all 16.
     pub(crate) fn slot_of(&self, topology: [u32; 2], counts: [u32; 2], b: &mut Bound<'_>) -> u32 {
         let is_small = (0..2).all(|kind| counts[kind] <= self.most[kind]);
         let Some(key) = key_of(self.setup.domain, topology).filter(|_| is_small) else { return 0 };
@@ -73,7 +74,8 @@ pub(crate) fn key_of(domain: Domain, topology: [u32; 2]) -> Option<u32> {
     has_room.then(|| along.by_ref().fold(topology.state() << 30, keyed))
 }
 
-/// A patch of the topology that has this key: each factor has one segment less than there are points.
+/// A patch of the topology that has this key: each factor has one segment less than there are
+/// points.
 pub(crate) fn patch_of(setup: Setup, key: u32) -> Patch {
     let field = |at: u32| f32::from(u8::try_from((key >> at & 31) + 1).expect("6 bits"));
     let edges = setup.domain.outer_factors();

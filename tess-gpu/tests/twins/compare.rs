@@ -145,7 +145,8 @@ fn status_owner(word: u32) -> String {
     }
 }
 
-/// The element that a word of the output is of, `size` words or indices each; `kind` 0 is points, 1 primitives.
+/// The element that a word of the output is of, `size` words or indices each; `kind` 0 is points, 1
+/// primitives.
 fn element_owner(context: &Context<'_>, kind: usize, at: u64, size: u32) -> String {
     let element = at / u64::from(size);
     let begins = &context.begins;

@@ -1,4 +1,5 @@
-//! shared/finish.wgsl: whether everything fits, the draw arguments and the sizes of the indirect dispatches.
+//! shared/finish.wgsl: whether everything fits, the draw arguments and the sizes of the indirect
+//! dispatches.
 
 use super::buffers::{Bound, PRIMITIVES, Pass, STATUS_OVERFLOW, constant};
 use super::totals::low;
@@ -29,7 +30,8 @@ pub(crate) fn finish(pass: &Pass<'_>, totals: [u64; 2], b: &mut Bound<'_>) {
     }
 }
 
-/// The workgroups of a portion's dispatch: `partition`, then one for each window of points and of primitives.
+/// The workgroups of a portion's dispatch: `partition`, then one for each window of points and of
+/// primitives.
 fn workgroups(job: &Job, part: u32, [points, primitives]: [[u32; 2]; 2]) -> u32 {
     let window_of = |window: u32, tiles: u32| [window * tiles, (window + 1) * tiles];
     match part.checked_sub(1) {

@@ -1,5 +1,5 @@
-//! The pass `groups`: the draw arguments of each group. A group can begin in one portion and end in another, so
-//! each portion writes what it knows, and the last one knows it right.
+//! The pass `groups`: the draw arguments of each group. A group can begin in one portion and end in
+//! another, so each portion writes what it knows, and the last one knows it right.
 
 use super::buffers::{Bound, PRIMITIVES, Pass};
 use tess_gpu::Resource::{Draws, Groups};

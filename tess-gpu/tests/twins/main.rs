@@ -1,5 +1,6 @@
-//! Twins of the passes: for each file of `shaders/entry_points` a function that says what the buffers must hold behind
-//! the pass, given what they held before. Read a twin first; the shader says how threads do it together.
+//! Twins of the passes: for each file of `shaders/entry_points` a function that says what the
+//! buffers must hold behind the pass, given what they held before. Read a twin first; the shader
+//! says how threads do it together.
 //!
 //! ```text
 //! pass                twin                      writes
@@ -15,10 +16,11 @@
 //! expand_short        expand_short.rs           Points, Indices
 //! ```
 //!
-//! Contexts, counts, points and triangles are those of `tess-core`. A batch runs pass by pass on wgpu, with the host code
-//! of `examples/bare_wgpu.rs`; behind each pass every word of every buffer that it may write is compared. What is not
-//! defined, and so taken from the device once it was checked: which slot a key gets, in which order the places of the
-//! catalogue are given, and the points of a culled topology.
+//! Contexts, counts, points and triangles are those of `tess-core`. A batch runs pass by pass on
+//! wgpu, with the host code of `examples/bare_wgpu.rs`; behind each pass every word of every buffer
+//! that it may write is compared. What is not defined, and so taken from the device once it was
+//! checked: which slot a key gets, in which order the places of the catalogue are given, and the
+//! points of a culled topology.
 
 #[allow(dead_code, reason = "the tests run the passes one by one")]
 #[path = "../../examples/bare_wgpu.rs"]

@@ -1,5 +1,6 @@
-//! The pass `partition`: for each tile of the portion's output the patch that its first element of the portion belongs
-//! to, then the patch of the portion's last element. No workgroup runs if the output does not fit.
+//! The pass `partition`: for each tile of the portion's output the patch that its first element of
+//! the portion belongs to, then the patch of the portion's last element. No workgroup runs if the
+//! output does not fit.
 
 use super::buffers::{Bound, Pass};
 use tess_gpu::Resource::Tiles;

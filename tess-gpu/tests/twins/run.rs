@@ -209,7 +209,8 @@ impl Machine {
         self.gpu.1.submit([encoder.finish()]);
     }
 
-    /// Poisons what the batch writes and returns the words of all buffers. A catalogue begins as zeros.
+    /// Poisons what the batch writes and returns the words of all buffers. A catalogue begins as
+    /// zeros.
     fn poisoned(&self, plan: &Plan, buffers: &bare_wgpu::Buffers) -> Words {
         use Resource::{Catalogue, Factors, Groups, Job, Tables};
         Resource::ALL.map(|resource| {

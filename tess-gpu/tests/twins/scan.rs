@@ -1,5 +1,5 @@
-//! The pass `scan`: where each block begins in its section of 256 blocks, and each section's counts. The pass
-//! `factors` has left the counts of the blocks.
+//! The pass `scan`: where each block begins in its section of 256 blocks, and each section's
+//! counts. The pass `factors` has left the counts of the blocks.
 
 use super::buffers::{Bound, Pass, sum};
 use tess_gpu::Resource::Offsets;

@@ -1,5 +1,6 @@
-//! The pass `totals`: where each section begins in the output, the portion's range and what the batch needs so far.
-//! Totals have a second word; offsets and ranges wrap, where the output could not fit anyway.
+//! The pass `totals`: where each section begins in the output, the portion's range and what the
+//! batch needs so far. Totals have a second word; offsets and ranges wrap, where the output could
+//! not fit anyway.
 
 use super::buffers::{Bound, POINTS, PRIMITIVES, Pass, STATUS_RANGES};
 use super::finish::finish;

@@ -29,8 +29,8 @@ impl Tessellator {
     /// point: [`Tessellator::count_patch`] and [`CountedPatch::write`] in one. Returns the output
     /// sizes.
     ///
-    /// Up to [`CountedPatch::OVERRUN`] elements after the output are overwritten in each buffer, if the
-    /// buffer is that large. Buffers of batches keep those elements; these do not.
+    /// Up to [`CountedPatch::OVERRUN`] elements after the output are overwritten in each buffer, if
+    /// the buffer is that large. Buffers of batches keep those elements; these do not.
     ///
     /// For a few patches or more, [`Tessellator::write`] is faster. This call uses only the calling
     /// thread, and allocates only when a topology is new.
@@ -97,8 +97,8 @@ impl Tessellator {
 }
 
 impl CountedPatch<'_> {
-    /// The number of elements after the output that may be overwritten in either buffer. Buffers with
-    /// that much room are written fastest.
+    /// The number of elements after the output that may be overwritten in either buffer. Buffers
+    /// with that much room are written fastest.
     pub const OVERRUN: usize = 64;
 
     /// The output sizes; zeros if the patch is culled.

@@ -33,8 +33,8 @@ use tess_core::{Config, Order};
 /// It takes memory as it meets patches ([`Tessellator::memory`]): 12 to 17 KB with the first small
 /// patch, 20 KB more with the first batch, and at most 1.2 MB for each thread. It allocates where a
 /// patch has point counts that are new to it, which is rare after the first frames.
-/// [`Tessellator::reserve`] takes all of it in advance. The only other allocations are the growth of
-/// an [`Output`] and, on several threads, a short list for each batch.
+/// [`Tessellator::reserve`] takes all of it in advance. The only other allocations are the growth
+/// of an [`Output`] and, on several threads, a short list for each batch.
 #[derive(Clone, Debug)]
 pub struct Tessellator {
     pub(super) level: Level,

@@ -315,9 +315,9 @@ fn topologies<const L: usize>(points: &[[u32; L]; MAX_FACTORS], minimum: &[u32; 
     topologies
 }
 
-/// Two or three bits for each factor, the rank of its count among those that a factor can have; then
-/// a bit for the domain, and bits that make the number too large. A minimum patch has ranks of 0,
-/// which no other patch with the count of its inside has.
+/// Two or three bits for each factor, the rank of its count among those that a factor can have;
+/// then a bit for the domain, and bits that make the number too large. A minimum patch has ranks of
+/// 0, which no other patch with the count of its inside has.
 #[inline(always)]
 fn small_topologies<const L: usize>(
     config: Config,

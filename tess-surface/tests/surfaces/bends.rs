@@ -1,5 +1,5 @@
-//! Bounds of second derivatives: the longest second differences of the control points, written with the points'
-//! indices, in binary64.
+//! Bounds of second derivatives: the longest second differences of the control points, written with
+//! the points' indices, in binary64.
 
 use glam::{DVec3, Vec3};
 use tess_surface::{Bend, BezierPatch, PnCorner, PnQuad, PnTriangle, Surface};
@@ -60,7 +60,8 @@ fn of_triangles() {
         let edges: [[Vec3; 2]; 3] =
             std::array::from_fn(|_| std::array::from_fn(|_| vector(&mut random)));
         let ([u, v, w], [[wv, vw], [wu, uw], [vu, uv]]) = (corners, edges);
-        // The paper's centre: the mean of the edges' points, moved half as far again from the corners' mean.
+        // The paper's centre: the mean of the edges' points, moved half as far again from the
+        // corners' mean.
         let mean = edges.as_flattened().iter().map(|point| point.as_dvec3()).sum::<DVec3>() / 6.0;
         let center = mean * 1.5 - (u + v + w).as_dvec3() / 6.0;
         // P(i, j, k) stands at i + 4 j: i steps from w to u, j to v.

@@ -1,4 +1,5 @@
-//! The tests that cull, at their bounds; `tess-wgpu` compares the same functions in WGSL with these.
+//! The tests that cull, at their bounds; `tess-wgpu` compares the same functions in WGSL with
+//! these.
 
 use glam::{Mat4, Vec3, Vec4};
 use tess_surface::culling::{faces_away, is_behind, is_outside};
@@ -14,8 +15,8 @@ fn a_ball_that_touches_a_plane_is_not_behind_it() {
     }
 }
 
-/// The view of this projection is x in -2..=2, y in -3..=3, z in 0..=4. A ball of radius 0.5 that touches a plane
-/// from outside is not outside, one a step farther away is.
+/// The view of this projection is x in -2..=2, y in -3..=3, z in 0..=4. A ball of radius 0.5 that
+/// touches a plane from outside is not outside, one a step farther away is.
 #[test]
 fn a_ball_is_outside_behind_any_of_six_planes() {
     let view = Mat4::from_scale(Vec3::new(0.5, 1.0 / 3.0, 0.25));

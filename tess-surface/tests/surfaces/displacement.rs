@@ -181,8 +181,8 @@ fn heights_beyond_the_image_move_points() {
     assert!(heights[..3] != heights[3..6] && heights[3..6] != heights[6..], "{heights:?}");
 }
 
-/// A flat patch over an image that rises evenly: its normals are those of the moved points' differences, however the
-/// texture coordinates run and whatever the unit of length is.
+/// A flat patch over an image that rises evenly: its normals are those of the moved points'
+/// differences, however the texture coordinates run and whatever the unit of length is.
 #[test]
 fn normals_are_those_of_the_displaced_surface() {
     let texels = (0..16 * 16).map(|i| (i % 16) as f32 * 0.05 + (i / 16) as f32 * 0.03).collect();

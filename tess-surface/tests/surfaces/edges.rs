@@ -7,7 +7,8 @@ use tess_surface::{
     BezierPatch, Curve, Direction, Edge, Model, PnCorner, Sample, Sides, Surface, SurfacePatch,
 };
 
-/// Control points that read the same backwards, polynomial and rational; no coordinate is a short binary number.
+/// Control points that read the same backwards, polynomial and rational; no coordinate is a short
+/// binary number.
 fn palindromes() -> [[Vec4; 4]; 2] {
     let [a, b] = [Vec4::new(0.1, 0.7, -0.3, 1.0), Vec4::new(1.3, 0.2, 0.9, 1.0)];
     [[a, b, b, a], [a * 0.7, b * 1.1, b * 1.1, a * 0.7]]
@@ -22,7 +23,8 @@ fn places() -> Vec<[f32; 2]> {
     (0..=1000u16).map(|i| f32::from(i) * 65.0 / 65536.0).map(|t| [t, 1.0 - t]).collect()
 }
 
-/// So close to a corner that the distance from the other one rounds to 1: the corner itself, whatever its weight.
+/// So close to a corner that the distance from the other one rounds to 1: the corner itself,
+/// whatever its weight.
 #[test]
 fn ends_of_weighted_edges_are_their_corners() {
     let points: [[Vec3; 4]; 4] = std::array::from_fn(|j| {
@@ -49,7 +51,8 @@ fn ends_of_weighted_edges_are_their_corners() {
     }
 }
 
-/// Such a curve has no canonical direction, so neighbours may walk it either way. It is folded in its middle.
+/// Such a curve has no canonical direction, so neighbours may walk it either way. It is folded in
+/// its middle.
 #[test]
 fn palindromic_curves_are_folded() {
     for points in palindromes() {

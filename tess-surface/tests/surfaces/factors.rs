@@ -108,7 +108,8 @@ fn quotients_end_at_1_and_64() {
     }
 }
 
-/// A low arch, whose second derivative is nearly the same everywhere: equal segments deviate by the tolerance, not less.
+/// A low arch, whose second derivative is nearly the same everywhere: equal segments deviate by the
+/// tolerance, not less.
 #[test]
 fn curvature_keeps_the_tolerance_and_no_more() {
     let corner = |x: f32, slope: f32| PnCorner {
@@ -142,7 +143,8 @@ fn insides_are_means() {
         "of the edges that run the same way"
     );
     assert_eq!(inside_triangle([1.0, 2.0, 6.0]), 3.0, "of all three");
-    // Three times this number is halfway between two floats, so that a third of the sum is another one.
+    // Three times this number is halfway between two floats, so that a third of the sum is another
+    // one.
     let awkward = f32::from_bits(1.5f32.to_bits() + 2);
     assert_ne!((awkward + awkward + awkward) / 3.0, awkward, "the plain mean");
     assert_eq!(inside_triangle([awkward; 3]), awkward, "equal edges");
@@ -190,7 +192,8 @@ fn flatness_follows_each_axis() {
     assert_eq!(factors(along_v), [16.0, 1.0, 16.0, 1.0, 1.0, 16.0], "bent along v");
 }
 
-/// The control points of u v h over the unit square: no line of them bends, and the mixed derivative is h.
+/// The control points of u v h over the unit square: no line of them bends, and the mixed
+/// derivative is h.
 #[test]
 fn a_twist_alone_bends() {
     let points = |h: f32| {
@@ -223,8 +226,8 @@ fn edge_points_of(factor: f32, partitioning: Partitioning) -> Vec<u32> {
     points
 }
 
-/// The largest distance of a point of an edge from that of the two halves beside it, in units of 2^-17; `None` if the
-/// numbers of points differ.
+/// The largest distance of a point of an edge from that of the two halves beside it, in units of
+/// 2^-17; `None` if the numbers of points differ.
 fn misfit(whole: f32, half: f32, partitioning: Partitioning) -> Option<u32> {
     let whole: Vec<u32> = edge_points_of(whole, partitioning).iter().map(|u| 2 * u).collect();
     let half = edge_points_of(half, partitioning);

@@ -148,7 +148,8 @@ pub(crate) fn fin() -> PolygonMesh {
     let mut mesh = hills();
     let row = 2 * 6;
     let first = u32::try_from(mesh.positions.len()).unwrap();
-    // Twisted: on a plane, the row beside an edge with one segment is so close to it that both are one in 16.16.
+    // Twisted: on a plane, the row beside an edge with one segment is so close to it that both are
+    // one in 16.16.
     let lean = |i: usize| Vec3::new(0.0, 0.8 * (i % 2) as f32, 1.0);
     let tops: Vec<Vec3> = (0..3).map(|i| mesh.positions[row + 1 + i] + lean(i)).collect();
     mesh.positions.extend(tops);

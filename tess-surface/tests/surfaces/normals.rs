@@ -93,7 +93,8 @@ fn normals_at_poles_are_limits() {
     }
 }
 
-/// The normal of a patch, not of unit length, at a place that is moved inwards by `by` from each border that it is on.
+/// The normal of a patch, not of unit length, at a place that is moved inwards by `by` from each
+/// border that it is on.
 fn nearby(patch: &BezierPatch, [u, v]: [f32; 2], by: f64) -> DVec3 {
     let inwards = |x: f32| f64::from(x).clamp(by, 1.0 - by);
     let [du, dv] = differences(patch, inwards(u), inwards(v));
@@ -109,7 +110,8 @@ fn integers(random: &mut SplitMix64) -> ([[Vec3; 4]; 4], [[f32; 4]; 4]) {
     (points, std::array::from_fn(|_| row()))
 }
 
-/// Corners whose two edges leave in one direction: the first derivatives span no plane, and the second ones decide.
+/// Corners whose two edges leave in one direction: the first derivatives span no plane, and the
+/// second ones decide.
 #[test]
 fn normals_at_cusps_are_limits() {
     let mut random = SplitMix64::new(7);
@@ -163,7 +165,8 @@ fn normals_at_collapsed_edges_are_limits() {
     assert!(compared > 100, "{compared} were compared");
 }
 
-/// A tip so flat that the second derivatives vanish too: its normal is that of a place a little further inside.
+/// A tip so flat that the second derivatives vanish too: its normal is that of a place a little
+/// further inside.
 #[test]
 fn normals_at_flat_tips_are_those_nearby() {
     let tip = [Vec3::ZERO; 4];

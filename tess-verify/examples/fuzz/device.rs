@@ -36,7 +36,8 @@ pub(crate) fn check(device: &mut Device, case: &Case) -> Result<(), String> {
     match check_case(device, case, Strength::default()) {
         Ok(None) => Ok(()),
         Ok(Some(wrong)) => Err(format!("{case}\n{}\n{wrong}", case.command())),
-        // A device that lacks the case's configuration is not compared; `Selection::fit` asks for those it has.
+        // A device that lacks the case's configuration is not compared; `Selection::fit` asks for
+        // those it has.
         Err(error) if error.is_unsupported() => Ok(()),
         Err(error) => Err(format!("{case}\n{error}")),
     }

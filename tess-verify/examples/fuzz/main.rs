@@ -2,9 +2,9 @@
 //!
 //!   cargo run --release --example fuzz --features arbitrary -- [SECONDS [SEED]] [--fault]
 //!
-//! Ends with the first finding (exit code 1), or with the number of cases a second. `--fault` plants a
-//! fault in the device. The same with cargo-fuzz, which follows what the bytes reach, is the target
-//! `device` in the folder `fuzz` of the repository.
+//! Ends with the first finding (exit code 1), or with the number of cases a second. `--fault`
+//! plants a fault in the device. The same with cargo-fuzz, which follows what the bytes reach, is
+//! the target `device` in the folder `fuzz` of the repository.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 pub(crate) mod device;

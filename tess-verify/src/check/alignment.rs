@@ -1,16 +1,18 @@
-//! The shortest explanation of answers that are out of step: the edit distance, and which edits make it.
+//! The shortest explanation of answers that are out of step: the edit distance, and which edits
+//! make it.
 //!
 //! ```text
 //! asked    A B C D E        A is answered; B is missing; C is answered; X stands in the place of D; E is answered;
 //! answers  A C X E E        the second E is one too many: three edits, and no other explanation has fewer
 //! ```
 //!
-//! `D[i][j]` is the least number of edits that make the answers from `i` on into what is asked from `j` on:
-//! the lower right corner is 0, and each other entry is the least of its right, lower and lower right neighbour
-//! plus one, or the lower right one where the cases agree. Neighbours differ by at most one, so a row
-//! of the matrix is bits, 64 entries in a word, and a row follows from the one below by a few operations on words
-//! (Myers, "A fast bit-vector algorithm for approximate string matching", 1999; Hyyrö's form). Two bits of each entry
-//! are kept: they say which edit is first.
+//! `D[i][j]` is the least number of edits that make the answers from `i` on into what is asked from
+//! `j` on: the lower right corner is 0, and each other entry is the least of its right, lower and
+//! lower right neighbour plus one, or the lower right one where the cases agree. Neighbours differ
+//! by at most one, so a row of the matrix is bits, 64 entries in a word, and a row follows from the
+//! one below by a few operations on words (Myers, "A fast bit-vector algorithm for approximate
+//! string matching", 1999; Hyyrö's form). Two bits of each entry are kept: they say which edit is
+//! first.
 
 use crate::case::Case;
 use std::collections::HashMap;
@@ -28,12 +30,13 @@ pub(super) enum Step {
     Missing,
 }
 
-/// A row of the matrix, or what is said of each of its entries; bit `j - 1` is that of the last `j` asked cases.
+/// A row of the matrix, or what is said of each of its entries; bit `j - 1` is that of the last `j`
+/// asked cases.
 type Bits = Vec<u64>;
 
-/// The fewest steps that explain `answers` to what was `asked`. Where there is a choice, an answer stands in the
-/// place of the next case. Is it `whole`, every case that is left is missing; if not, those behind the answers
-/// count nothing, as their answers are still to come.
+/// The fewest steps that explain `answers` to what was `asked`. Where there is a choice, an answer
+/// stands in the place of the next case. Is it `whole`, every case that is left is missing; if not,
+/// those behind the answers count nothing, as their answers are still to come.
 ///
 /// Time: the number of answers times that of words of 64 cases.
 pub(super) fn align(
@@ -43,7 +46,8 @@ pub(super) fn align(
     said: &mut Said,
 ) -> Vec<Step> {
     let words = asked.len().div_ceil(64);
-    // Where the cases stand that were answered; of others nothing is known, and nothing is allocated.
+    // Where the cases stand that were answered; of others nothing is known, and nothing is
+    // allocated.
     let mut places: HashMap<Case, Bits> =
         answers.iter().flatten().map(|case| (*case, Bits::new())).collect();
     for (bit, case) in asked.iter().rev().enumerate() {
@@ -64,7 +68,8 @@ pub(super) fn align(
     trace(answers, asked, whole, said)
 }
 
-/// The differences between an entry of a row and the one for one case fewer: up by one, or down by one.
+/// The differences between an entry of a row and the one for one case fewer: up by one, or down by
+/// one.
 struct Row {
     up: Bits,
     down: Bits,
@@ -73,7 +78,8 @@ struct Row {
 /// Two bits of each entry, row by row from the last answer on. The memory is used again.
 #[derive(Default)]
 pub(super) struct Said {
-    /// Equal to the entry for an answer and a case fewer: so the answer is right, or no replacement.
+    /// Equal to the entry for an answer and a case fewer: so the answer is right, or no
+    /// replacement.
     diagonal: Bits,
     /// One more than the entry for one case fewer: the case may be missing.
     up: Bits,
@@ -139,7 +145,8 @@ mod tests {
         line.parse().expect("a case")
     }
 
-    /// The matrix entry by entry: how many edits explain the answers, and whatever of what is asked.
+    /// The matrix entry by entry: how many edits explain the answers, and whatever of what is
+    /// asked.
     fn fewest(answers: &[Option<Case>], asked: &[Case], whole: bool) -> usize {
         let last = |j| if whole { asked.len() - j } else { 0 };
         let mut row: Vec<usize> = (0..=asked.len()).map(last).collect();
@@ -172,7 +179,8 @@ mod tests {
         steps.iter().filter(|step| **step != Step::Same).count()
     }
 
-    /// Texts of few and of many cases, shorter and longer than a word, equal in long parts or nowhere.
+    /// Texts of few and of many cases, shorter and longer than a word, equal in long parts or
+    /// nowhere.
     #[test]
     fn no_explanation_is_shorter() {
         let (mut random, mut said) = (SplitMix64::new(1), Said::default());

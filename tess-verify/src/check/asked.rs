@@ -1,14 +1,16 @@
-//! Cases that were asked, beside the answers: one dropped, repeated or foreign answer is one difference.
+//! Cases that were asked, beside the answers: one dropped, repeated or foreign answer is one
+//! difference.
 //!
 //! ```text
 //! asked    A B C D E      A is answered. C is not the next one: the answers and cases ahead are read, and
 //! answers  A C D E        the shortest explanation is that B is missing and everything behind it is in step
 //! ```
 //!
-//! While answers are in step, nothing is read ahead. Where they are not, at most [`WINDOW`] answers are read, and
-//! twice as many cases, and the fewest edits are found that explain these answers (`alignment`). Half of them
-//! are settled; what is best for the rest depends on what comes behind it. So a case is looked for as
-//! far as fewer than [`WINDOW`] are missing, and it is a place to go on from only if what follows agrees.
+//! While answers are in step, nothing is read ahead. Where they are not, at most [`WINDOW`] answers
+//! are read, and twice as many cases, and the fewest edits are found that explain these answers
+//! (`alignment`). Half of them are settled; what is best for the rest depends on what comes behind
+//! it. So a case is looked for as far as fewer than [`WINDOW`] are missing, and it is a place to go
+//! on from only if what follows agrees.
 
 use super::Known;
 use super::alignment::{Said, Step, align};
@@ -22,8 +24,9 @@ use std::io::BufRead;
 /// The cases that were asked, in the order in which a file is to answer them.
 pub type Asked<'a> = &'a mut (dyn Iterator<Item = Result<Case, VectorError>> + Send);
 
-/// How many answers are looked through where they are out of step: fewer may be missing, or too many, in one
-/// place. Of answers with more than 4000 points and indices each, fewer are looked through.
+/// How many answers are looked through where they are out of step: fewer may be missing, or too
+/// many, in one place. Of answers with more than 4000 points and indices each, fewer are looked
+/// through.
 const WINDOW: usize = 4096;
 
 /// Points and indices of the answers that are read ahead, at most and one answer more: some 100 MB.

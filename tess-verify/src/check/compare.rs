@@ -172,7 +172,8 @@ mod tests {
         }
     }
 
-    /// Each location belongs to the context in which it lies, the first and the last of each included.
+    /// Each location belongs to the context in which it lies, the first and the last of each
+    /// included.
     #[test]
     fn a_wrong_location_names_its_factor() {
         let factors = [0x2_0000, 0x3_8000, 0x4_0000].map(FixedFactor::from_bits);

@@ -108,7 +108,8 @@ mod tests {
         }
     }
 
-    /// A value that may be either in a record stays open; the choices that contradict others are left out.
+    /// A value that may be either in a record stays open; the choices that contradict others are
+    /// left out.
     #[test]
     fn what_does_not_show_stays_open() {
         let open = || shows(1, &[10, 20], &[0, 2]);

@@ -126,8 +126,9 @@ fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: SpecSt
     first
 }
 
-/// Cases whose factors came out differently: one off by a unit in the last place, or by one; all equal to 1; the inside
-/// raised to what makes a picture frame; and what is culled and what is not, the other way round.
+/// Cases whose factors came out differently: one off by a unit in the last place, or by one; all
+/// equal to 1; the inside raised to what makes a picture frame; and what is culled and what is not,
+/// the other way round.
 fn other_factors(case: &Case) -> Vec<Case> {
     let with = |factors| Case { factors, ..*case };
     let uniform = |factor| with(PatchFactors::uniform(case.domain(), factor));

@@ -54,8 +54,8 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Adds what was found of record `number`. Of one that is shown, `again` gives the record as a file, and whether it
-    /// passes alone.
+    /// Adds what was found of record `number`. Of one that is shown, `again` gives the record as a
+    /// file, and whether it passes alone.
     pub(super) fn add(
         &mut self,
         number: u64,
@@ -112,7 +112,8 @@ mod tests {
     use crate::check::MAX_DIFFERENCES;
     use crate::check::compare::SpecStage;
 
-    /// A record is kept as a file for the first differences, and for one that is the smallest so far.
+    /// A record is kept as a file for the first differences, and for one that is the smallest so
+    /// far.
     #[test]
     fn files_are_made_for_what_is_shown() {
         let mut findings = Findings::default();

@@ -173,11 +173,13 @@ impl Display for Entry {
 }
 
 impl Known {
-    /// Reads a baseline: lines, or a vector file of cases. If a standard is judged by, these are its rules and the
-    /// cases without an answer; else all cases. The other lines are left out. `today` is such as `2027-06-30`.
+    /// Reads a baseline: lines, or a vector file of cases. If a standard is judged by, these are
+    /// its rules and the cases without an answer; else all cases. The other lines are left out.
+    /// `today` is such as `2027-06-30`.
     ///
     /// # Errors
-    /// A line that is malformed, or has terms for a subject that stands in two lines; a file without a line or remark.
+    /// A line that is malformed, or has terms for a subject that stands in two lines; a file
+    /// without a line or remark.
     pub fn read(
         name: &str,
         reader: impl BufRead,
@@ -229,7 +231,8 @@ impl Known {
         self.entries.iter().map(ToString::to_string)
     }
 
-    /// The fate of the lines. If the `whole` of the work was done, lines are also unused that were not asked.
+    /// The fate of the lines. If the `whole` of the work was done, lines are also unused that were
+    /// not asked.
     #[must_use]
     pub fn outcome(&self, whole: bool) -> KnownOutcome {
         let KnownOutcome { mut met, mut gone, mut faults } = KnownOutcome::default();
@@ -258,7 +261,8 @@ pub struct KnownOutcome {
     pub met: u64,
     /// The lines without terms whose cases were asked and no longer differ.
     pub gone: Vec<String>,
-    /// The lines with terms that have expired, or expect what did not happen: each with its place and why.
+    /// The lines with terms that have expired, or expect what did not happen: each with its place
+    /// and why.
     pub faults: Vec<String>,
 }
 

@@ -52,8 +52,9 @@ impl Report {
         self.groups.sorted()
     }
 
-    /// The largest distance, of 8 or more, that the numbers of all records that differ are multiples of apart, if there are
-    /// three or more: a device that keeps something between patches may fail at every so many.
+    /// The largest distance, of 8 or more, that the numbers of all records that differ are
+    /// multiples of apart, if there are three or more: a device that keeps something between
+    /// patches may fail at every so many.
     #[must_use]
     pub const fn period(&self) -> Option<u64> {
         let Numbers { gap, .. } = self.numbers;
@@ -66,7 +67,8 @@ impl Report {
         self.explained = Some(std::array::from_fn(|i| before[i] && explained[i]));
     }
 
-    /// Whether a difference is one of those that are shown in full: of the first, or the smallest of a group.
+    /// Whether a difference is one of those that are shown in full: of the first, or the smallest
+    /// of a group.
     pub(super) fn shows(&self, difference: &Difference) -> bool {
         self.differences.len() < MAX_DIFFERENCES || self.groups.has_smallest(difference)
     }
@@ -99,7 +101,8 @@ impl Report {
     }
 }
 
-/// The numbers of records that differ: one of them, and what the distances between them are multiples of.
+/// The numbers of records that differ: one of them, and what the distances between them are
+/// multiples of.
 #[derive(Clone, Copy, Debug, Default)]
 struct Numbers {
     /// From 1; 0 if there is none.
@@ -141,8 +144,8 @@ pub struct Difference {
     pub case: Option<Case>,
     /// The record alone as a vector file; `None` for a listing, which may be long.
     pub file: Option<String>,
-    /// Whether it is right when the backend is asked for it again by itself: what came before matters. A device that
-    /// only gave a file is not asked.
+    /// Whether it is right when the backend is asked for it again by itself: what came before
+    /// matters. A device that only gave a file is not asked.
     pub passes_alone: bool,
 }
 

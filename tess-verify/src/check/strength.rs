@@ -1,8 +1,8 @@
 //! How closely another implementation is compared with the model (spec section 13).
 //!
-//! The model is exact, and the public specification leaves some freedom to hardware. [`Strength`] says which
-//! of that freedom counts as equal. `check::device` compares each answer of a device in a strength, and
-//! [`super::Way`] tries stronger and weaker ones to explain a difference.
+//! The model is exact, and the public specification leaves some freedom to hardware. [`Strength`]
+//! says which of that freedom counts as equal. `check::device` compares each answer of a device in
+//! a strength, and [`super::Way`] tries stronger and weaker ones to explain a difference.
 //!
 //! ```text
 //!  case ──► Alternatives ──► cases with each legal conversion ──► model ──► expected outputs
@@ -15,8 +15,9 @@
 //!
 //! # A worked patch
 //!
-//! `QUAD` has one outer factor of 3 + 2^-17. Times 65536 that is 196608.5, halfway between `0x30000` and
-//! `0x30001`. The model takes the even one; a device within 0.6 units may take either.
+//! `QUAD` has one outer factor of 3 + 2^-17. Times 65536 that is 196608.5, halfway between
+//! `0x30000` and `0x30001`. The model takes the even one; a device within 0.6 units may take
+//! either.
 //!
 //! ```
 //! use tess_verify::Case;
@@ -47,9 +48,9 @@
 //!
 //! # Why not a tolerance
 //!
-//! Comparing coordinates with a tolerance of one unit is simpler. It would accept a device that converts one
-//! value in two ways, and such a device has cracks between neighbouring patches. So each legal conversion is
-//! tessellated exactly (at most 64 per patch) and compared bit for bit.
+//! Comparing coordinates with a tolerance of one unit is simpler. It would accept a device that
+//! converts one value in two ways, and such a device has cracks between neighbouring patches. So
+//! each legal conversion is tessellated exactly (at most 64 per patch) and compared bit for bit.
 
 mod conversions;
 mod unordered;
@@ -68,9 +69,10 @@ pub enum ListOrder {
     /// The model's order, index for index.
     #[default]
     Exact,
-    /// The model's order of primitives and of their vertices, each vertex by its coordinates: however
-    /// points are numbered. The places of points are compared as in [`ListOrder::Any`], so an output that
-    /// this order accepts is accepted in any order too. Points alone are compared in the model's order.
+    /// The model's order of primitives and of their vertices, each vertex by its coordinates:
+    /// however points are numbered. The places of points are compared as in [`ListOrder::Any`], so
+    /// an output that this order accepts is accepted in any order too. Points alone are compared in
+    /// the model's order.
     Sequence,
     /// Any order, and any leading vertex of a triangle; its orientation counts.
     Any,

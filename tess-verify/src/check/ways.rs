@@ -1,5 +1,5 @@
-//! Explanations of a device that differs: freedoms that the specification leaves (spec section 13), and
-//! mistakes that every output shows in the same way.
+//! Explanations of a device that differs: freedoms that the specification leaves (spec section 13),
+//! and mistakes that every output shows in the same way.
 
 use crate::case::Case;
 use crate::check::strength::{Conversion, Denormals, ListOrder, Strength};
@@ -32,7 +32,8 @@ pub enum Way {
     Reversed,
     /// u and v are exchanged, and triangles turn as they should.
     Transposed,
-    /// u and v are exchanged, and each triangle has its vertices in the same order, so it turns the other way.
+    /// u and v are exchanged, and each triangle has its vertices in the same order, so it turns the
+    /// other way.
     TransposedReversed,
     /// u runs backwards, and triangles turn as they should.
     MirroredU,
@@ -44,7 +45,8 @@ pub enum Way {
     MirroredVReversed,
     /// On triangle patches, v and w are exchanged, and triangles turn as they should.
     ExchangedVW,
-    /// On triangle patches, v and w are exchanged, and each triangle has its vertices in the same order.
+    /// On triangle patches, v and w are exchanged, and each triangle has its vertices in the same
+    /// order.
     ExchangedVWReversed,
     /// An isoline patch takes its density for its detail, and the detail for its density.
     IsolineFactors,
@@ -135,8 +137,8 @@ impl Way {
         }
     }
 
-    /// Whether this explains an output that differs in a strength. `max_level` is the largest factor
-    /// that the device takes, 64 if it is not known to be larger.
+    /// Whether this explains an output that differs in a strength. `max_level` is the largest
+    /// factor that the device takes, 64 if it is not known to be larger.
     #[must_use]
     pub fn explains(
         self,
@@ -245,7 +247,8 @@ mod tests {
     use super::*;
     use tess_core::{Domain, Partitioning, PatchFactors};
 
-    /// The outputs are the model's for factor 100, which it clamps to 64, with a point more or none.
+    /// The outputs are the model's for factor 100, which it clamps to 64, with a point more or
+    /// none.
     #[test]
     fn larger_factors_explain_more_points() {
         let case = |factor: f32| {

@@ -3,9 +3,9 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::{Builder, scope};
 
-/// Runs `work` for each worker: the first on this thread, each other one on its own. A worker whose thread
-/// cannot be started does nothing, so that the others must be able to do all the work. `None` stands for
-/// a panic.
+/// Runs `work` for each worker: the first on this thread, each other one on its own. A worker whose
+/// thread cannot be started does nothing, so that the others must be able to do all the work.
+/// `None` stands for a panic.
 pub(crate) fn run<W: Send, T: Send>(
     workers: &mut [W],
     work: impl Fn(&mut W) -> T + Sync,

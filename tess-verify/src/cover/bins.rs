@@ -14,7 +14,8 @@ pub(super) fn all() -> &'static [String] {
     &ALL
 }
 
-/// The paths of the bins that the patches of configurations can hit: each of them and no other, in alphabetical order.
+/// The paths of the bins that the patches of configurations can hit: each of them and no other, in
+/// alphabetical order.
 pub(super) fn of(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Vec<String> {
     let mut bins = Vec::new();
     let mut stitched = Vec::new();
@@ -76,8 +77,8 @@ fn of_stitches(domain: Domain, partitioning: Partitioning, split: SplitOrder) ->
     bins
 }
 
-/// The roles that factors have, each with the partitioning that it is processed by: an isoline's density is an
-/// integer.
+/// The roles that factors have, each with the partitioning that it is processed by: an isoline's
+/// density is an integer.
 fn roles(domain: Domain, partitioning: Partitioning) -> [(&'static str, Partitioning); 2] {
     match domain {
         Domain::Isoline => [("outer", Partitioning::Integer), ("outer", partitioning)],
@@ -203,8 +204,8 @@ mod tests {
     use crate::generate::{GenLevel, Selection, boundary_factors, thresholds};
     use tess_core::{OutputPrimitive, PatchFactors};
 
-    /// Factors that hit what a domain's patches can hit: each boundary in each position, every pair of an outer
-    /// and an inside number of points, and the interiors of level 1.
+    /// Factors that hit what a domain's patches can hit: each boundary in each position, every pair
+    /// of an outer and an inside number of points, and the interiors of level 1.
     fn witnesses(domain: Domain) -> Vec<PatchFactors> {
         let mut all = Vec::new();
         let values = boundary_factors();

@@ -147,7 +147,8 @@ fn conversion(factor: &ProcessedFactor, hit: &mut impl FnMut(&str)) {
     }
 }
 
-/// The distances of a triangle's rings from its edges. Their products are even, so 0x7FFE is just below the middle.
+/// The distances of a triangle's rings from its edges. Their products are even, so 0x7FFE is just
+/// below the middle.
 fn rings(inside: &FactorContext, hit: &mut impl FnMut(&str)) {
     for ring in 1..inside.points / 2 {
         let product = place(inside, ring).to_bits() * TWO_THIRDS;
@@ -162,7 +163,8 @@ fn beside_middle(sum: u32, below: u32, names: [&str; 2], hit: &mut impl FnMut(&s
     }
 }
 
-/// The comparisons that decide whether a triangle or quad has a picture frame, or is a minimum patch.
+/// The comparisons that decide whether a triangle or quad has a picture frame, or is a minimum
+/// patch.
 fn largest(case: &Case, hit: &mut impl FnMut(&str)) {
     let bits = || case.factors.iter().map(f32::to_bits);
     let largest = bits().filter(|bits| *bits < FIRST_NAN).max();

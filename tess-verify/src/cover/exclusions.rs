@@ -12,7 +12,8 @@ pub struct Exclusions {
 }
 
 impl Exclusions {
-    /// Every bin that no patch of these configurations can hit, as those of a device that has no others.
+    /// Every bin that no patch of these configurations can hit, as those of a device that has no
+    /// others.
     #[must_use]
     pub fn outside(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Self {
         let within = bins::of(configurations);
@@ -20,8 +21,9 @@ impl Exclusions {
         Self { bins: bins::all().iter().filter(is_outside).map(String::as_str).collect() }
     }
 
-    /// Adds the bins of a pattern: a bin's path, or its first parts, of which each may be `*` for any. So
-    /// `transition` is a group, and `configuration/*/pow2` all of its bins with that partitioning.
+    /// Adds the bins of a pattern: a bin's path, or its first parts, of which each may be `*` for
+    /// any. So `transition` is a group, and `configuration/*/pow2` all of its bins with that
+    /// partitioning.
     ///
     /// # Errors
     /// No bin begins with it.
@@ -32,7 +34,8 @@ impl Exclusions {
                 .split('/')
                 .all(|part| found.next().is_some_and(|own| part == "*" || own == part))
         };
-        // The bins are sorted: those that begin as the pattern does before its first `*` stand together.
+        // The bins are sorted: those that begin as the pattern does before its first `*` stand
+        // together.
         let literal = pattern.split('*').next().unwrap_or_default();
         let from = bins::all().partition_point(|bin| bin.as_str() < literal);
         let near = bins::all()[from..].iter().take_while(|bin| bin.starts_with(literal));
@@ -44,8 +47,8 @@ impl Exclusions {
         Ok(())
     }
 
-    /// Reads patterns, one a line: a bin's path, or its first parts, of which each may be `*` for any. Empty lines and what
-    /// follows a `#` are left out.
+    /// Reads patterns, one a line: a bin's path, or its first parts, of which each may be `*` for
+    /// any. Empty lines and what follows a `#` are left out.
     ///
     /// # Errors
     /// A pattern of no bin, with its line.
@@ -67,7 +70,8 @@ impl Exclusions {
         self.bins.extend(&other.bins);
     }
 
-    /// The exclusions without the bins that were hit: for vectors beside those of other configurations.
+    /// The exclusions without the bins that were hit: for vectors beside those of other
+    /// configurations.
     #[must_use]
     pub fn not_hit(&self, coverage: &Coverage) -> Self {
         let is_hit = |bin: &str| coverage.hits(bin).is_some_and(|hits| hits > 0);

@@ -29,8 +29,8 @@ pub(super) fn observe(case: &Case, mut hit: impl FnMut(String)) {
     }
 }
 
-/// What a patch may leave behind for the next, a name and a value each: its kind, which is its domain and the way that
-/// it takes, and the fields of its configuration.
+/// What a patch may leave behind for the next, a name and a value each: its kind, which is its
+/// domain and the way that it takes, and the fields of its configuration.
 pub(super) fn sequence_values_of(case: &Case) -> [(&'static str, String); 4] {
     sequence_values(case.domain(), case.config, way_of(&case.patch()))
 }
@@ -212,8 +212,8 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    /// The bins that a case hits, but for those that `tests/thresholds.rs` is about, in alphabetical order, each with
-    /// how often.
+    /// The bins that a case hits, but for those that `tests/thresholds.rs` is about, in
+    /// alphabetical order, each with how often.
     fn bins(line: &str) -> Vec<String> {
         let case: Case = line.parse().expect("a case");
         let mut hits: BTreeMap<String, u32> = BTreeMap::new();
@@ -328,7 +328,8 @@ mod tests {
         }
     }
 
-    /// 3 + 2^-17 and 3 + 3 * 2^-17 lie in the middle between two numbers; the inside of a picture frame is raised.
+    /// 3 + 2^-17 and 3 + 3 * 2^-17 lie in the middle between two numbers; the inside of a picture
+    /// frame is raised.
     #[test]
     fn fractional_triangles() {
         expect(

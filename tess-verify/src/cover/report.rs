@@ -50,8 +50,8 @@ pub(super) fn sum(groups: &[BinGroup]) -> BinGroup {
     sum
 }
 
-/// How much of what is not excluded was hit, in percent with one digit behind the point; `-` if nothing is left.
-/// It is rounded down, so 100.0 is all of it.
+/// How much of what is not excluded was hit, in percent with one digit behind the point; `-` if
+/// nothing is left. It is rounded down, so 100.0 is all of it.
 pub(super) fn percent(group: &BinGroup) -> String {
     match (1000 * group.hit).checked_div(group.bins - group.excluded) {
         Some(tenths) => format!("{}.{}", tenths / 10, tenths % 10),
@@ -60,8 +60,8 @@ pub(super) fn percent(group: &BinGroup) -> String {
 }
 
 impl Coverage {
-    /// The report as text: a line for each group by stage, with sums, then every bin that was missed and
-    /// is not excluded.
+    /// The report as text: a line for each group by stage, with sums, then every bin that was
+    /// missed and is not excluded.
     #[must_use]
     pub fn report(&self, exclusions: &Exclusions) -> String {
         let mut text = format!(

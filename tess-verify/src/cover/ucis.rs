@@ -1,8 +1,9 @@
 //! Coverage as a file: UCIS XML (Accellera's Unified Coverage Interoperability Standard 1.0).
 //!
-//! A group is a coverpoint, a bin a bin of it. Everything but the hits is the same in every file, so
-//! that equal coverage gives equal bytes; the required date is a constant. The reader takes what the
-//! writer writes and nothing else: it compares line by line, and a file with other bins is an error.
+//! A group is a coverpoint, a bin a bin of it. Everything but the hits is the same in every file,
+//! so that equal coverage gives equal bytes; the required date is a constant. The reader takes what
+//! the writer writes and nothing else: it compares line by line, and a file with other bins is an
+//! error.
 
 use super::Coverage;
 use crate::quote::quoted;
@@ -54,7 +55,8 @@ impl Coverage {
     /// Reads what [`Coverage::to_ucis`] gave. A file that is longer is not read to its end.
     ///
     /// # Errors
-    /// The reader's; [`io::ErrorKind::InvalidData`] for any other text, and for files of a version with other bins, with the line.
+    /// The reader's; [`io::ErrorKind::InvalidData`] for any other text, and for files of a version
+    /// with other bins, with the line.
     pub fn read_ucis(reader: impl Read) -> io::Result<Self> {
         let mut bytes = Vec::new();
         reader.take(MOST_BYTES).read_to_end(&mut bytes)?;

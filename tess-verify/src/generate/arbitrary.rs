@@ -10,7 +10,8 @@ use std::sync::LazyLock;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 
 /// Any configuration, with the factors of [`crate::generate::random_patch`]; a quarter of them are
-/// boundaries of level 1. Most patches are small. No bytes are refused: where none are left, zeros come.
+/// boundaries of level 1. Most patches are small. No bytes are refused: where none are left, zeros
+/// come.
 impl<'a> Arbitrary<'a> for Case {
     fn arbitrary(bytes: &mut Unstructured<'a>) -> Result<Self> {
         let draw = &mut Bytes(bytes);

@@ -2,7 +2,8 @@
 
 use super::from_fixed;
 
-/// Every factor at which something changes: boundaries of levels 1 and 2, exceptional and special ones.
+/// Every factor at which something changes: boundaries of levels 1 and 2, exceptional and special
+/// ones.
 #[must_use]
 pub fn boundary_factors() -> Vec<f32> {
     [ordinary_factors(), exceptional_factors(), special_factors()].concat()

@@ -4,7 +4,8 @@ use super::configurations_among;
 use crate::case::Case;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
-/// The selected values of each part of a configuration: one or all, in the order of the specification; never none.
+/// The selected values of each part of a configuration: one or all, in the order of the
+/// specification; never none.
 #[derive(Clone, Debug)]
 pub(super) struct Choices {
     pub(super) domains: Vec<Domain>,
@@ -35,7 +36,8 @@ impl Choices {
         configurations_among(&self.domains, &self.partitionings, &self.outputs, &self.splits)
     }
 
-    /// A configuration that changes with `turn`: triangles three times in five, split orders by fours.
+    /// A configuration that changes with `turn`: triangles three times in five, split orders by
+    /// fours.
     pub(super) fn config(&self, partitioning: Partitioning, turn: usize) -> Config {
         let output = match turn % 5 {
             0 | 3 => OutputPrimitive::TriangleCw,
@@ -47,7 +49,8 @@ impl Choices {
         Config { partitioning, output, split: self.splits[(turn / 4) % self.splits.len()] }
     }
 
-    /// A configuration with an output that shows a patch's inside: clockwise triangles, where they are selected.
+    /// A configuration with an output that shows a patch's inside: clockwise triangles, where they
+    /// are selected.
     pub(super) fn surface_config(&self, partitioning: Partitioning, split: SplitOrder) -> Config {
         let triangles = OutputPrimitive::TriangleCw;
         let output = if self.outputs.contains(&triangles) { triangles } else { self.outputs[0] };

@@ -1,7 +1,8 @@
 //! The systematic parts of levels 1 and 2.
 //!
-//! Every part asks only what is selected, and asks all of it: where one split order or one partitioning is selected,
-//! its cases are not the few that another selection would give it, but a whole level of its own.
+//! Every part asks only what is selected, and asks all of it: where one split order or one
+//! partitioning is selected, its cases are not the few that another selection would give it, but a
+//! whole level of its own.
 
 use super::choices::Choices;
 use super::{boundary_factors, exceptional_factors, from_fixed, ordinary_factors, special_factors};
@@ -11,13 +12,14 @@ use tess_core::{Config, Domain, Partitioning, PatchFactors, QuadFactors};
 /// Factors for the positions that a case is not about, small enough to keep it short.
 const PLAIN: [f32; 8] = [3.0, 1.0, 4.5, 2.0, 7.25, 5.0, 1.5, 6.0];
 
-/// Factors whose split points differ between the split orders, and whose counts between all partitionings but
-/// integer and pow2, which are the same to a tessellator.
+/// Factors whose split points differ between the split orders, and whose counts between all
+/// partitionings but integer and pow2, which are the same to a tessellator.
 const TELLING: [f32; 6] = [6.75, 10.25, 8.5, 12.75, 9.25, 7.5];
 
-/// Every boundary once: special and boundary factors in rotating positions, special factors in every position, every
-/// transition in each split order, small and large interiors, patches beside minimum ones, both sides of every
-/// comparison, and every value of a configuration after every other.
+/// Every boundary once: special and boundary factors in rotating positions, special factors in
+/// every position, every transition in each split order, small and large interiors, patches beside
+/// minimum ones, both sides of every comparison, and every value of a configuration after every
+/// other.
 pub(super) fn one(choices: &Choices) -> Vec<Case> {
     let mut cases = Vec::new();
     for (domain, partitioning) in choices.combinations() {
@@ -66,8 +68,8 @@ fn one_value(
     Case { config: choices.config(partitioning, turn), factors }
 }
 
-/// Each boundary as an outer factor and as an inside one, in rotating positions; of isolines as the density and as the
-/// detail.
+/// Each boundary as an outer factor and as an inside one, in rotating positions; of isolines as the
+/// density and as the detail.
 fn boundaries(
     cases: &mut Vec<Case>,
     choices: &Choices,
@@ -124,8 +126,8 @@ fn beside_minimum(
     }
 }
 
-/// Every pair of an outer and an inside number of points that a partitioning has, in each split order. Beside quads,
-/// triangles have each pair in one of the orders.
+/// Every pair of an outer and an inside number of points that a partitioning has, in each split
+/// order. Beside quads, triangles have each pair in one of the orders.
 fn transitions(cases: &mut Vec<Case>, choices: &Choices) {
     let partitioning = choices.partitioning(&[Partitioning::Integer]);
     let counts = segments(partitioning);
@@ -152,8 +154,8 @@ fn transitions(cases: &mut Vec<Case>, choices: &Choices) {
     }
 }
 
-/// Factors of which each gives another number of points, ascending: all of them there are. Fractional ones lie
-/// between two whole numbers.
+/// Factors of which each gives another number of points, ascending: all of them there are.
+/// Fractional ones lie between two whole numbers.
 fn segments(partitioning: Partitioning) -> Vec<f32> {
     let whole = |n: u32| from_fixed(n << 16);
     let below = |n: u32| from_fixed((n << 16) - 0x6000);
@@ -164,8 +166,8 @@ fn segments(partitioning: Partitioning) -> Vec<f32> {
     }
 }
 
-/// Quads with these four outer factors against an inside factor, each along both axes. A quad is narrow along its other
-/// axis, which keeps it short.
+/// Quads with these four outer factors against an inside factor, each along both axes. A quad is
+/// narrow along its other axis, which keeps it short.
 fn quads_with(outer: &[f32], inside: f32, turn: usize) -> [QuadFactors; 4] {
     let [a, b, c, d] = [0, 1, 2, 3].map(|k| outer[k]);
     let (wide, narrow) = (inside, [1.0, 2.0, 3.0, 4.0][turn % 4]);
@@ -178,8 +180,8 @@ fn quads_with(outer: &[f32], inside: f32, turn: usize) -> [QuadFactors; 4] {
     ]
 }
 
-/// Pairs of inside factors on quads, with the fractional partitionings a little below, and each inside factor on
-/// triangles; split orders in turn.
+/// Pairs of inside factors on quads, with the fractional partitionings a little below, and each
+/// inside factor on triangles; split orders in turn.
 fn interiors(cases: &mut Vec<Case>, choices: &Choices, wanted: impl Fn(u8, u8) -> bool) {
     for partitioning in choices.distinct_partitionings() {
         let shift = if partitioning.has_integer_factors() { 0 } else { 0x6000 };
@@ -216,8 +218,8 @@ fn every_configuration(cases: &mut Vec<Case>, choices: &Choices) {
     }
 }
 
-/// Pairs of patches of which the first may leave its state to the second: every kind after every kind, and each value of
-/// a configuration after each other one, while all else stays.
+/// Pairs of patches of which the first may leave its state to the second: every kind after every
+/// kind, and each value of a configuration after each other one, while all else stays.
 fn sequences(cases: &mut Vec<Case>, choices: &Choices) {
     kinds(cases, choices);
     for &domain in &choices.domains {
@@ -237,7 +239,8 @@ fn sequences(cases: &mut Vec<Case>, choices: &Choices) {
     }
 }
 
-/// Every kind of patch after every kind: of each domain one that is culled, one that is minimum and one that is neither.
+/// Every kind of patch after every kind: of each domain one that is culled, one that is minimum and
+/// one that is neither.
 fn kinds(cases: &mut Vec<Case>, choices: &Choices) {
     // The one that has picture frames.
     let partitioning = choices.partitioning(&[Partitioning::FractionalOdd]);

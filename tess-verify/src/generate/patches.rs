@@ -8,8 +8,8 @@ use tess_core::{Domain, PatchFactors};
 const MAXIMUM: u16 = 64;
 /// Where most factors of [`random_patch`] end.
 const SMALL: u16 = 6;
-/// Factors that clamp to 1 in every partitioning that has it: 1, just below it, a half, the smallest
-/// normal number and the smallest of all.
+/// Factors that clamp to 1 in every partitioning that has it: 1, just below it, a half, the
+/// smallest normal number and the smallest of all.
 const UP_TO_ONE: [f32; 5] =
     [1.0, f32::from_bits(0x3F7F_FFFF), 0.5, f32::MIN_POSITIVE, f32::from_bits(1)];
 
@@ -74,7 +74,8 @@ mod tests {
     use crate::generate::SplitMix64;
     use crate::vectors::Fnv1a;
 
-    /// A seed means the same patches on every machine and in every release that does not say otherwise.
+    /// A seed means the same patches on every machine and in every release that does not say
+    /// otherwise.
     #[test]
     fn random_patches_are_the_recorded_ones() {
         let digests = Domain::ALL.map(|domain| {

@@ -63,8 +63,8 @@ impl SplitMix64 {
         (self.next_u64() >> 32) as u32
     }
 
-    /// A number in `0..bound`, from 32 bits scaled, so the lower numbers are the least bit likelier.
-    /// A bound of 0 gives 0.
+    /// A number in `0..bound`, from 32 bits scaled, so the lower numbers are the least bit
+    /// likelier. A bound of 0 gives 0.
     pub const fn below(&mut self, bound: u32) -> u32 {
         ((self.next_u32() as u64 * bound as u64) >> 32) as u32
     }

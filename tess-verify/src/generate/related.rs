@@ -29,7 +29,8 @@ fn levels() -> Vec<f32> {
     levels
 }
 
-/// A family for each level of each domain and spacing, and patches beside the least that has an inside.
+/// A family for each level of each domain and spacing, and patches beside the least that has an
+/// inside.
 pub(super) fn systematic() -> Vec<Case> {
     let levels = levels();
     let mut cases = Vec::new();
@@ -58,7 +59,8 @@ pub(super) fn systematic() -> Vec<Case> {
             }
         }
     }
-    // Only where all other levels are 1 does one that is barely above 1 decide whether there is an inside.
+    // Only where all other levels are 1 does one that is barely above 1 decide whether there is an
+    // inside.
     let frames = super::thresholds().into_iter().filter(|(side, _)| side.starts_with("frame/"));
     cases.extend(frames.map(|(_, case)| case));
     powers_of_two(&mut cases);

@@ -1,7 +1,8 @@
 //! Cases on each side of every comparison of the specification that a patch can show.
 //!
-//! A comparison may be hidden: where all factors are equal, one that lies just above the threshold of the picture frame
-//! changes nothing. In these cases the neighbouring threshold changes the output:
+//! A comparison may be hidden: where all factors are equal, one that lies just above the threshold
+//! of the picture frame changes nothing. In these cases the neighbouring threshold changes the
+//! output:
 //!
 //! ```text
 //!                     below              above
@@ -9,8 +10,9 @@
 //! round               40000000           40000001           2 segments, or 3
 //! ```
 //!
-//! Each entry is a comparison with a side of it, and a case that lies exactly there. The bins `boundary/*` of the
-//! coverage have the same names; what lies there is said where they are observed.
+//! Each entry is a comparison with a side of it, and a case that lies exactly there. The bins
+//! `boundary/*` of the coverage have the same names; what lies there is said where they are
+//! observed.
 
 use super::choices::Choices;
 use super::from_fixed;
@@ -21,19 +23,21 @@ type Threshold = (&'static str, Case);
 
 /// The smallest binary32 that is not a number, which lies just above infinity.
 pub(crate) const FIRST_NAN: u32 = 0x7F80_0001;
-/// 1 + 2^-17 and what is just above it: only the latter makes a picture frame, and is more than one in fixed point.
+/// 1 + 2^-17 and what is just above it: only the latter makes a picture frame, and is more than one
+/// in fixed point.
 pub(crate) const FRAME: [u32; 2] = [0x3F80_0040, 0x3F80_0041];
 pub(crate) const SIGN: u32 = 0x8000_0000;
 const ONE: f32 = 1.0;
 
-/// Every entry, in the order of the specification: a bin of the group `boundary` without the group, such as
-/// `frame/above`, and a case.
+/// Every entry, in the order of the specification: a bin of the group `boundary` without the group,
+/// such as `frame/above`, and a case.
 #[must_use]
 pub fn thresholds() -> Vec<(&'static str, Case)> {
     of(&Choices::all())
 }
 
-/// The entries of a selection, whose patches have both sides of each comparison that they can be beside.
+/// The entries of a selection, whose patches have both sides of each comparison that they can be
+/// beside.
 pub(super) fn of(choices: &Choices) -> Vec<Threshold> {
     let mut list = Thresholds { choices, list: Vec::new() };
     for &domain in &choices.domains {
@@ -113,8 +117,8 @@ impl Thresholds<'_> {
         }
     }
 
-    /// All factors at the lower end of the range; outer factors at the upper end, then inside factors, of isolines the
-    /// density, then the detail.
+    /// All factors at the lower end of the range; outer factors at the upper end, then inside
+    /// factors, of isolines the density, then the detail.
     fn clamp(&mut self, domain: Domain, partitioning: Partitioning) {
         let of = |p| match is_integer(domain, partitioning, p) {
             true => Partitioning::Integer,
@@ -145,8 +149,8 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Powers of two from 1 to 32, in each position that is rounded: exact, one pattern more, and the last pattern
-    /// before the next.
+    /// Powers of two from 1 to 32, in each position that is rounded: exact, one pattern more, and
+    /// the last pattern before the next.
     fn round(&mut self, domain: Domain, partitioning: Partitioning) {
         if !is_integer(domain, partitioning, 0) {
             return;
@@ -220,7 +224,8 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Halfway between two 15.16 numbers, and one pattern to each side, in each position and binade.
+    /// Halfway between two 15.16 numbers, and one pattern to each side, in each position and
+    /// binade.
     fn conversion(&mut self, domain: Domain, partitioning: Partitioning) {
         let moves = match partitioning {
             Partitioning::Integer | Partitioning::Pow2 => return,
@@ -258,8 +263,8 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Quads of every size whose inside factors differ by at most two, either being the larger. An inside factor of 1
-    /// is 2.
+    /// Quads of every size whose inside factors differ by at most two, either being the larger. An
+    /// inside factor of 1 is 2.
     fn wider(&mut self) {
         let partitioning = self.choices.partitioning(&[Partitioning::Integer]);
         for u in 2..=64u8 {
@@ -276,7 +281,8 @@ impl Thresholds<'_> {
         }
     }
 
-    /// A patch with a factor in whose context the split order shows: an isoline's detail, else an outer factor.
+    /// A patch with a factor in whose context the split order shows: an isoline's detail, else an
+    /// outer factor.
     fn push_detail(&mut self, side: &'static str, partitioning: Partitioning, detail: u32) {
         let domain = self.choices.domains[0];
         let position = usize::from(domain == Domain::Isoline);
@@ -284,7 +290,8 @@ impl Thresholds<'_> {
         self.push_in_each_order(side, partitioning, factors);
     }
 
-    /// Factors that are whole, and those by a unit above: the least that splits a point off, in both orders.
+    /// Factors that are whole, and those by a unit above: the least that splits a point off, in
+    /// both orders.
     fn whole(&mut self) {
         for whole in 1..=62u32 {
             let partitioning = match whole % 2 {
@@ -314,6 +321,7 @@ impl Thresholds<'_> {
     }
 }
 
-/// Even 15.16 numbers in each binade from 1 or 2 on, whose odd successor moves a point on an outer edge and inside.
+/// Even 15.16 numbers in each binade from 1 or 2 on, whose odd successor moves a point on an outer
+/// edge and inside.
 const ODD_MOVES: [u32; 6] = [0x1_0200, 0x2_0204, 0x4_0204, 0x8_0202, 0x10_0210, 0x20_0200];
 const EVEN_MOVES: [u32; 5] = [0x2_0204, 0x4_0202, 0x8_0206, 0x10_0202, 0x20_0216];

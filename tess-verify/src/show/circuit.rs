@@ -1,4 +1,5 @@
-//! The signals of the circuit in `rtl/`: which stage and module gives each, and its value by the model.
+//! The signals of the circuit in `rtl/`: which stage and module gives each, and its value by the
+//! model.
 //!
 //! ```
 //! use tess_verify::show::{Part, compare_signals};
@@ -57,8 +58,8 @@ const fn signal(stage: &'static str, name: &'static str, module: &'static str) -
     Signal { stage, name, module }
 }
 
-// Those of each part are in the order in which each feeds the next. `rtl/stages.tsv` has the same list for the
-// circuit's benches, which a test compares.
+// Those of each part are in the order in which each feeds the next. `rtl/stages.tsv` has the same
+// list for the circuit's benches, which a test compares.
 const CULLED: Signal = signal("factors", "culled", "tess_factors");
 const FIXED: Signal = signal("factors", "fixed", "tess_factor");
 const ODD: Signal = signal("factors", "odd", "tess_factor");
@@ -121,8 +122,8 @@ pub enum SignalError {
     NoSuchSignal(String, Vec<&'static str>),
 }
 
-/// The signals that differ from the model, in the order in which each feeds the next. What follows from the first is
-/// there too.
+/// The signals that differ from the model, in the order in which each feeds the next. What follows
+/// from the first is there too.
 ///
 /// # Errors
 /// [`SignalError`]. A culled patch has no signal of its factors but `culled`.
@@ -208,8 +209,8 @@ mod tests {
         line.parse().expect("a case")
     }
 
-    /// The list of the circuit's benches, row by row: the option of `tess explain` that chooses the part, then the signal.
-    /// A published package has none.
+    /// The list of the circuit's benches, row by row: the option of `tess explain` that chooses the
+    /// part, then the signal. A published package has none.
     #[test]
     fn the_circuit_has_the_same_signals() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../rtl/stages.tsv");

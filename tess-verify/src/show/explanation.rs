@@ -1,4 +1,5 @@
-//! One patch, stage by stage: what `tess explain` prints as text or, with the feature `serde`, JSON.
+//! One patch, stage by stage: what `tess explain` prints as text or, with the feature `serde`,
+//! JSON.
 
 mod decisions;
 mod factors;
@@ -17,7 +18,8 @@ pub(crate) use primitive::PrimitiveReport;
 use std::fmt;
 use structure::{PointRun, Stitch};
 
-/// Where a part of a patch comes from, or every stage of the patch: text, and JSON with the feature `serde`.
+/// Where a part of a patch comes from, or every stage of the patch: text, and JSON with the feature
+/// `serde`.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Explanation(PartReport);

@@ -5,8 +5,9 @@ use crate::check::{Difference, Element};
 use tess_core::{Patch, Tessellation};
 
 impl Difference {
-    /// Where the model's element comes from, with the values that went into it; `None` if the model has no such
-    /// element. An element by its vertices is the first of the model's that has them, whichever vertex leads.
+    /// Where the model's element comes from, with the values that went into it; `None` if the model
+    /// has no such element. An element by its vertices is the first of the model's that has them,
+    /// whichever vertex leads.
     #[must_use]
     pub fn origin(&self) -> Option<String> {
         let patch = self.case?.patch();

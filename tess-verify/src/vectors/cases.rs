@@ -55,8 +55,8 @@ impl<R: BufRead> Cases<R> {
         Self::open(name.as_ref(), reader, Emptiness::Refused)
     }
 
-    /// [`Self::new`], for a baseline: it may be a vector file without records, or have only remarks. An empty text is
-    /// still an error.
+    /// [`Self::new`], for a baseline: it may be a vector file without records, or have only
+    /// remarks. An empty text is still an error.
     ///
     /// # Errors
     /// As for [`Self::new`].

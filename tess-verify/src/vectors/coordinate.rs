@@ -21,9 +21,9 @@ pub const fn fixed(bits: u32) -> Option<u32> {
 
 /// The 16.16 number in 0..=1 that a decimal text is, rounded to the digits that it has.
 ///
-/// The text must be the number itself or the number rounded to the text's last digit, and must be nearer
-/// to the number's binary32 than to any other. So `0.333328247` is 21845/65536, and `0.999999999` and
-/// `1e-50` are no numbers: 1 and 0 with as many digits are written otherwise.
+/// The text must be the number itself or the number rounded to the text's last digit, and must be
+/// nearer to the number's binary32 than to any other. So `0.333328247` is 21845/65536, and
+/// `0.999999999` and `1e-50` are no numbers: 1 and 0 with as many digits are written otherwise.
 #[must_use]
 pub(crate) fn from_decimal(text: &str) -> Option<u32> {
     let number = fixed(text.parse::<f32>().ok()?.to_bits())?;
@@ -83,8 +83,8 @@ mod tests {
         }
     }
 
-    /// With 9 significant digits, as `%.9g` writes them, with 12 decimals and more, and the shortest that
-    /// a reader takes for the binary32.
+    /// With 9 significant digits, as `%.9g` writes them, with 12 decimals and more, and the
+    /// shortest that a reader takes for the binary32.
     #[test]
     fn every_coordinate_in_decimal() {
         for number in (0..=ONE).step_by(7).chain([1, ONE - 1, ONE]) {
@@ -103,7 +103,8 @@ mod tests {
         }
     }
 
-    /// Texts that only round to a coordinate as a binary32, and other forms of numbers that are none.
+    /// Texts that only round to a coordinate as a binary32, and other forms of numbers that are
+    /// none.
     #[test]
     fn decimals_that_are_no_coordinates() {
         for text in [

@@ -49,9 +49,10 @@ impl Coordinates {
         }
     }
 
-    /// The output with the model's numbers: each vertex is the model's point at that place, the one that
-    /// the model has in this position if several coincide; places that the model lacks are points after
-    /// the model's. An output that is the model's sequence is the model's, index for index.
+    /// The output with the model's numbers: each vertex is the model's point at that place, the one
+    /// that the model has in this position if several coincide; places that the model lacks are
+    /// points after the model's. An output that is the model's sequence is the model's, index for
+    /// index.
     #[must_use]
     pub fn numbered(&self) -> Listing {
         let model = self.case.patch().tessellate();

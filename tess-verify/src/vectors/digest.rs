@@ -27,8 +27,8 @@ impl Fnv1a {
         self.words(points.iter().flat_map(|point| [point.u.to_bits(), point.v.to_bits()]));
     }
 
-    /// Continues over a whole patch, as chained rows do: point count, index count, points, indices. An implementation
-    /// under test may return more than a patch has, never 2^32 elements.
+    /// Continues over a whole patch, as chained rows do: point count, index count, points, indices.
+    /// An implementation under test may return more than a patch has, never 2^32 elements.
     pub fn patch(&mut self, patch: &Tessellation) {
         let count = |elements| u32::try_from(elements).unwrap_or(u32::MAX);
         self.words([patch.points.len(), patch.indices.len()].map(count));

@@ -124,7 +124,8 @@ impl<R: BufRead> Lines<R> {
 mod tests {
     use super::*;
 
-    /// The longest line, whole in the reader's buffer or not, ended in either way; and one byte more.
+    /// The longest line, whole in the reader's buffer or not, ended in either way; and one byte
+    /// more.
     #[test]
     fn the_longest_line_is_taken() {
         for end in ["\n", "\r\n"] {

@@ -52,8 +52,8 @@ impl fmt::Display for Listing {
     }
 }
 
-/// Reads the points and primitives of a listing: of its lines, the one that announces the points was
-/// read already.
+/// Reads the points and primitives of a listing: of its lines, the one that announces the points
+/// was read already.
 pub(super) fn read<R: BufRead>(
     lines: &mut Lines<R>,
     case: Case,
@@ -67,8 +67,8 @@ pub(super) fn read<R: BufRead>(
 
 /// The points, of which the line that announces them was read already.
 ///
-/// A device without an index buffer lists a point for each vertex of each primitive, so there may be as many
-/// points as indices, not only the model's 4225.
+/// A device without an index buffer lists a point for each vertex of each primitive, so there may
+/// be as many points as indices, not only the model's 4225.
 fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorError> {
     let count = announced(lines.last(), "points", MAX_INDICES)?;
     let mut points = Vec::with_capacity(count);

@@ -76,7 +76,8 @@ impl fmt::Display for Record {
     }
 }
 
-/// Reads a listing of either form, of which the first line was read already. Errors name it: it is record `number`.
+/// Reads a listing of either form, of which the first line was read already. Errors name it: it is
+/// record `number`.
 pub(super) fn read_listing<R: BufRead>(
     lines: &mut Lines<R>,
     number: u64,

@@ -5,8 +5,8 @@ use crate::case::Case;
 use crate::names::Named;
 use std::io::{self, Write};
 
-/// Writes a vector file of the header's kind: `patches`, a row of counts and digests for each case, or `listings`, every
-/// point and primitive.
+/// Writes a vector file of the header's kind: `patches`, a row of counts and digests for each case,
+/// or `listings`, every point and primitive.
 ///
 /// # Errors
 /// Those of the writer; [`io::ErrorKind::InvalidInput`] for another kind.

@@ -59,8 +59,8 @@ fn isolines() -> Workload {
     Workload::single("seed-table/isolines", config, patches)
 }
 
-/// `unlike-K`: as `uniform-K`, but every other patch has the factors K - 1/2, which integer rounds to K. So all
-/// patches have the same output, and no two neighbours the same factors.
+/// `unlike-K`: as `uniform-K`, but every other patch has the factors K - 1/2, which integer rounds
+/// to K. So all patches have the same output, and no two neighbours the same factors.
 fn unlike(factor: u8) -> Workload {
     let alike = uniform(factor);
     let other = quad([f32::from(factor) - 0.5; 6]);
@@ -69,7 +69,8 @@ fn unlike(factor: u8) -> Workload {
     Workload { name: format!("unlike-{factor}"), patches, ..alike }
 }
 
-/// `single/...`: one patch at a time, of small patches, and of the workloads in which neighbours are unlike.
+/// `single/...`: one patch at a time, of small patches, and of the workloads in which neighbours
+/// are unlike.
 #[must_use]
 pub(super) fn single() -> Vec<Workload> {
     let uniforms = [1, 2, 4, 8].map(uniform);
@@ -147,8 +148,8 @@ pub(super) fn mosaic_even() -> Workload {
 }
 
 /// `meshes/...`: 256 meshes of 40 to 400 patches, `fractional_odd`, their edge factors as in
-/// `character`; an inside factor is the mean of the edges. Of `triangles` and of `quads`, each mesh a
-/// call, and (`-at-once`) all of them in one call.
+/// `character`; an inside factor is the mean of the edges. Of `triangles` and of `quads`, each mesh
+/// a call, and (`-at-once`) all of them in one call.
 #[must_use]
 pub(super) fn meshes() -> Vec<Workload> {
     let triangles = meshes_of("triangles", character_triangle);

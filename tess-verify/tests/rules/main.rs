@@ -54,8 +54,8 @@ fn row(report: &RulesReport, rule: Rule) -> &RuleRow {
     report.rows.iter().find(|row| row.rule == rule).expect("a rule of the standard")
 }
 
-/// The systematic families with the standard split order, of which docs/rules.md has the counts; behind them come
-/// patches beside the thresholds.
+/// The systematic families with the standard split order, of which docs/rules.md has the counts;
+/// behind them come patches beside the thresholds.
 fn population() -> impl Iterator<Item = Case> {
     let split = Some(tess_core::SplitOrder::Ruler);
     Selection { split, ..Selection::level(GenLevel::Rules, 1) }.cases().take(12_150)

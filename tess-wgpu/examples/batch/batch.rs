@@ -83,7 +83,8 @@ struct Compute {
 }
 
 impl Compute {
-    /// One of `threads` threads in workgroups of 64, over `buffers` as bindings 0, 1, ... of group 0.
+    /// One of `threads` threads in workgroups of 64, over `buffers` as bindings 0, 1, ... of
+    /// group 0.
     fn new(
         gpu: &Gpu,
         (module, entry_point): (&wgpu::ShaderModule, &str),

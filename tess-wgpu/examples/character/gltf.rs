@@ -162,8 +162,8 @@ pub(crate) fn write(mesh: &Mesh) -> String {
     file.to_string()
 }
 
-/// The first mesh of a glTF file as [`write`] writes it: one buffer inside, positions, normals and 32-bit
-/// indices.
+/// The first mesh of a glTF file as [`write`] writes it: one buffer inside, positions, normals and
+/// 32-bit indices.
 pub(crate) fn read(text: &str) -> Result<Mesh, Box<dyn Error>> {
     let file: Value = serde_json::from_str(text)?;
     let uri = file["buffers"][0]["uri"].as_str().ok_or("the file has no buffer inside")?;

@@ -48,7 +48,8 @@ pub(crate) struct Passes {
 }
 
 impl Show for Passes {
-    /// `--prepass off` leaves out the passes of depth alone; `--points stored` calls `domain` in each pass.
+    /// `--prepass off` leaves out the passes of depth alone; `--points stored` calls `domain` in
+    /// each pass.
     fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>> {
         let frame = gpu.buffer("frame", 208, Usage::UNIFORM | Usage::COPY_DST)?;
         let (layout, group) = bind(gpu, &[Bound::Uniform(&frame)]);

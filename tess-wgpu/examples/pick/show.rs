@@ -43,7 +43,8 @@ pub(crate) fn camera() -> Camera {
     Camera { eye, target, up: Vec3::Z, zoom: 2.2 }
 }
 
-/// The direction from the eye through a place of the picture, from (0, 0) at its left and upper end to (1, 1).
+/// The direction from the eye through a place of the picture, from (0, 0) at its left and upper end
+/// to (1, 1).
 pub(crate) fn direction(camera: &Camera, at: Vec2, aspect: f32) -> Vec3 {
     let forward = (camera.target - camera.eye).normalize_or(Vec3::Z);
     let right = forward.cross(camera.up).normalize_or(Vec3::X);
@@ -115,7 +116,8 @@ impl Show for Pick {
 }
 
 impl Pick {
-    /// Records the passes over the stage's vertices and indices. A later frame may have other buffers.
+    /// Records the passes over the stage's vertices and indices. A later frame may have other
+    /// buffers.
     fn find(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Result<(), Box<dyn Error>> {
         let vertices = self.stage.vertices().ok_or("vertices are stored")?;
         let indices = self.stage.indices().ok_or("indices are stored")?;

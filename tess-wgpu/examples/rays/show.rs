@@ -14,7 +14,8 @@ use wgpu::{BindingResource, BindingType, BufferUsages as Usage, ShaderStages};
 const PATCHES: u32 = 8 * 8;
 const SHADING: &str = include_str!("shading.wgsl");
 
-/// Channels of a pixel may differ by this: a ray meets a triangle where the rasteriser interpolates, up to rounding.
+/// Channels of a pixel may differ by this: a ray meets a triangle where the rasteriser
+/// interpolates, up to rounding.
 const CHANNEL: i16 = 12;
 
 /// Draws into the file of `--screenshot`, and prints how the picture by primary rays differs.
@@ -57,8 +58,8 @@ async fn open() -> Result<Gpu, Box<dyn Error>> {
 /// wgpu's token for features that may have bugs.
 #[expect(unsafe_code, reason = "wgpu asks for it where a feature is experimental")]
 fn experimental() -> wgpu::ExperimentalFeatures {
-    // SAFETY: wgpu's demand is that whoever calls this accepts that ray queries may have bugs. They are the subject here,
-    // and the example uses them as wgpu's documentation shows.
+    // SAFETY: wgpu's demand is that whoever calls this accepts that ray queries may have bugs. They
+    // are the subject here, and the example uses them as wgpu's documentation shows.
     unsafe { wgpu::ExperimentalFeatures::enabled() }
 }
 
@@ -130,7 +131,8 @@ impl Show for Rays {
             words.extend(vector.extend(0.0).to_array());
         }
         frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        // The hills stand still: they were prepared once, and the structure is that of their triangles.
+        // The hills stand still: they were prepared once, and the structure is that of their
+        // triangles.
         Ok(())
     }
 

@@ -1,4 +1,5 @@
-//! Textures: those that are drawn into, their render pass and their pixels, and images that shaders read.
+//! Textures: those that are drawn into, their render pass and their pixels, and images that shaders
+//! read.
 
 #![allow(dead_code, reason = "each user has its part")]
 

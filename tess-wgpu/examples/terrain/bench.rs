@@ -9,8 +9,8 @@ use tess_wgpu::{DeviceLimits, Gpu, Stopwatch};
 /// Pixels across and down.
 const SIZE: [u32; 2] = [960, 720];
 
-/// `--bench FRAMES`, with `--triangles N,N,...`, `--points stored,pull,none` and `--grid N`: the median of so
-/// many frames of each.
+/// `--bench FRAMES`, with `--triangles N,N,...`, `--points stored,pull,none` and `--grid N`: the
+/// median of so many frames of each.
 pub(crate) fn run(args: &Args) -> Result<(), Box<dyn Error>> {
     let frames: usize = args.number("bench", 20)?;
     let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))?;
@@ -54,8 +54,8 @@ impl<'a> Bench<'a> {
         Ok(Self { gpu, watch, terrain, color, depth })
     }
 
-    /// Changes the size of segments until so many triangles are drawn, within two percent or as near as the
-    /// grid can come.
+    /// Changes the size of segments until so many triangles are drawn, within two percent or as
+    /// near as the grid can come.
     fn reach(&mut self, goal: f32) -> Result<u64, Box<dyn Error>> {
         let mut drawn = 0;
         for _ in 0..60 {

@@ -13,7 +13,8 @@ use tess_wgpu::stage::{Points, Room};
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
-/// The terrain. Keys: `w` wireframe, `+` and `-` the pixels of a segment, `p` where points come from.
+/// The terrain. Keys: `w` wireframe, `+` and `-` the pixels of a segment, `p` where points come
+/// from.
 pub(crate) struct Terrain {
     stage: TessellationStage,
     frame: wgpu::Buffer,

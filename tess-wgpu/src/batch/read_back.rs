@@ -26,8 +26,8 @@ impl Tessellator {
     /// ([`tess_core`]) counts.
     ///
     /// # Errors
-    /// [`Error::WrongDomain`] for patches of another domain than the setup's; an error of size if the
-    /// factors or the output are too large for the device; [`Error::DeviceLost`].
+    /// [`Error::WrongDomain`] for patches of another domain than the setup's; an error of size if
+    /// the factors or the output are too large for the device; [`Error::DeviceLost`].
     pub fn tessellate(
         &mut self,
         gpu: &Gpu,

@@ -9,7 +9,8 @@ use tess_gpu::{Limits, Setup, Stage};
 
 /// Makes batches for one device, and keeps the pipelines and tables that they share.
 ///
-/// A clone shares them too, so that nothing is compiled twice: for [`StageBuilder::tessellator`], or another thread.
+/// A clone shares them too, so that nothing is compiled twice: for [`StageBuilder::tessellator`],
+/// or another thread.
 ///
 /// [`StageBuilder::tessellator`]: crate::stage::StageBuilder::tessellator
 #[derive(Clone, Debug)]
@@ -38,8 +39,8 @@ impl Tessellator {
         Self { device: device.clone(), shared, limits }
     }
 
-    /// The same; pipelines that are made from now on, also by clones and stages, go through wgpu's cache, which a program
-    /// can keep in a file.
+    /// The same; pipelines that are made from now on, also by clones and stages, go through wgpu's
+    /// cache, which a program can keep in a file.
     #[must_use]
     pub fn with_pipeline_cache(self, cache: &wgpu::PipelineCache) -> Self {
         self.pipelines().cache = Some(cache.clone());
@@ -103,11 +104,12 @@ impl Tessellator {
         self.batch_in_groups(setup, patches, &[], factors, outputs)
     }
 
-    /// The same, with draw arguments for each group of patches ([`Batch::group_arguments`]), so that
-    /// several meshes of one setup are tessellated in one go and drawn one by one.
+    /// The same, with draw arguments for each group of patches ([`Batch::group_arguments`]), so
+    /// that several meshes of one setup are tessellated in one go and drawn one by one.
     ///
-    /// `groups` holds the number of each group's first patch. A group ends where the next one begins, the
-    /// last one at the end of the batch; a group may be empty. The numbers ascend and are at most `patches`.
+    /// `groups` holds the number of each group's first patch. A group ends where the next one
+    /// begins, the last one at the end of the batch; a group may be empty. The numbers ascend and
+    /// are at most `patches`.
     ///
     /// # Errors
     /// [`Error::MisplacedGroup`] or [`Error::TooManyGroups`] for these groups, and the errors of

@@ -9,8 +9,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
-/// A device with its queue and the adapter that it was made from. The fields are public: fill them with your own
-/// device, or call [`Gpu::open`].
+/// A device with its queue and the adapter that it was made from. The fields are public: fill them
+/// with your own device, or call [`Gpu::open`].
 #[derive(Clone, Debug)]
 pub struct Gpu {
     /// The device.
@@ -22,11 +22,11 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the first adapter with WebGPU's default limits. OpenGL, in builds that have it (the feature `gles`),
-    /// is used where nothing else gives a device.
+    /// Opens the first adapter with WebGPU's default limits. OpenGL, in builds that have it (the
+    /// feature `gles`), is used where nothing else gives a device.
     ///
-    /// The environment variable `WGPU_BACKEND` restricts the choice, as in other programs over wgpu: to `vulkan`,
-    /// `metal`, `dx12`, `gl`, or several with commas between them.
+    /// The environment variable `WGPU_BACKEND` restricts the choice, as in other programs over
+    /// wgpu: to `vulkan`, `metal`, `dx12`, `gl`, or several with commas between them.
     ///
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
@@ -86,15 +86,16 @@ impl Gpu {
     /// The first `size` bytes of a buffer, which has the usage `COPY_SRC`.
     ///
     /// # Errors
-    /// [`Error::DeviceLost`]; or [`Error::Refused`], for example for more bytes than the buffer has.
+    /// [`Error::DeviceLost`]; or [`Error::Refused`], for example for more bytes than the buffer
+    /// has.
     pub fn read(&self, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, Error> {
         self.finish(self.read_async(buffer, size))
     }
 
     /// The same without blocking: for a browser, and for programs that do something else meanwhile.
     ///
-    /// Natively somebody has to ask the device whether it is done. The future does so whenever it is
-    /// polled, and asks to be polled again at once. In a browser the device says so by itself.
+    /// Natively somebody has to ask the device whether it is done. The future does so whenever it
+    /// is polled, and asks to be polled again at once. In a browser the device says so by itself.
     ///
     /// # Errors
     /// As [`Gpu::read`].
@@ -194,7 +195,8 @@ pub(crate) fn filled(
     })?
 }
 
-/// Polls the device. wgpu panics in this call if the driver has lost the device, so a panic is an error if that is why.
+/// Polls the device. wgpu panics in this call if the driver has lost the device, so a panic is an
+/// error if that is why.
 pub(crate) fn poll(device: &wgpu::Device, kind: wgpu::PollType) -> Result<(), Error> {
     match catch_unwind(AssertUnwindSafe(|| device.poll(kind))) {
         Ok(polled) => polled.map(drop).map_err(|error| lost(&error)),
@@ -205,8 +207,8 @@ pub(crate) fn poll(device: &wgpu::Device, kind: wgpu::PollType) -> Result<(), Er
     }
 }
 
-/// Records commands. wgpu panics if the encoder is of another instance, which does not know the buffers; one of another
-/// device of the same instance is its error when the encoder is finished.
+/// Records commands. wgpu panics if the encoder is of another instance, which does not know the
+/// buffers; one of another device of the same instance is its error when the encoder is finished.
 pub(crate) fn recorded(device: &wgpu::Device, record: impl FnOnce()) -> Result<(), Error> {
     if catch_unwind(AssertUnwindSafe(record)).is_ok() {
         return Ok(());
@@ -215,8 +217,8 @@ pub(crate) fn recorded(device: &wgpu::Device, record: impl FnOnce()) -> Result<(
     Err(StageError::OtherDevice.into())
 }
 
-/// An error if the device is lost. wgpu does not say so when it makes objects or takes commands, but
-/// it maps no buffer.
+/// An error if the device is lost. wgpu does not say so when it makes objects or takes commands,
+/// but it maps no buffer.
 fn check_alive(device: &wgpu::Device) -> Result<(), Error> {
     filled(device, "is the device alive", &[0; 4], wgpu::BufferUsages::COPY_SRC).map(drop)
 }

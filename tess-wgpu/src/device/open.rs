@@ -13,8 +13,8 @@ pub enum DeviceLimits {
     Highest,
 }
 
-/// Opens the first adapter that gives a device: those of OpenGL come last, since wgpu would prefer an old GPU
-/// with too little of OpenGL to a Vulkan driver in software.
+/// Opens the first adapter that gives a device: those of OpenGL come last, since wgpu would prefer
+/// an old GPU with too little of OpenGL to a Vulkan driver in software.
 pub(crate) async fn first(wanted: DeviceLimits, optional: wgpu::Features) -> Result<Gpu, Error> {
     let asked = Backends::from_env();
     let backends = asked.unwrap_or_else(wgpu::Instance::enabled_backend_features);

@@ -13,8 +13,8 @@ use tess_gpu::{Binding, Setup, Stage, tables};
 /// A change of a shader's source before it is compiled.
 pub(crate) type Edit = Box<dyn Fn(Stage, String) -> String + Send + Sync>;
 
-/// Pipelines by stage and by the part of the setup that the stage depends on; those of taps; tables by split order;
-/// and what tessellation stages share.
+/// Pipelines by stage and by the part of the setup that the stage depends on; those of taps; tables
+/// by split order; and what tessellation stages share.
 pub(crate) struct Pipelines {
     device: wgpu::Device,
     /// wgpu's, for pipelines to come.

@@ -23,7 +23,8 @@ pub enum StageError {
         /// The device's `max_storage_buffer_binding_size`.
         limit: u64,
     },
-    /// More bind groups than the device has beside the stage's own. Put the bindings into fewer groups.
+    /// More bind groups than the device has beside the stage's own. Put the bindings into fewer
+    /// groups.
     #[error(
         "{got} bind groups, and the device has {most} beside what the stage binds; put the bindings \
          into fewer groups"
@@ -37,14 +38,14 @@ pub enum StageError {
     /// The user's WGSL is not valid.
     #[error("{}", invalid(*line, message))]
     Wgsl {
-        /// Line of the user's text, from 1 on; `None` if the text lacks what the stage needs, for example a
-        /// function `domain`.
+        /// Line of the user's text, from 1 on; `None` if the text lacks what the stage needs, for
+        /// example a function `domain`.
         line: Option<u32>,
         /// The compiler's message.
         message: String,
     },
-    /// The user's WGSL has no fragment shader, or not the one that was asked for, or several and none was chosen with
-    /// [`StageBuilder::fragment`](crate::stage::StageBuilder::fragment).
+    /// The user's WGSL has no fragment shader, or not the one that was asked for, or several and
+    /// none was chosen with [`StageBuilder::fragment`](crate::stage::StageBuilder::fragment).
     #[error("{}", unclear(asked.as_deref(), found))]
     UnclearFragment {
         /// The name that was asked for.
@@ -60,14 +61,16 @@ pub enum StageError {
         /// Names that the WGSL declares.
         found: Vec<String>,
     },
-    /// The tessellator or the encoder belongs to another device than the stage. Make it with the stage's device.
+    /// The tessellator or the encoder belongs to another device than the stage. Make it with the
+    /// stage's device.
     #[error(
         "the tessellator or the encoder belongs to another device; make it with the stage's device"
     )]
     OtherDevice,
-    /// A member of `Vertex` is `@interpolate(flat)`, which takes the value of a primitive's first vertex, and OpenGL
-    /// takes the last vertex's. Write `@interpolate(flat, either)` if a primitive's vertices share the value,
-    /// for example a value of their patch; otherwise draw with Vulkan, Metal or Direct3D.
+    /// A member of `Vertex` is `@interpolate(flat)`, which takes the value of a primitive's first
+    /// vertex, and OpenGL takes the last vertex's. Write `@interpolate(flat, either)` if a
+    /// primitive's vertices share the value, for example a value of their patch; otherwise draw
+    /// with Vulkan, Metal or Direct3D.
     #[error(
         "`{member}` of your `struct Vertex` is flat with the value of a primitive's first vertex, \
          and OpenGL takes the last vertex's; write `@interpolate(flat, either)` if a \
@@ -78,8 +81,8 @@ pub enum StageError {
         /// Name of the member.
         member: String,
     },
-    /// The number of patches is read from a buffer that lacks the usage `COPY_SRC`, at an offset that is no
-    /// multiple of 4, or behind its end.
+    /// The number of patches is read from a buffer that lacks the usage `COPY_SRC`, at an offset
+    /// that is no multiple of 4, or behind its end.
     #[error(
         "the number of patches at byte {offset} of a buffer of {size} bytes with the \
          usages {usage:?} cannot be read; its offset must be a multiple of 4 within the \
@@ -119,18 +122,21 @@ pub enum StageError {
         /// The name.
         name: String,
     },
-    /// A stage that was made with [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) has another domain
-    /// or configuration than the other stage or, where points are evaluated, another `struct Vertex`.
+    /// A stage that was made with
+    /// [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) has another domain or
+    /// configuration than the other stage or, where points are evaluated, another `struct Vertex`.
     #[error(
         "a stage draws another's output if both have one domain and configuration and, where points \
          are evaluated, a `struct Vertex` with the same types and locations"
     )]
     OtherOutput,
-    /// A stage that was made with [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) is not prepared.
-    /// Prepare the other stage, once for all that draw its output.
+    /// A stage that was made with
+    /// [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) is not prepared. Prepare
+    /// the other stage, once for all that draw its output.
     #[error("this stage draws the output of another; prepare and change that one")]
     DrawsAnother,
-    /// Whoever draws without the stage's pipeline needs stored points and indices. Leave out `points`.
+    /// Whoever draws without the stage's pipeline needs stored points and indices. Leave out
+    /// `points`.
     #[error(
         "to draw without the stage's pipeline, points and indices have to be stored; leave out `points`"
     )]

@@ -31,8 +31,9 @@ impl StageBuilder<'_> {
     /// - For names: [`StageError::NoSuchConstant`], [`StageError::NoSuchFunction`].
     /// - For another stage's output: [`StageError::OtherOutput`].
     /// - For a tessellator of another device: [`StageError::OtherDevice`].
-    /// - If the device does not allow this many patches: [`Error::TooManyPatches`], [`StageError::TooManyFactors`],
-    ///   [`Error::TooManyToPull`], [`Error::BufferTooLarge`], [`Error::OutOfMemory`].
+    /// - If the device does not allow this many patches: [`Error::TooManyPatches`],
+    ///   [`StageError::TooManyFactors`], [`Error::TooManyToPull`], [`Error::BufferTooLarge`],
+    ///   [`Error::OutOfMemory`].
     /// - If the device allows no stage at all: [`Error::LimitTooLow`].
     /// - For a buffer of factors: [`Error::FactorsTooShort`], [`Error::NotStorage`].
     /// - For groups of patches: [`Error::MisplacedGroup`].
@@ -345,7 +346,8 @@ fn check_constants(declared: &[Declaration<'_>], given: &[(&str, f64)]) -> Resul
     }
 }
 
-/// The fragment shader, if there are targets. Refuses one that is not there, or several of which none is named.
+/// The fragment shader, if there are targets. Refuses one that is not there, or several of which
+/// none is named.
 fn check_fragment<'a>(
     builder: &StageBuilder<'_>,
     declared: &[Declaration<'a>],

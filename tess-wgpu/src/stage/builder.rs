@@ -98,53 +98,59 @@ impl<'a> StageBuilder<'a> {
         }
     }
 
-    /// The user's next bind group: the first call is `@group(0)`, the second `@group(1)`, and so on. The device's limit
-    /// is 4 by default, and the stage takes one of them. The layout is visible to the stages that use
-    /// it: `COMPUTE` for `hull`, `VERTEX` for `domain` and the function of [`Self::project`], `COMPUTE` for `domain`
-    /// with [`Points::Evaluated`]. Dynamic offsets are set with
-    /// [`set_dynamic_offsets`](super::TessellationStage::set_dynamic_offsets). wgpu looks at the group when a frame's
-    /// encoder is finished: see [`set_bind_group`](super::TessellationStage::set_bind_group).
+    /// The user's next bind group: the first call is `@group(0)`, the second `@group(1)`, and so
+    /// on. The device's limit is 4 by default, and the stage takes one of them. The layout is
+    /// visible to the stages that use it: `COMPUTE` for `hull`, `VERTEX` for `domain` and the
+    /// function of [`Self::project`], `COMPUTE` for `domain` with [`Points::Evaluated`]. Dynamic
+    /// offsets are set with [`set_dynamic_offsets`](super::TessellationStage::set_dynamic_offsets).
+    /// wgpu looks at the group when a frame's encoder is finished: see
+    /// [`set_bind_group`](super::TessellationStage::set_bind_group).
     pub fn bind_group(mut self, layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup) -> Self {
         self.layouts.push(layout.clone());
         self.bind_groups.push(group.clone());
         self
     }
 
-    /// Shares pipelines with other stages: those that were made with the same tessellator, or with clones of it. The
-    /// tessellation's own depend on domain, configuration and order, `hull`'s on what it reaches of the WGSL, the render
-    /// pipeline on all of the WGSL and the state. So a stage for another material makes one pipeline.
-    /// [`Tessellator::with_pipeline_cache`] gives them a cache of wgpu's.
+    /// Shares pipelines with other stages: those that were made with the same tessellator, or with
+    /// clones of it. The tessellation's own depend on domain, configuration and order, `hull`'s on
+    /// what it reaches of the WGSL, the render pipeline on all of the WGSL and the state. So a
+    /// stage for another material makes one pipeline. [`Tessellator::with_pipeline_cache`] gives
+    /// them a cache of wgpu's.
     ///
-    /// wgpu has no call that makes pipelines without waiting. Where a frame must not wait, build stages on another
-    /// thread: a stage, its builder and a tessellator are `Send`.
+    /// wgpu has no call that makes pipelines without waiting. Where a frame must not wait, build
+    /// stages on another thread: a stage, its builder and a tessellator are `Send`.
     pub const fn tessellator(mut self, shared: &'a Tessellator) -> Self {
         self.tessellator = Some(shared);
         self
     }
 
-    /// Draws the output of another stage, with this stage's WGSL and state: a further material, a shadow map, a prepass.
-    /// The other stage is prepared once for all that draw its output; this one has no compute passes, and `hull` is not
-    /// needed. Unless points are evaluated, the draw calls this stage's own `domain`.
+    /// Draws the output of another stage, with this stage's WGSL and state: a further material, a
+    /// shadow map, a prepass. The other stage is prepared once for all that draw its output; this
+    /// one has no compute passes, and `hull` is not needed. Unless points are evaluated, the draw
+    /// calls this stage's own `domain`.
     ///
-    /// Both have one domain, configuration and, where points are evaluated, one `struct Vertex` up to its names.
-    /// Factors, points, order, room, groups and the most patches are the other's, whatever this builder got.
+    /// Both have one domain, configuration and, where points are evaluated, one `struct Vertex` up
+    /// to its names. Factors, points, order, room, groups and the most patches are the other's,
+    /// whatever this builder got.
     pub const fn output_of(mut self, other: &'a TessellationStage) -> Self {
         self.output_of = Some(other);
         self
     }
 
-    /// The name of a function of the WGSL, `fn name(vertex: Vertex) -> Vertex`, that every draw calls for each vertex
-    /// that `domain` returned; none if this is not called. What differs from pass to pass belongs there: the camera.
+    /// The name of a function of the WGSL, `fn name(vertex: Vertex) -> Vertex`, that every draw
+    /// calls for each vertex that `domain` returned; none if this is not called. What differs from
+    /// pass to pass belongs there: the camera.
     ///
-    /// With [`Points::Evaluated`] the draws call nothing else, so it is `domain` that runs once and this function that
-    /// runs in each pass. With the others it is called after `domain` in the same vertex shader.
+    /// With [`Points::Evaluated`] the draws call nothing else, so it is `domain` that runs once and
+    /// this function that runs in each pass. With the others it is called after `domain` in the
+    /// same vertex shader.
     pub const fn project(mut self, function: &'a str) -> Self {
         self.render.project = Some(function);
         self
     }
 
-    /// Draws several layers of the targets at once, those whose bits are set, with wgpu's feature `MULTIVIEW`. The WGSL
-    /// asks `tess_view()` for the layer's number.
+    /// Draws several layers of the targets at once, those whose bits are set, with wgpu's feature
+    /// `MULTIVIEW`. The WGSL asks `tess_view()` for the layer's number.
     pub const fn views(mut self, mask: NonZeroU32) -> Self {
         self.render.views = Some(mask);
         self
@@ -168,8 +174,9 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// The order in which the triangles of a patch are drawn. If this is not called, it is [`Order::VertexCache`] with
-    /// an index buffer. Without one there is no vertex cache, and it is [`Order::Specification`], which takes less time.
+    /// The order in which the triangles of a patch are drawn. If this is not called, it is
+    /// [`Order::VertexCache`] with an index buffer. Without one there is no vertex cache, and it is
+    /// [`Order::Specification`], which takes less time.
     pub const fn order(mut self, order: Order) -> Self {
         self.order = Some(order);
         self
@@ -181,8 +188,8 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// Begins [`Room::Automatic`] with no less than this: the [`capacity`](super::TessellationStage::capacity) of a smaller
-    /// stage that this one replaces.
+    /// Begins [`Room::Automatic`] with no less than this: the
+    /// [`capacity`](super::TessellationStage::capacity) of a smaller stage that this one replaces.
     pub const fn first_room(mut self, room: Capacity) -> Self {
         self.first_room = room;
         self
@@ -194,15 +201,15 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// Groups of patches that are drawn one by one. Each is given by the number of its first patch; the numbers
-    /// ascend ([`crate::Tessellator::batch_in_groups`]).
+    /// Groups of patches that are drawn one by one. Each is given by the number of its first patch;
+    /// the numbers ascend ([`crate::Tessellator::batch_in_groups`]).
     pub fn groups(mut self, first_patches: &[u32]) -> Self {
         self.groups = first_patches.to_vec();
         self
     }
 
-    /// The next colour target of the render passes that the stage is drawn in. Without any, there is no
-    /// fragment shader.
+    /// The next colour target of the render passes that the stage is drawn in. Without any, there
+    /// is no fragment shader.
     pub fn target(mut self, target: impl Into<wgpu::ColorTargetState>) -> Self {
         self.render.targets.push(Some(target.into()));
         self
@@ -226,28 +233,33 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// Culling, front face and polygon mode. The topology is ignored: the configuration's output decides it.
+    /// Culling, front face and polygon mode. The topology is ignored: the configuration's output
+    /// decides it.
     pub const fn primitive(mut self, primitive: wgpu::PrimitiveState) -> Self {
         self.render.primitive = primitive;
         self
     }
 
-    /// Leaves the render pipelines to an engine that makes its own, from [`Self::vertex_shader`] and its own
-    /// fragment shaders: for a shadow map, a depth prepass, several cameras. Only `hull` uses the bind groups then, the
-    /// render state is not used, and the engine draws with [`TessellationStage::draw`](super::TessellationStage::draw) or
-    /// [`TessellationStage::buffers`](super::TessellationStage::buffers). Points are [`Points::Stored`].
+    /// Leaves the render pipelines to an engine that makes its own, from [`Self::vertex_shader`]
+    /// and its own fragment shaders: for a shadow map, a depth prepass, several cameras. Only
+    /// `hull` uses the bind groups then, the render state is not used, and the engine draws with
+    /// [`TessellationStage::draw`](super::TessellationStage::draw) or
+    /// [`TessellationStage::buffers`](super::TessellationStage::buffers). Points are
+    /// [`Points::Stored`].
     pub const fn without_pipeline(mut self) -> Self {
         self.makes_pipeline = false;
         self
     }
 
-    /// The WGSL of the vertex shader, for an engine that makes the render pipeline: the user's text, line by
-    /// line as it is, and then the stage's. The entry point is `tess_vertex`. It takes one vertex buffer of
-    /// [`Self::vertex_layout`]. With points that are pulled, and with `tess_factors`, the text is of no use outside of
-    /// the stage, which keeps what it binds to itself.
+    /// The WGSL of the vertex shader, for an engine that makes the render pipeline: the user's
+    /// text, line by line as it is, and then the stage's. The entry point is `tess_vertex`. It
+    /// takes one vertex buffer of [`Self::vertex_layout`]. With points that are pulled, and with
+    /// `tess_factors`, the text is of no use outside of the stage, which keeps what it binds to
+    /// itself.
     ///
     /// # Errors
-    /// [`StageError::Wgsl`] if points are evaluated and a member of `Vertex` cannot be an attribute.
+    /// [`StageError::Wgsl`] if points are evaluated and a member of `Vertex` cannot be an
+    /// attribute.
     pub fn vertex_shader(&self) -> Result<String, Error> {
         Ok(self.shader(&self.vertex_layout()?).with(self.source))
     }
@@ -255,7 +267,8 @@ impl<'a> StageBuilder<'a> {
     /// The layout of the vertex buffer: packed points, or `Vertex` if points are evaluated.
     ///
     /// # Errors
-    /// [`StageError::Wgsl`] if points are evaluated and a member of `Vertex` cannot be an attribute.
+    /// [`StageError::Wgsl`] if points are evaluated and a member of `Vertex` cannot be an
+    /// attribute.
     pub fn vertex_layout(&self) -> Result<VertexLayout, StageError> {
         match self.points {
             Points::Evaluated => VertexLayout::of(&wgsl::declarations(self.source)),

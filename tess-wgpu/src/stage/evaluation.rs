@@ -1,8 +1,8 @@
 //! The pass that runs the user's function `domain` once for each point ([`Points::Evaluated`]).
 //!
-//! The batch writes packed points. This pass reads each one and writes the user's `Vertex`; draws then load vertices
-//! instead of calling `domain`. One binding holds 128 MiB under WebGPU's default limits, which is 4 million vertices
-//! of 32 bytes, so the buffers are bound in windows:
+//! The batch writes packed points. This pass reads each one and writes the user's `Vertex`; draws
+//! then load vertices instead of calling `domain`. One binding holds 128 MiB under WebGPU's default
+//! limits, which is 4 million vertices of 32 bytes, so the buffers are bound in windows:
 //!
 //! ```text
 //! points    | window 0                | window 1                | window 2      |   8 bytes each
@@ -10,9 +10,11 @@
 //! windows   | first, count | ...      | first, count | ...      | first, count |   256 bytes apart
 //! ```
 //!
-//! - A window is a multiple of 64 points, so that it begins at a multiple of 256 bytes in both buffers.
-//! - At most [`MOST_WORKGROUPS`] workgroups share a window; each thread takes every so-many-th point. So nobody has
-//!   to write the size of a dispatch on the device, and a large room with few points costs little.
+//! - A window is a multiple of 64 points, so that it begins at a multiple of 256 bytes in both
+//!   buffers.
+//! - At most [`MOST_WORKGROUPS`] workgroups share a window; each thread takes every so-many-th
+//!   point. So nobody has to write the size of a dispatch on the device, and a large room with few
+//!   points costs little.
 //! - A frame that does not fit writes no vertex.
 
 use super::builder::StageBuilder;

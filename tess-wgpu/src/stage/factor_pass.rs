@@ -37,7 +37,8 @@ pub(super) fn check(given: &wgpu::Buffer, needed: u64) -> Result<(), Error> {
 }
 
 impl FactorPass {
-    /// `factors` and `count` are the stage's: the pass reads the number of patches and writes the factors.
+    /// `factors` and `count` are the stage's: the pass reads the number of patches and writes the
+    /// factors.
     pub(super) async fn new(
         builder: &StageBuilder<'_>,
         (form, tessellator): (Form, &Tessellator),
@@ -88,8 +89,8 @@ impl FactorPass {
     }
 }
 
-/// The pipeline of the user's function `hull`. Stages share it whose texts differ only in what the function does not
-/// reach.
+/// The pipeline of the user's function `hull`. Stages share it whose texts differ only in what the
+/// function does not reach.
 async fn hull(
     builder: &StageBuilder<'_>,
     setup: Setup,

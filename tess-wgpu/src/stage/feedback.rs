@@ -60,7 +60,8 @@ impl Feedbacks {
     pub(crate) fn take(&mut self, device: &wgpu::Device, frame: u64) -> Result<(), Error> {
         gpu::poll(device, wgpu::PollType::Poll)?;
         for mut one in std::mem::take(&mut self.under_way) {
-            // The encoder holds the other half until the answer is there; it goes with an encoder that is dropped.
+            // The encoder holds the other half until the answer is there; it goes with an encoder
+            // that is dropped.
             let has_encoder = Arc::get_mut(&mut one.state).is_none();
             match one.state.load(Ordering::Acquire) {
                 DONE => {
@@ -78,7 +79,8 @@ impl Feedbacks {
         Ok(())
     }
 
-    /// Keeps the numbers of the latest frame. Frames arrive in the order in which they were submitted.
+    /// Keeps the numbers of the latest frame. Frames arrive in the order in which they were
+    /// submitted.
     pub(crate) fn arrived(&mut self, new: Option<Feedback>) {
         let latest = self.last.map_or(0, |last| last.frame);
         self.last = new.filter(|new| new.frame >= latest).or(self.last);
@@ -93,7 +95,8 @@ impl Feedbacks {
         Ok(())
     }
 
-    /// Records the copies of a frame's numbers, which arrive after `encoder` was submitted, if a buffer was reserved.
+    /// Records the copies of a frame's numbers, which arrive after `encoder` was submitted, if a
+    /// buffer was reserved.
     pub(crate) fn record(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,

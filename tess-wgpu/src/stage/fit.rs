@@ -1,9 +1,9 @@
 //! Scaling all factors down, on the device, until their output fits.
 //!
-//! The factors of a frame may give more points or primitives than there is room for. These passes find the greatest
-//! scale of a fixed ladder at which everything fits, and multiply every factor by it; the host waits for nothing.
-//! `TessellationStage::prepare` records them between the pass that writes the factors and the batch that
-//! tessellates.
+//! The factors of a frame may give more points or primitives than there is room for. These passes
+//! find the greatest scale of a fixed ladder at which everything fits, and multiply every factor by
+//! it; the host waits for nothing. `TessellationStage::prepare` records them between the pass that
+//! writes the factors and the batch that tessellates.
 //!
 //! # The data
 //!
@@ -21,36 +21,42 @@
 //! # The passes
 //!
 //! 1. `count_whole` counts every patch at step 0.
-//! 2. `decide` leaves the arguments of the next three at 0 workgroups if that fits. Most frames end here.
+//! 2. `decide` leaves the arguments of the next three at 0 workgroups if that fits. Most frames end
+//!    here.
 //! 3. `count_coarse` counts every patch at each 16th step.
 //! 4. `count_fine` counts every patch at the 16 steps up to the first coarse step that fits.
 //! 5. `scale_factors` scales every factor by the first fine step that fits, and writes the step.
 //!
 //! # One frame
 //!
-//! One quad patch with all factors 8 (integer partitioning) gives 81 points and 128 triangles; there is room for 50
-//! and 72. Step 0 does not fit. Step 16 scales by 0.771 and gives 64 points, step 32 by 0.595 and 36 points, so the
-//! second coarse sum is the first that fits. Of steps 17 to 32, step 17 gives factors of 6.07, which round to 7; step
-//! 18 gives 5.97: 49 points and 72 triangles, which fit. The test `the_frame_of_the_head_comment` computes this.
+//! One quad patch with all factors 8 (integer partitioning) gives 81 points and 128 triangles;
+//! there is room for 50 and 72. Step 0 does not fit. Step 16 scales by 0.771 and gives 64 points,
+//! step 32 by 0.595 and 36 points, so the second coarse sum is the first that fits. Of steps 17 to
+//! 32, step 17 gives factors of 6.07, which round to 7; step 18 gives 5.97: 49 points and 72
+//! triangles, which fit. The test `the_frame_of_the_head_comment` computes this.
 //!
 //! # What must hold
 //!
-//! - A scale that is smaller never gives more output; else the first step that fits would not be the greatest scale.
-//! - All factors have one scale. Two patches whose bits agree along an edge then still agree, and no crack opens.
-//! - Factors of at most 1, and NaN, stay as they are, and no factor falls below 1. A culled patch stays culled and
-//!   a drawn one stays drawn.
-//! - Factors above 64 count as 64 before they are scaled, as the tessellator clamps them; else infinity would never
-//!   become smaller.
-//! - A workgroup's sum stays below 2^32 (64 patches of at most 8192 primitives), so only the sum of all needs two
-//!   words.
-//! - The room is copied into `terms` in each frame. An encoder that is dropped would take a single copy with it.
+//! - A scale that is smaller never gives more output; else the first step that fits would not be
+//!   the greatest scale.
+//! - All factors have one scale. Two patches whose bits agree along an edge then still agree, and
+//!   no crack opens.
+//! - Factors of at most 1, and NaN, stay as they are, and no factor falls below 1. A culled patch
+//!   stays culled and a drawn one stays drawn.
+//! - Factors above 64 count as 64 before they are scaled, as the tessellator clamps them; else
+//!   infinity would never become smaller.
+//! - A workgroup's sum stays below 2^32 (64 patches of at most 8192 primitives), so only the sum of
+//!   all needs two words.
+//! - The room is copied into `terms` in each frame. An encoder that is dropped would take a single
+//!   copy with it.
 //! - If not even step 256 fits, where every factor is 1, it is taken, and the batch draws nothing.
 //!
 //! # Simpler forms
 //!
-//! Counting all 257 steps in one pass takes 257 counts for each patch; the two levels take 33. Bisection takes 9
-//! counts, but 9 pairs of dependent dispatches instead of 5 dispatches, in every frame that might not fit. Reading the
-//! counts back would make the host wait, or leave the frame to the next one's scale.
+//! Counting all 257 steps in one pass takes 257 counts for each patch; the two levels take 33.
+//! Bisection takes 9 counts, but 9 pairs of dependent dispatches instead of 5 dispatches, in every
+//! frame that might not fit. Reading the counts back would make the host wait, or leave the frame
+//! to the next one's scale.
 
 use super::passes;
 use crate::Tessellator;
@@ -96,7 +102,8 @@ pub(crate) struct Fit {
     state: wgpu::Buffer,
     arguments: wgpu::Buffer,
     terms: wgpu::Buffer,
-    /// The first words of `terms`, copied there in each frame: the encoder of any one frame may be dropped.
+    /// The first words of `terms`, copied there in each frame: the encoder of any one frame may be
+    /// dropped.
     room: wgpu::Buffer,
     bound: wgpu::BindGroup,
     decided: wgpu::BindGroup,
@@ -220,8 +227,8 @@ pub(crate) fn room_words(device: &wgpu::Device, room: Capacity) -> Result<wgpu::
     gpu::filled(device, "room", bytemuck::bytes_of(&words), Usage::COPY_SRC)
 }
 
-/// The first words of the struct `Fit` of fit.wgsl: the step, three reserved, and the sums of the factors as
-/// they were.
+/// The first words of the struct `Fit` of fit.wgsl: the step, three reserved, and the sums of the
+/// factors as they were.
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(crate) struct Found {

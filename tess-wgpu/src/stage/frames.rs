@@ -13,19 +13,21 @@ use wgpu::BufferUsages as Usage;
 const INSTANCES_AT: u64 = 4;
 
 impl TessellationStage {
-    /// Records the compute passes of a frame: factors, tessellation and, with [`Points::Evaluated`](super::Points), the
-    /// vertices. Call it before the render pass that draws the
-    /// stage, with the same encoder or with one that is submitted earlier. The passes' time depends on what
-    /// is drawn and, a little, on the most patches that the stage was made for.
+    /// Records the compute passes of a frame: factors, tessellation and, with
+    /// [`Points::Evaluated`](super::Points), the vertices. Call it before the render pass that
+    /// draws the stage, with the same encoder or with one that is submitted earlier. The passes'
+    /// time depends on what is drawn and, a little, on the most patches that the stage was made
+    /// for.
     ///
-    /// The encoder may be dropped instead of submitted; later frames do not depend on it. It is of the stage's device:
-    /// one of another device is refused here if it is also of another instance, and otherwise when it is finished.
+    /// The encoder may be dropped instead of submitted; later frames do not depend on it. It is of
+    /// the stage's device: one of another device is refused here if it is also of another instance,
+    /// and otherwise when it is finished.
     ///
     /// # Errors
     /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
-    /// [`StageError::OtherDevice`]; [`StageError::DrawsAnother`] for a stage that draws another's output;
-    /// [`Error::OutOfMemory`] or [`Error::DeviceLost`]. Nothing is recorded then, and what was prepared last can still
-    /// be drawn.
+    /// [`StageError::OtherDevice`]; [`StageError::DrawsAnother`] for a stage that draws another's
+    /// output; [`Error::OutOfMemory`] or [`Error::DeviceLost`]. Nothing is recorded then, and what
+    /// was prepared last can still be drawn.
     pub fn prepare<'a>(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -88,15 +90,16 @@ impl TessellationStage {
         locked(&self.feedback).record(encoder, of, self.frame);
     }
 
-    /// Makes the room that a frame needs before it is drawn: runs a frame's compute passes, waits for what they
-    /// found, and grows as [`Room::Automatic`] says. A frame with the same factors is then exact if the room
-    /// allows. Frames of other factors may need more.
+    /// Makes the room that a frame needs before it is drawn: runs a frame's compute passes, waits
+    /// for what they found, and grows as [`Room::Automatic`] says. A frame with the same factors is
+    /// then exact if the room allows. Frames of other factors may need more.
     ///
-    /// It takes one round trip to the device. Call it once after the stage is built, or for a picture that is drawn once,
-    /// when everything that the hull function reads has been written.
+    /// It takes one round trip to the device. Call it once after the stage is built, or for a
+    /// picture that is drawn once, when everything that the hull function reads has been written.
     ///
     /// # Errors
-    /// As [`Self::prepare`]; and [`Error::Refused`] in a browser, where only [`Self::make_room_async`] can wait.
+    /// As [`Self::prepare`]; and [`Error::Refused`] in a browser, where only
+    /// [`Self::make_room_async`] can wait.
     pub fn make_room<'a>(
         &mut self,
         queue: &wgpu::Queue,
@@ -150,7 +153,8 @@ impl TessellationStage {
         StageOutput::new(&mut self.tessellator, self.form, (room, stored), of_batch, more)
     }
 
-    /// Makes more room if a frame needed nearly all of it and the stage may, or gives back what many did not need.
+    /// Makes more room if a frame needed nearly all of it and the stage may, or gives back what
+    /// many did not need.
     fn adapt(&mut self) -> Result<(), Error> {
         let last = locked(&self.feedback).last();
         let Some(Feedback { frame, points, primitives, .. }) = last else { return Ok(()) };

@@ -9,8 +9,9 @@ pub(super) fn is_gl(device: &wgpu::Device) -> bool {
 
 /// The attributes of the stage's vertex buffer.
 ///
-/// On OpenGL the locations without an attribute have the buffer too, unread. wgpu leaves locations enabled that another
-/// pipeline used; once their buffer is gone, OpenGL ES refuses indirect draws, and draws nothing.
+/// On OpenGL the locations without an attribute have the buffer too, unread. wgpu leaves locations
+/// enabled that another pipeline used; once their buffer is gone, OpenGL ES refuses indirect draws,
+/// and draws nothing.
 pub(super) fn attributes(
     device: &wgpu::Device,
     own: &[wgpu::VertexAttribute],
@@ -26,8 +27,8 @@ pub(super) fn attributes(
     own.iter().copied().chain(unread).collect()
 }
 
-/// Refuses a vertex shader whose struct `Vertex` has a member that takes the value of a primitive's first vertex,
-/// since OpenGL takes the last vertex's.
+/// Refuses a vertex shader whose struct `Vertex` has a member that takes the value of a primitive's
+/// first vertex, since OpenGL takes the last vertex's.
 pub(super) fn check_flat_members(device: &wgpu::Device, shader: &str) -> Result<(), Error> {
     if !is_gl(device) {
         return Ok(());

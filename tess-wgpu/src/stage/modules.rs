@@ -3,8 +3,8 @@
 use super::{StageError, source, wgsl};
 use crate::error::{Error, checked};
 
-/// A module that begins with the user's text. Errors name the user's line. `function` is the user's function that the
-/// module calls.
+/// A module that begins with the user's text. Errors name the user's line. `function` is the user's
+/// function that the module calls.
 pub(super) async fn user_module(
     device: &wgpu::Device,
     function: &str,
@@ -36,8 +36,8 @@ pub(super) async fn user_module(
     Ok(module)
 }
 
-/// An error in a line of the joined text. In a line behind the user's text, the stage's call does not go with what the
-/// user declares: something that the message names, or else `function`.
+/// An error in a line of the joined text. In a line behind the user's text, the stage's call does
+/// not go with what the user declares: something that the message names, or else `function`.
 fn wrong_wgsl(user: &str, function: &str, line: Option<u32>, message: String) -> StageError {
     let line = line.filter(|&line| (1..=source::lines(user)).contains(&line));
     if line.is_some() {
@@ -61,7 +61,8 @@ fn wrong_wgsl(user: &str, function: &str, line: Option<u32>, message: String) ->
     }
 }
 
-/// A compiler's report without the excerpt of the source: its first line, and naga's reasons, which begin with `= `.
+/// A compiler's report without the excerpt of the source: its first line, and naga's reasons, which
+/// begin with `= `.
 fn headline(report: &str) -> String {
     let from = report.find("error: ").map_or(report, |at| &report[at + "error: ".len()..]);
     let mut lines = from.trim().lines().map(str::trim);
@@ -71,7 +72,8 @@ fn headline(report: &str) -> String {
     all.join(": ")
 }
 
-/// The last line and text that the report of naga's validator marks: the innermost, as it begins with the function.
+/// The last line and text that the report of naga's validator marks: the innermost, as it begins
+/// with the function.
 ///
 /// ```text
 /// 26 | |     let at = place(number) + number;

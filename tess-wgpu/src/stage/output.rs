@@ -67,7 +67,8 @@ impl Stored {
 }
 
 impl StageOutput {
-    /// `factors` and the groups' first patches are those of the batch; `own` has the layouts of the draws' bind groups.
+    /// `factors` and the groups' first patches are those of the batch; `own` has the layouts of the
+    /// draws' bind groups.
     pub(super) fn new(
         tessellator: &mut Tessellator,
         form: Form,
@@ -93,8 +94,8 @@ impl StageOutput {
         Ok(Self { room, batch: Arc::new(batch), stored, windows: windows.into(), own })
     }
 
-    /// Draws with the arguments of the whole batch or of one of its groups. Pipeline and user's bind
-    /// groups are set; `own` is the stage's bind group and its number.
+    /// Draws with the arguments of the whole batch or of one of its groups. Pipeline and user's
+    /// bind groups are set; `own` is the stage's bind group and its number.
     pub(super) fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,

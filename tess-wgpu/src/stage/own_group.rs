@@ -1,8 +1,8 @@
-//! The stage's own bind group of a draw, after the user's: the buffers that points are pulled from, and the factors
-//! that `tess_factors` reads.
+//! The stage's own bind group of a draw, after the user's: the buffers that points are pulled from,
+//! and the factors that `tess_factors` reads.
 //!
-//! A stage and those that draw its output can differ in whether they read factors, so there are up to two groups. They
-//! change with the room, because the batch does.
+//! A stage and those that draw its output can differ in whether they read factors, so there are up
+//! to two groups. They change with the room, because the batch does.
 
 use super::choices::Points;
 use super::room::Form;

@@ -1,9 +1,9 @@
 //! How much room a stage has for its output.
 //!
-//! A stage's buffers of points and indices are made before anybody knows how much its frames give. This file decides
-//! their sizes: once when the stage is made ([`Form::initial`]), and for [`Room::Automatic`] again when a frame
-//! needed nearly all of it ([`Form::grown`]) or many needed little ([`Lull::shrunk`]). The stage learns both from its
-//! feedback.
+//! A stage's buffers of points and indices are made before anybody knows how much its frames give.
+//! This file decides their sizes: once when the stage is made ([`Form::initial`]), and for
+//! [`Room::Automatic`] again when a frame needed nearly all of it ([`Form::grown`]) or many needed
+//! little ([`Lull::shrunk`]). The stage learns both from its feedback.
 //!
 //! # The data
 //!
@@ -19,29 +19,32 @@
 //! room, as a frame uses it:    0 ... 1/5 shrinks after 1024 frames ... 2/5 after a change ... 7/8 grows at once ... 1
 //! ```
 //!
-//! A point takes 8 bytes and, where points are evaluated, those of a vertex; or none where the vertex shader computes
-//! it. A primitive takes 4 bytes for each of its
-//! corners, or none without an index buffer.
+//! A point takes 8 bytes and, where points are evaluated, those of a vertex; or none where the
+//! vertex shader computes it. A primitive takes 4 bytes for each of its corners, or none without an
+//! index buffer.
 //!
 //! # One stage
 //!
-//! Ten quads, `Automatic` with a budget of 100 000 bytes. At factor 4 they give 250 points and 320 triangles, which
-//! take 5840 bytes: that is the first room. A frame needs 219 points, more than 7/8, so the next room is 547 points
-//! and, for 5/2 of 280, 700 triangles. Then a frame needs 40 000 points and 80 000 triangles, 1.3 MB: what is left of
-//! the budget is divided as 5/2 of these are, and from then on the room stays until frames need little. The test
+//! Ten quads, `Automatic` with a budget of 100 000 bytes. At factor 4 they give 250 points and 320
+//! triangles, which take 5840 bytes: that is the first room. A frame needs 219 points, more than
+//! 7/8, so the next room is 547 points and, for 5/2 of 280, 700 triangles. Then a frame needs 40
+//! 000 points and 80 000 triangles, 1.3 MB: what is left of the budget is divided as 5/2 of these
+//! are, and from then on the room stays until frames need little. The test
 //! `automatic_room_grows_ahead_and_no_further` computes this.
 //!
 //! # What must hold
 //!
-//! - Room grows ahead of frames whose output rises by up to 4 % each, with two on their way: 1.04^3 < 8/7.
-//! - Room at least doubles in a dimension that was short, or reaches the end of the budget or the most that a frame can
-//!   need. So buffers are made a logarithmic number of times.
+//! - Room grows ahead of frames whose output rises by up to 4 % each, with two on their way: 1.04^3
+//!   < 8/7.
+//! - Room at least doubles in a dimension that was short, or reaches the end of the budget or the
+//!   most that a frame can need. So buffers are made a logarithmic number of times.
 //! - Room shrinks by half at least, and never below the first room.
 //! - Once the budget is used, nothing grows.
-//! - If the budget holds all patches at factor 1, the room does. [`Overflow::Coarser`](super::Overflow::Coarser) scales
-//!   factors down to 1, so every frame is drawn then.
-//! - No buffer exceeds the device's limit. An index buffer is a multiple of 8 bytes long, so the limit is rounded
-//!   down to one.
+//! - If the budget holds all patches at factor 1, the room does.
+//!   [`Overflow::Coarser`](super::Overflow::Coarser) scales factors down to 1, so every frame is
+//!   drawn then.
+//! - No buffer exceeds the device's limit. An index buffer is a multiple of 8 bytes long, so the
+//!   limit is rounded down to one.
 
 use super::choices::{Points, Room};
 use tess_gpu::sizes::SHORT_PATCHES;
@@ -125,8 +128,8 @@ impl Form {
         self.largest(budget, least, whole)
     }
 
-    /// The room that fills a budget: `least`, and beyond it in the proportion in which `shape` exceeds `least`. A
-    /// budget that does not hold `least` gives a part of `least`.
+    /// The room that fills a budget: `least`, and beyond it in the proportion in which `shape`
+    /// exceeds `least`. A budget that does not hold `least` gives a part of `least`.
     fn largest(self, budget: u64, least: Capacity, shape: Capacity) -> Capacity {
         let (budget, fixed) = (u128::from(budget), self.bytes(least));
         let (base, free, shape) = match budget.checked_sub(fixed) {
@@ -164,8 +167,8 @@ impl Form {
         }
     }
 
-    /// The shaders that batches run in any room, with any groups, and with more patches than these: pipelines to make
-    /// before a frame needs them.
+    /// The shaders that batches run in any room, with any groups, and with more patches than these:
+    /// pipelines to make before a frame needs them.
     pub(crate) fn stages(self) -> Vec<Stage> {
         use Stage::{
             ExpandPoints, ExpandPrimitives, ExpandShort, Factors, Groups, List, Partition, Scan,
@@ -223,7 +226,8 @@ impl Lull {
     /// 1024 frames take 17 seconds on most screens.
     pub(crate) const NEW: Self = Self { patience: 1024, since: 0, most: [0; 2] };
 
-    /// The room for what frames needed of late, if it is another: `frame` is the latest and what it needed.
+    /// The room for what frames needed of late, if it is another: `frame` is the latest and what it
+    /// needed.
     pub(crate) fn shrunk(
         &mut self,
         (form, room, now): (Form, Room, Capacity),
@@ -432,7 +436,8 @@ mod tests {
         let pulled = Form { points: Points::Pull, ..form };
         let triangles = 12 * u64::from(eight.primitives);
         assert_eq!(pulled.initial(Room::Bytes(triangles)), eight, "points take nothing");
-        // 40 points and 20 triangles take 560 bytes; patches of factor 8 take 770 points and 1260 triangles more.
+        // 40 points and 20 triangles take 560 bytes; patches of factor 8 take 770 points and 1260
+        // triangles more.
         let part = form.initial(Room::Bytes(560 + 7_090));
         assert_eq!(
             part,

@@ -18,11 +18,12 @@ const PULLED: &str = include_str!("../../shaders/vertex_pulled.wgsl");
 const UNINDEXED: &str = include_str!("../../shaders/vertex_unindexed.wgsl");
 const EVALUATED: &str = include_str!("../../shaders/vertex_evaluated.wgsl");
 
-/// The binding of the factors that `tess_factors` reads, in the stage's own group: beyond all others there.
+/// The binding of the factors that `tess_factors` reads, in the stage's own group: beyond all
+/// others there.
 pub(crate) const FACTORS_BINDING: u32 = 8;
 
-/// The module whose entry point `tess_hull` runs the user's hull function. Its own bindings are 0 and 1 of
-/// bind group `group`.
+/// The module whose entry point `tess_hull` runs the user's hull function. Its own bindings are 0
+/// and 1 of bind group `group`.
 pub(crate) fn of_hull(user: &str, domain: Domain, group: u32) -> String {
     joined(user, &(own_of_hull(domain, group) + &of_draws(user, domain, group)))
 }
@@ -37,8 +38,8 @@ fn own_of_hull(domain: Domain, group: u32) -> String {
     HULL.replace("GROUP", &group.to_string()) + "\n" + write
 }
 
-/// The module whose entry point `tess_evaluate` runs the user's domain function over all points. Its own bindings are
-/// 0 to 3 of bind group `group`.
+/// The module whose entry point `tess_evaluate` runs the user's domain function over all points.
+/// Its own bindings are 0 to 3 of bind group `group`.
 pub(crate) fn of_evaluation(user: &str, domain: Domain, group: u32) -> String {
     joined(user, &(own_of_evaluation(group) + &of_draws(user, domain, group)))
 }
@@ -61,8 +62,8 @@ pub(crate) struct VertexShader<'a> {
 }
 
 impl VertexShader<'_> {
-    /// The module whose entry point is `tess_vertex`. Where points are pulled, its own bindings are 0 to 5 of the
-    /// stage's bind group.
+    /// The module whose entry point is `tess_vertex`. Where points are pulled, its own bindings are
+    /// 0 to 5 of the stage's bind group.
     pub(crate) fn with(self, user: &str) -> String {
         let of_draws = of_draws(user, self.setup.domain, self.group);
         let (mut builtins, mut begin) = (String::new(), String::new());
@@ -103,7 +104,8 @@ pub(crate) fn uses(text: &str, word: &str) -> bool {
     wgsl::tokens(text).any(|(_, token)| token == word)
 }
 
-/// The functions for the factors, the instance and the view that are drawn, where the user's text has them.
+/// The functions for the factors, the instance and the view that are drawn, where the user's text
+/// has them.
 fn of_draws(user: &str, domain: Domain, group: u32) -> String {
     let mut text = String::new();
     if uses(user, "tess_factors") {
@@ -152,8 +154,8 @@ pub(crate) fn lines(user: &str) -> u32 {
 }
 
 /// The same WGSL with a prefix before every name that it declares at module scope, so that the
-/// user's text can have these names too. Every occurrence of such a name is renamed, members and locals
-/// included, which changes nothing within the text.
+/// user's text can have these names too. Every occurrence of such a name is renamed, members and
+/// locals included, which changes nothing within the text.
 fn with_own_names(source: &str) -> String {
     let declared = wgsl::declarations(source).into_iter().map(|one| one.name);
     let declared: Vec<_> = declared.filter(|name| !name.starts_with("tess_")).collect();

@@ -1,7 +1,8 @@
 //! The user's `struct Vertex` as a vertex buffer holds it.
 //!
-//! With [`Points::Evaluated`](super::Points::Evaluated) a compute pass writes an array of this struct, and the vertex
-//! shader loads its members as attributes. WGSL fixes the offsets of a struct's members, so both see the same bytes:
+//! With [`Points::Evaluated`](super::Points::Evaluated) a compute pass writes an array of this
+//! struct, and the vertex shader loads its members as attributes. WGSL fixes the offsets of a
+//! struct's members, so both see the same bytes:
 //!
 //! ```text
 //! struct Vertex {                                   byte  0        12 16       24   28  32
@@ -11,10 +12,11 @@
 //! }                                                 largest alignment, 16
 //! ```
 //!
-//! A member's attribute has the number of its `@location`. The position has the first number that is free.
+//! A member's attribute has the number of its `@location`. The position has the first number that
+//! is free.
 //!
-//! The struct is read from the text, not by a compiler, because a browser's says nothing about it. The test
-//! `offsets_are_those_of_the_compiler` compares both.
+//! The struct is read from the text, not by a compiler, because a browser's says nothing about it.
+//! The test `offsets_are_those_of_the_compiler` compares both.
 
 use super::StageError;
 use super::wgsl::{self, Declaration};
@@ -26,8 +28,8 @@ use wgpu::VertexFormat as Format;
 pub struct VertexLayout {
     /// Bytes from one vertex to the next.
     pub array_stride: u64,
-    /// Offsets and formats. A member of `Vertex` has the `shader_location` of its `@location`; the position has the
-    /// first one that is free. Packed points are one attribute, at location 0.
+    /// Offsets and formats. A member of `Vertex` has the `shader_location` of its `@location`; the
+    /// position has the first one that is free. Packed points are one attribute, at location 0.
     pub attributes: Vec<wgpu::VertexAttribute>,
     /// The names of the members, in the order of the attributes.
     names: Vec<String>,
@@ -92,7 +94,8 @@ impl VertexLayout {
         Ok(Self { array_stride: end.next_multiple_of(align_of_all), attributes, names })
     }
 
-    /// The parameters of a vertex shader that loads all members, and the call that puts them together.
+    /// The parameters of a vertex shader that loads all members, and the call that puts them
+    /// together.
     ///
     /// ```text
     /// @location(1) tess_0: vec4<f32>, @location(0) tess_1: vec2<f32>     Vertex(tess_0, tess_1)

@@ -1,5 +1,5 @@
-//! The declarations of a WGSL text at module scope, by name and line; found without a compiler, as a browser's says little
-//! and says it late.
+//! The declarations of a WGSL text at module scope, by name and line; found without a compiler, as
+//! a browser's says little and says it late.
 
 /// Something that a text declares at module scope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,7 +120,8 @@ pub(super) fn declarations(text: &str) -> Vec<Declaration<'_>> {
     all
 }
 
-/// The declarations that such functions use and those without a name, in the order of the text. A name that a local hides counts as used.
+/// The declarations that such functions use and those without a name, in the order of the text. A
+/// name that a local hides counts as used.
 pub(super) fn reached<'a>(all: &[Declaration<'a>], entries: &[&'a str]) -> Vec<Declaration<'a>> {
     let mut is_reached = vec![false; all.len()];
     let mut names = [entries, &[""]].concat();
@@ -138,8 +139,8 @@ pub(super) fn reached<'a>(all: &[Declaration<'a>], entries: &[&'a str]) -> Vec<D
 /// WGSL's own types that the stage's text names; it has no aliases of them.
 const TYPES: &str = "array atomic bitcast bool f32 i32 mat4x4 ptr texture_2d u32 vec2 vec3 vec4";
 
-/// The user's first declaration of a name that is WGSL's own and that the stage's text uses: the text would then use
-/// the user's.
+/// The user's first declaration of a name that is WGSL's own and that the stage's text uses: the
+/// text would then use the user's.
 pub(super) fn shadowed<'a>(user: &'a str, own: &str) -> Option<Declaration<'a>> {
     let declared: Vec<&str> = declarations(own).into_iter().map(|one| one.name).collect();
     let words: Vec<&str> = tokens(own).map(|(_, token)| token).collect();

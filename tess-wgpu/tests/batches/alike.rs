@@ -6,8 +6,8 @@ use tess_gpu::Setup;
 use tess_gpu::sizes::{BLOCK, SHORT_PATCHES};
 use tess_verify::generate::SplitMix64;
 
-/// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole
-/// blocks; the copies of these begin at various elements of a patch.
+/// Runs of patches with these factors, so many, that begin and end within blocks, each long enough
+/// for tiles within whole blocks; the copies of these begin at various elements of a patch.
 fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(31);
     let mut all = Vec::new();

@@ -48,8 +48,8 @@ fn unlike_neighbours_in_every_format() {
     }
 }
 
-/// Culled patches, patches of factor 1, large ones that the catalogue does not take, and blocks of equal
-/// patches among the others.
+/// Culled patches, patches of factor 1, large ones that the catalogue does not take, and blocks of
+/// equal patches among the others.
 #[test]
 fn every_kind_of_patch_in_one_batch() {
     let mut machine = Machine::open();
@@ -131,8 +131,8 @@ fn with_some(factor: f32) -> Vec<PatchFactors> {
     unlike(Domain::Quad, COUNT, &[2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, factor])
 }
 
-/// Patches with one edge of 33 or 34 points, and 2 to 4 points along everything else: few triangles, and one point
-/// more than a key has room for.
+/// Patches with one edge of 33 or 34 points, and 2 to 4 points along everything else: few
+/// triangles, and one point more than a key has room for.
 fn one_long_edge() -> Vec<PatchFactors> {
     let long = unlike(Domain::Isoline, COUNT, &[1.0, 32.0, 33.0]);
     let rest = unlike(Domain::Quad, COUNT, &[1.0, 2.0, 3.0]);

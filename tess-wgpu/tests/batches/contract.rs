@@ -195,7 +195,8 @@ fn counting_in_several_portions() {
     assert_eq!(status.primitives(), 8 << 22, "triangles");
 }
 
-/// No batch stores contexts of integer factors. The tap computes them, that of a factor 1 which counts as even too.
+/// No batch stores contexts of integer factors. The tap computes them, that of a factor 1 which
+/// counts as even too.
 #[test]
 fn contexts_of_integers() {
     let mut machine = Machine::open();

@@ -57,7 +57,8 @@ fn rows_of_sections() {
     machine.assert_equal(setup, &patches);
 }
 
-/// Batches that write no points are not cut up; and a packed point has 30 bits for its patch's number.
+/// Batches that write no points are not cut up; and a packed point has 30 bits for its patch's
+/// number.
 #[test]
 fn batches_too_large_for_their_outputs() {
     let mut machine = Machine::open();
@@ -82,7 +83,8 @@ fn batches_too_large_for_their_outputs() {
     assert!(too_many.starts_with("1073741825 patches"), "{too_many}");
 }
 
-/// A window that begins at another tile and workgroups that take each row for the first are noticed.
+/// A window that begins at another tile and workgroups that take each row for the first are
+/// noticed.
 #[test]
 fn wrong_windows_and_rows_are_seen() {
     let patches = small(Domain::Triangle, 150_000);
@@ -156,8 +158,8 @@ fn rows(plan: &Plan, stage: Stage) -> u32 {
     }
 }
 
-/// Rows of 65535 workgroups where a device binds gigabytes: 16 million patches in one portion and one
-/// window, compared with tess-simd.
+/// Rows of 65535 workgroups where a device binds gigabytes: 16 million patches in one portion and
+/// one window, compared with tess-simd.
 #[test]
 #[ignore = "6 GiB on a device that binds 3 at once: cargo test --release -p tess-wgpu \
             --test batches cut -- --ignored"]

@@ -8,8 +8,8 @@ use tess_gpu::Setup;
 use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection, SplitMix64, configurations};
 
-/// Random patches of each configuration, every boundary once and what lies beside minimum patches, through the whole
-/// pipeline.
+/// Random patches of each configuration, every boundary once and what lies beside minimum patches,
+/// through the whole pipeline.
 #[test]
 fn boundaries_and_random_patches_in_every_configuration() {
     let mut machine = Machine::open();
@@ -48,7 +48,8 @@ fn assert_both_equal(machine: &mut Machine, setup: Setup, patches: &[PatchFactor
     assert_eq!(difference, None, "{setup:?}");
 }
 
-/// The first word that tess-simd has otherwise. Model and tess-simd are compared with each other elsewhere.
+/// The first word that tess-simd has otherwise. Model and tess-simd are compared with each other
+/// elsewhere.
 fn from_simd(setup: Setup, patches: &[PatchFactors], written: &Written) -> Option<String> {
     let (points, indices) = by_simd(setup, patches);
     let first = |what, [observed, expected]: [&[u32]; 2]| {

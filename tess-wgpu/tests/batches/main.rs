@@ -1,4 +1,5 @@
-//! Batches on whatever adapter there is, against the golden model. One program, since each links wgpu again.
+//! Batches on whatever adapter there is, against the golden model. One program, since each links
+//! wgpu again.
 
 mod alike;
 mod catalogue;

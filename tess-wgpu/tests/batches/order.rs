@@ -1,4 +1,5 @@
-//! The vertex-cache order: what the model has in that order, bit for bit, whichever way a tile is made.
+//! The vertex-cache order: what the model has in that order, bit for bit, whichever way a tile is
+//! made.
 
 use crate::common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};

@@ -67,7 +67,8 @@ fn any_element_in_every_configuration() {
     }
 }
 
-/// The shader's answer to `asked`; with `is_apart` the buffers of the batch are copied into larger ones first.
+/// The shader's answer to `asked`; with `is_apart` the buffers of the batch are copied into larger
+/// ones first.
 fn ask(machine: &Machine, setup: Setup, batch: &Batch, asked: &[u32], is_apart: bool) -> Vec<u32> {
     let source = Pull { group: 0, first_binding: 2 }.source(setup) + USER;
     let device = &machine.gpu.device;

@@ -1,4 +1,5 @@
-//! The numbers of docs/tour-gpu.md as a device writes them; tess-gpu/tests/tour.rs computes the same from the model.
+//! The numbers of docs/tour-gpu.md as a device writes them; tess-gpu/tests/tour.rs computes the
+//! same from the model.
 
 use crate::common::device::Machine;
 use crate::common::expected::Expected;

@@ -52,8 +52,8 @@ static SHARED: LazyLock<Machine> = LazyLock::new(|| {
 });
 
 impl Machine {
-    /// An adapter with WebGPU's default limits, the same for all tests of a process. None is a failure, not a reason to
-    /// skip.
+    /// An adapter with WebGPU's default limits, the same for all tests of a process. None is a
+    /// failure, not a reason to skip.
     pub(crate) fn open() -> Self {
         let Self { gpu, tessellator } = &*SHARED;
         Self { gpu: gpu.clone(), tessellator: tessellator.clone() }
@@ -75,7 +75,8 @@ impl Machine {
         self.tessellator = Tessellator::with_edit(&self.gpu.device, edit);
     }
 
-    /// Plants each fault alone, and asserts that the output without it is the model's and with it is not.
+    /// Plants each fault alone, and asserts that the output without it is the model's and with it
+    /// is not.
     pub(crate) fn assert_noticed(
         &mut self,
         setup: Setup,
@@ -194,7 +195,8 @@ impl Machine {
         }
     }
 
-    /// The same with points in each format and indices in each numbering, and with indices of 16 bits.
+    /// The same with points in each format and indices in each numbering, and with indices of 16
+    /// bits.
     pub(crate) fn assert_equal_in_every_format(&mut self, setup: Setup, patches: &[PatchFactors]) {
         for point_format in [PointFormat::Packed, PointFormat::F32] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {

@@ -43,7 +43,8 @@ impl<'a> Expected<'a> {
         [&self.points, &self.indices]
     }
 
-    /// The patch of each point with the bits of u and v, and of each primitive with its indices within the patch.
+    /// The patch of each point with the bits of u and v, and of each primitive with its indices
+    /// within the patch.
     pub(crate) fn elements(&self) -> [Vec<(u32, Vec<u32>)>; 2] {
         let mut all = [Vec::new(), Vec::new()];
         for (number, &factors) in (0..).zip(self.patches) {

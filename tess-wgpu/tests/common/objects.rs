@@ -30,7 +30,8 @@ pub(crate) fn part(buffer: &wgpu::Buffer, offset: u64, size: u64) -> BindingReso
     BindingResource::Buffer(wgpu::BufferBinding { buffer, offset, size })
 }
 
-/// A compute pipeline with these layouts, or with those that wgpu finds in the text if there are none.
+/// A compute pipeline with these layouts, or with those that wgpu finds in the text if there are
+/// none.
 pub(crate) fn compute(
     device: &wgpu::Device,
     wgsl: String,

@@ -7,15 +7,17 @@ use std::cell::{Cell, RefCell};
 use std::fmt::Debug;
 use std::time::{Duration, Instant};
 
-/// For how long the long run goes on, or `None` for the short one: the variable `TESS_LONG_SECONDS`.
+/// For how long the long run goes on, or `None` for the short one: the variable
+/// `TESS_LONG_SECONDS`.
 pub(crate) fn long() -> Option<Duration> {
     let seconds = std::env::var("TESS_LONG_SECONDS").ok()?;
     let seconds = seconds.parse().unwrap_or_else(|_| panic!("TESS_LONG_SECONDS is {seconds:?}"));
     Some(Duration::from_secs(seconds))
 }
 
-/// Runs sequences of 1 to `most` calls: `short` of them, or as many as the time of the long run allows. `run` returns
-/// how many words it compared, or says what is wrong. `names` is what the text of a call takes for granted.
+/// Runs sequences of 1 to `most` calls: `short` of them, or as many as the time of the long run
+/// allows. `run` returns how many words it compared, or says what is wrong. `names` is what the
+/// text of a call takes for granted.
 #[expect(clippy::print_stdout, reason = "the long run's numbers")]
 pub(crate) fn hold<C: Clone + Debug>(
     names: &str,

@@ -1,5 +1,5 @@
-//! Which adapter is opened, and what is said where there is none: by this program as a process of its own, whose
-//! environment takes from the drivers what they have.
+//! Which adapter is opened, and what is said where there is none: by this program as a process of
+//! its own, whose environment takes from the drivers what they have.
 
 use std::process::Command;
 use tess_wgpu::Gpu;

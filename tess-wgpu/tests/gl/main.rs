@@ -1,8 +1,8 @@
-//! wgpu's OpenGL backend gives what the others give: batches as the model has them, the stage's triangles, and
-//! errors where OpenGL has too little.
+//! wgpu's OpenGL backend gives what the others give: batches as the model has them, the stage's
+//! triangles, and errors where OpenGL has too little.
 //!
-//! Where no OpenGL gives a device, the tests are reported as ignored, with the reason; with the environment
-//! variable `CI` set they fail.
+//! Where no OpenGL gives a device, the tests are reported as ignored, with the reason; with the
+//! environment variable `CI` set they fail.
 
 #![expect(clippy::float_arithmetic, reason = "pixels and factors are floats")]
 
@@ -34,7 +34,8 @@ const TESTS: &[(&str, Test)] = &[
     ("flat_members_of_the_first_vertex_are_refused", pictures::flat_members_are_refused),
 ];
 
-/// Those that need another environment, in processes of their own: Mesa can be asked for less than it has.
+/// Those that need another environment, in processes of their own: Mesa can be asked for less than
+/// it has.
 const OF_MESA: &[(&str, fn())] = &[
     ("opengl_is_the_last_choice", choice::opengl_is_last),
     ("what_is_lacking_is_said", choice::what_is_lacking_is_said),

@@ -1,4 +1,5 @@
-//! The Bevy plugin's WGSL is valid with the helpers. Its own tests need Bevy, which continuous integration leaves out.
+//! The Bevy plugin's WGSL is valid with the helpers. Its own tests need Bevy, which continuous
+//! integration leaves out.
 
 use tess_gpu::surfaces::{BEZIER, PN_TRIANGLE, POINT_NORMAL};
 use tess_wgpu::TessellationStage;

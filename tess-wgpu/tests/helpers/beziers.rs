@@ -37,7 +37,8 @@ pub(crate) fn tables() -> Vec<Table> {
     ]
 }
 
-/// Curves of every kind: plain, running back on themselves, collapsed to a point, and equal at both ends alone.
+/// Curves of every kind: plain, running back on themselves, collapsed to a point, and equal at both
+/// ends alone.
 fn curve(kind: usize, random: &mut SplitMix64) -> [Vec4; 4] {
     let [a, b, c, d] = [(); 4].map(|()| point(random, 1.0));
     let points = match kind {

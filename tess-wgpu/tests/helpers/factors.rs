@@ -7,7 +7,8 @@ use tess_verify::generate::SplitMix64;
 
 /// Errors of a quotient, in ulps: 2.5 of the division by WGSL's rule.
 const OF_A_QUOTIENT: f32 = 3.0;
-/// Of a quotient's root: half of the quotient's, and 2 of `inverseSqrt` and 2.5 of a division, which WGSL's root may be.
+/// Of a quotient's root: half of the quotient's, and 2 of `inverseSqrt` and 2.5 of a division,
+/// which WGSL's root may be.
 const OF_A_ROOT: f32 = 7.0;
 /// Of a rule: a dot product, two roots, a division and some products, each within 5 ulps.
 const OF_A_RULE: f32 = 32.0;

@@ -1,8 +1,10 @@
-//! The helpers of hull and domain functions, each on a table of arguments against the function of tess-surface.
+//! The helpers of hull and domain functions, each on a table of arguments against the function of
+//! tess-surface.
 //!
-//! Bits are compared where two patches meet and where WGSL leaves no freedom. Elsewhere WGSL lets a device fuse a
-//! multiplication with an addition, and divide and take roots with errors of some units in the last place; each table
-//! says how many it allows. Every fault of `list.faults` is seen.
+//! Bits are compared where two patches meet and where WGSL leaves no freedom. Elsewhere WGSL lets a
+//! device fuse a multiplication with an addition, and divide and take roots with errors of some
+//! units in the last place; each table says how many it allows. Every fault of `list.faults` is
+//! seen.
 
 #![expect(clippy::float_arithmetic, reason = "the helpers compute in floats")]
 

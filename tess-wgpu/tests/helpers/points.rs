@@ -9,7 +9,8 @@ use tess_surface::sides::edge_corners;
 use tess_surface::{Address, Curve, Edge, HeightMap, PnCorner, Sides, Surface, SurfacePatch};
 use tess_verify::generate::SplitMix64;
 
-/// Errors of a position, in ulps of the largest coordinate: a fused operation rounds once where the CPU rounds twice.
+/// Errors of a position, in ulps of the largest coordinate: a fused operation rounds once where the
+/// CPU rounds twice.
 const OF_A_POINT: f32 = 8.0;
 /// The largest coordinate of a corner.
 const SIZE_OF_A_PATCH: f64 = 1.0;
@@ -88,7 +89,8 @@ fn lines() -> Vec<Case> {
     all
 }
 
-/// Inner control points of edges. The sums have terms of up to 6, and the quotient by 3 an error of 2.5 ulps.
+/// Inner control points of edges. The sums have terms of up to 6, and the quotient by 3 an error
+/// of 2.5 ulps.
 fn control_points() -> Vec<Case> {
     let mut random = SplitMix64::new(25);
     let case = |_| {
@@ -156,7 +158,8 @@ const EDGES_OF_QUADS: &str = "select(tess_along(a[0], a[1], a[4].z), \
 const EDGES_OF_TRIANGLES: &str = "select(tess_along(a[0], a[1], a[4].z), \
     tess_on_triangle(array(a[0], a[1], a[2]), a[4].xy), a[4].w == 1.0)";
 
-/// Points on edges have the bits that the edge's two ends give, whichever comes first: so all patches of the edge agree.
+/// Points on edges have the bits that the edge's two ends give, whichever comes first: so all
+/// patches of the edge agree.
 fn edges(corners: usize) -> Vec<Case> {
     let sides = if corners == 4 { Sides::Quad([(); 4]) } else { Sides::Triangle([(); 3]) };
     let (mut all, mut random) = (Vec::new(), SplitMix64::new(23));
@@ -181,8 +184,8 @@ fn edges(corners: usize) -> Vec<Case> {
     all
 }
 
-/// Heights at places around multiples of 1/256 of a texel, where mixtures of texels of 8 bits are exact, and beyond the
-/// image, up to infinity.
+/// Heights at places around multiples of 1/256 of a texel, where mixtures of texels of 8 bits are
+/// exact, and beyond the image, up to infinity.
 fn samples() -> Vec<Case> {
     let [width, height] = SIZE.map(usize::from);
     let map = HeightMap::new(width, height, heights()).expect("as many texels");

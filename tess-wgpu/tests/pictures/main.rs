@@ -51,8 +51,8 @@ const SIZE: [u32; 2] = [512, 384];
 /// Those of the pictures in which single pixels count.
 const LARGE: [u32; 2] = [960, 720];
 
-/// A pixel differs if a channel is further off than this. Devices round colours and positions in ways of
-/// their own.
+/// A pixel differs if a channel is further off than this. Devices round colours and positions in
+/// ways of their own.
 const CHANNEL: i16 = 12;
 /// So many pixels of a thousand may differ: those on outlines, and on the edges of triangles.
 const PER_MILLE: usize = 10;

@@ -9,7 +9,8 @@ use tess_verify::generate::{SplitMix64, random_patch};
 pub(crate) enum DeviceCall {
     /// The first patches of a domain's buffer of factors become others.
     Fill { domain: Domain, with: Patches },
-    /// A batch of the first `count` patches of its domain's buffer, in groups; or a plan in long stages on bare wgpu.
+    /// A batch of the first `count` patches of its domain's buffer, in groups; or a plan in long
+    /// stages on bare wgpu.
     Make { setup: usize, count: u32, groups: u32, output: Destination, is_bare: bool },
     /// `count` batches from batch `first` on are encoded into one encoder.
     Run { first: usize, count: usize, then: Then },

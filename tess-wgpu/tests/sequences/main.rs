@@ -1,4 +1,5 @@
-//! Batches in any order of calls, and in all options crossed: compared with the golden model word for word.
+//! Batches in any order of calls, and in all options crossed: compared with the golden model word
+//! for word.
 
 mod bare;
 mod calls;
@@ -18,7 +19,8 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::{Copies, IndexType, Numbering, Order, PointFormat, Setup};
 use world::{Kept, World};
 
-/// Setups of every domain, partitioning and format, few enough for their pipelines to be made quickly.
+/// Setups of every domain, partitioning and format, few enough for their pipelines to be made
+/// quickly.
 fn few() -> Vec<Setup> {
     use OutputPrimitive::{Line, Point, TriangleCcw, TriangleCw};
     use Partitioning::{FractionalEven, FractionalOdd, Integer, Pow2};
@@ -74,8 +76,8 @@ fn any_sequence_of_calls_gives_the_models_words() {
     });
 }
 
-/// Batches that share buffers, one of which grows beyond 16-bit indices while its encoder waits. Draw arguments
-/// alone have room for that.
+/// Batches that share buffers, one of which grows beyond 16-bit indices while its encoder waits.
+/// Draw arguments alone have room for that.
 #[test]
 fn a_batch_outgrows_its_indices() {
     let large = Patches { kind: Kind::Large, count: 30, seed: 1 };

@@ -8,7 +8,8 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::{Capacity, Copies, IndexType, Numbering, Order, Plan, PointFormat, Setup};
 use tess_testkit::pairs::{Choice, Options};
 
-/// How many patches: one, a short batch, a long one, one with a catalogue, and one of two portions (0 stands for it).
+/// How many patches: one, a short batch, a long one, one with a catalogue, and one of two portions
+/// (0 stands for it).
 const COUNTS: [u32; 5] = [1, 300, 1100, 16_384, 0];
 const GROUPS: [u32; 3] = [0, 1, 300];
 /// Room for points and primitives beyond what is needed.
@@ -64,8 +65,8 @@ pub(crate) fn setups() -> Vec<Setup> {
     options().rows().iter().map(|row| setup(row)).collect()
 }
 
-/// Runs the batch of a row, with its room and with what it needs, and compares everything. Returns how many words were
-/// compared, and how many batches gave something that fitted.
+/// Runs the batch of a row, with its room and with what it needs, and compares everything. Returns
+/// how many words were compared, and how many batches gave something that fitted.
 fn run(machine: &mut Machine, kept: &mut Kept, row: &[usize]) -> Result<[u64; 2], String> {
     let (setup, is_bare) = (setup(row), row[HOST] == 2);
     let plan = Plan::new(setup, u32::MAX, Capacity::default(), crate::world::LOW);

@@ -1,4 +1,5 @@
-//! The results of a shader that pulls its points: every point and primitive of a batch that stores neither.
+//! The results of a shader that pulls its points: every point and primitive of a batch that stores
+//! neither.
 
 use crate::bare::Left;
 use crate::common::device::Machine;
@@ -35,7 +36,8 @@ const MOST: u32 = 20_000;
 pub(crate) struct Pulling(HashMap<Setup, wgpu::ComputePipeline>);
 
 impl Pulling {
-    /// Compares what a shader computes behind a batch that has run; returns how many words were compared.
+    /// Compares what a shader computes behind a batch that has run; returns how many words were
+    /// compared.
     pub(crate) fn compare(
         &mut self,
         machine: &Machine,

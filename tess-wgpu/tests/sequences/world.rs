@@ -1,8 +1,8 @@
 //! The calls of a sequence, done, and compared with the model.
 //!
-//! Every buffer that batches write has a shadow: the words that it must hold. A batch whose output fits changes the
-//! beginning of its shadows, and nothing else ever changes. So a buffer that equals its shadow was written where it
-//! had to be and nowhere else.
+//! Every buffer that batches write has a shadow: the words that it must hold. A batch whose output
+//! fits changes the beginning of its shadows, and nothing else ever changes. So a buffer that
+//! equals its shadow was written where it had to be and nowhere else.
 
 mod checks;
 
@@ -32,7 +32,8 @@ struct Store {
     last: Last,
 }
 
-/// Who wrote a store last: the setup, the factors, and where the words or 16-bit halves of each patch begin.
+/// Who wrote a store last: the setup, the factors, and where the words or 16-bit halves of each
+/// patch begin.
 #[derive(Default)]
 struct Last(Option<(Setup, Vec<PatchFactors>, Vec<usize>)>);
 
@@ -74,7 +75,8 @@ pub(crate) struct World<'a> {
 }
 
 impl<'a> World<'a> {
-    /// With buffers for the factors of `patches` patches of each domain, of which the first few are not culled.
+    /// With buffers for the factors of `patches` patches of each domain, of which the first few are
+    /// not culled.
     pub(crate) fn new(
         machine: &'a mut Machine,
         kept: &'a mut Kept,
@@ -193,7 +195,8 @@ impl<'a> World<'a> {
             ];
             let given: Vec<_> =
                 given.into_iter().filter_map(|(of, buffer)| Some((of, buffer?))).collect();
-            // What the buffers hold, and not what the indices can name: the plan has to know that itself.
+            // What the buffers hold, and not what the indices can name: the plan has to know that
+            // itself.
             let held =
                 |store: usize| u32::try_from(self.stores[store].shadow.len() / 2).unwrap_or(0);
             let room = Capacity { points: stores[0].map_or(room.points, held), ..promised };
@@ -257,8 +260,8 @@ impl<'a> World<'a> {
         self.store("own indices".to_owned(), bytes.div_ceil(8) * 2)
     }
 
-    /// The room that the documentation promises: whole points, whole 8 bytes of indices, and no more points than
-    /// indices can name.
+    /// The room that the documentation promises: whole points, whole 8 bytes of indices, and no
+    /// more points than indices can name.
     fn room(
         &self,
         setup: Setup,

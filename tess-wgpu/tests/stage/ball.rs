@@ -81,7 +81,8 @@ fn mesh() -> (Vec<[f32; 4]>, Vec<[u32; 4]>) {
                 at[(axis + 1) % 3] = a;
                 at[(axis + 2) % 3] = b;
                 *numbers.entry(at).or_insert_with(|| {
-                    // No coordinate is a short binary number: such ones hide what rounds differently.
+                    // No coordinate is a short binary number: such ones hide what rounds
+                    // differently.
                     let [x, y, z] = at.map(|c| 0.731_234_5 * f32::from(c));
                     corners.push([x, y, z, 0.0]);
                     u32::try_from(corners.len() - 1).expect("few corners")

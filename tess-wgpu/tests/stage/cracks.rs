@@ -1,10 +1,11 @@
-//! The helpers for hull and domain functions: no cracks under moving cameras, by exact positions, and
-//! nothing culled that is seen.
+//! The helpers for hull and domain functions: no cracks under moving cameras, by exact positions,
+//! and nothing culled that is seen.
 
 use crate::ball::{Ball, Placed, View};
 use std::collections::BTreeMap;
 
-/// The vertices along an edge of a quad, from its corner of the lower number on: the bits of their positions.
+/// The vertices along an edge of a quad, from its corner of the lower number on: the bits of their
+/// positions.
 fn along(quad: [u32; 4], points: &[Placed], edge: usize) -> ([u32; 2], Vec<[u32; 4]>) {
     // Along u = 0, v = 0, u = 1, v = 1, with corners at (0,0), (1,0), (1,1), (0,1).
     let [from, to] = [[0, 3], [0, 1], [1, 2], [3, 2]][edge].map(|corner: usize| quad[corner]);
@@ -80,7 +81,8 @@ fn planted_cracks_are_seen() {
     }
 }
 
-/// Whether a patch is seen: some vertex is in the frustum and faces the eye, as the ball's normals do.
+/// Whether a patch is seen: some vertex is in the frustum and faces the eye, as the ball's normals
+/// do.
 fn is_seen(points: &[Placed], eye: [f32; 4]) -> bool {
     points.iter().any(|point| {
         let [x, y, z, w] = point.clip;

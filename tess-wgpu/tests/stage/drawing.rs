@@ -194,7 +194,8 @@ fn an_engine_draws(scene: &Scene, points: Points) {
     assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "the pass's pipeline");
 }
 
-/// As many groups as before are copied in the next frame. If others follow before it, only these count.
+/// As many groups as before are copied in the next frame. If others follow before it, only these
+/// count.
 #[test]
 fn the_last_groups_before_a_frame_count() {
     let scene = scene(Domain::Quad, Partitioning::Integer);

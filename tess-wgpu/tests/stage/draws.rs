@@ -12,7 +12,8 @@ use tess_wgpu::stage::{Points, Room, StageError};
 use tess_wgpu::{DeviceLimits, Error, Gpu};
 use wgpu::BufferUsages as Usage;
 
-/// The scene's WGSL whose pixels have the bits of a patch's first factor in the place of its number.
+/// The scene's WGSL whose pixels have the bits of a patch's first factor in the place of its
+/// number.
 fn with_factors(domain: Domain) -> String {
     let first = if domain == Domain::Isoline { "density" } else { "edges.x" };
     let text = source(domain);

@@ -22,7 +22,8 @@ fn refusal(scene: &Scene, source: &str, points: Points) -> StageError {
     }
 }
 
-/// The line and the message with which a stage refuses the right WGSL with `to` in the place of `from`.
+/// The line and the message with which a stage refuses the right WGSL with `to` in the place of
+/// `from`.
 fn complaint(scene: &Scene, [from, to]: [&str; 2], points: Points) -> (Option<u32>, String) {
     let right = source(Domain::Quad);
     let wrong = right.replace(from, to);

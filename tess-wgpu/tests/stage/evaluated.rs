@@ -9,7 +9,8 @@ use tess_gpu::layout::Status;
 use tess_wgpu::TessellationStage;
 use tess_wgpu::stage::{Points, Room};
 
-/// The vertices that a frame of the scene has, as words: position, u and v, number, and one word that nobody writes.
+/// The vertices that a frame of the scene has, as words: position, u and v, number, and one word
+/// that nobody writes.
 fn model(scene: &Scene, patches: &[PatchFactors]) -> Vec<[u32; 7]> {
     let of_patch = |(number, &factors): (u16, &PatchFactors)| {
         let points = Patch::new(scene.config, factors).tessellate().points;
@@ -56,7 +57,8 @@ fn the_vertices_are_what_domain_returns_for_the_models_points() {
     }
 }
 
-/// One binding holds a part of the vertices: 4 MiB hold 3968 of 1056 bytes each, so these quads take five windows.
+/// One binding holds a part of the vertices: 4 MiB hold 3968 of 1056 bytes each, so these quads
+/// take five windows.
 #[test]
 fn vertices_beyond_one_binding_are_evaluated_in_windows() {
     let gpu = limited(wgpu::Limits {
@@ -98,7 +100,8 @@ fn room_that_grows_replaces_the_vertices() {
     assert_eq!(stored(&scene, &stage), model(&scene, &scene.patches), "in the new room");
 }
 
-/// The scene's WGSL with another mark, and places that a function of `project` moves by so many patches.
+/// The scene's WGSL with another mark, and places that a function of `project` moves by so many
+/// patches.
 fn material(mark: u32, by: u32) -> String {
     source(Domain::Quad).replace("vertex.number, 1u", &format!("vertex.number, {mark}u"))
         + &format!(

@@ -187,7 +187,8 @@ fn dynamic_offsets_choose_factors() {
     assert_eq!(stage.set_dynamic_offsets(1, &[0]).err(), Some(none.into()));
 }
 
-/// A second bind group, whose offset chooses the number that the domain function adds to the patch's.
+/// A second bind group, whose offset chooses the number that the domain function adds to the
+/// patch's.
 #[test]
 fn dynamic_offsets_of_later_groups_reach_the_draw() {
     let scene = scene(Domain::Quad, Partitioning::Integer);

@@ -1,6 +1,7 @@
 //! A device that the driver loses is an error, whichever call finds it.
 //!
-//! A software driver never loses its device, so a Vulkan layer (`lose.c`) does it, in a process of its own.
+//! A software driver never loses its device, so a Vulkan layer (`lose.c`) does it, in a process of
+//! its own.
 
 use crate::drawing::scene;
 use crate::scene::PATCHES;

@@ -6,12 +6,12 @@ use tess_gpu::layout::factor_words;
 
 /// Pixels across and down of one patch.
 pub(crate) const PATCH: u32 = 64;
-/// A pixel whose centre is so near to an edge of a triangle, in pixels, can be either triangle's: devices
-/// round positions to 1/256 of a pixel.
+/// A pixel whose centre is so near to an edge of a triangle, in pixels, can be either triangle's:
+/// devices round positions to 1/256 of a pixel.
 const MARGIN: f64 = 1.0 / 64.0;
 
-/// The pixels of some patches, `None` where the model does not say. Each says where the corner `flat` of its
-/// triangle is.
+/// The pixels of some patches, `None` where the model does not say. Each says where the corner
+/// `flat` of its triangle is.
 pub(crate) fn pixels(config: Config, patches: &[PatchFactors], flat: usize) -> Vec<Option<Pixel>> {
     let mut all = vec![Some([0; 4]); (SIZE[0] * SIZE[1]) as usize];
     for (number, &factors) in (0_u32..).zip(patches) {

@@ -6,8 +6,8 @@ use tess_core::{Config, Domain};
 use tess_wgpu::TessellationStage;
 use tess_wgpu::stage::Room;
 
-/// How many pixels a patch of factors 3, or of two lines of three segments, covers. `position` is the position in the
-/// picture of the domain point `uv`.
+/// How many pixels a patch of factors 3, or of two lines of three segments, covers. `position` is
+/// the position in the picture of the domain point `uv`.
 pub(crate) fn pixels(
     scene: &Scene,
     domain: Domain,

@@ -1,4 +1,5 @@
-//! Demand that rises slowly is met before a frame is coarse, and room that frames need no more is given back.
+//! Demand that rises slowly is met before a frame is coarse, and room that frames need no more is
+//! given back.
 
 use std::collections::VecDeque;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
@@ -46,7 +47,8 @@ fn stage(gpu: &Gpu, room: Room) -> TessellationStage {
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Frames of these factors, each submitted when two more were recorded. Gives the rooms and the coarse frames.
+/// Frames of these factors, each submitted when two more were recorded. Gives the rooms and the
+/// coarse frames.
 fn run(
     gpu: &Gpu,
     stage: &mut TessellationStage,

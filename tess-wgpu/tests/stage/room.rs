@@ -196,7 +196,8 @@ fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
     }
 }
 
-/// A stage that draws nothing but depth. It stores neither points nor indices, so there can be any room.
+/// A stage that draws nothing but depth. It stores neither points nor indices, so there can be any
+/// room.
 fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) -> TessellationStage {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let source = format!(
@@ -218,8 +219,8 @@ fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) ->
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// 2^19 quads of factor 64 give 2^32 triangles, of which the low word alone would fit anywhere. The device takes 2048
-/// workgroups in a row, so every pass has several rows.
+/// 2^19 quads of factor 64 give 2^32 triangles, of which the low word alone would fit anywhere. The
+/// device takes 2048 workgroups in a row, so every pass has several rows.
 #[test]
 fn sums_beyond_32_bits_are_seen() {
     let limits = wgpu::Limits { max_compute_workgroups_per_dimension: 2048, ..Default::default() };
@@ -235,8 +236,8 @@ fn sums_beyond_32_bits_are_seen() {
     assert!((2.0..3.0).contains(&(64.0 * found.scale).ceil()), "{found:?}");
 }
 
-/// An isoline patch of factors 64 has 64 lines of 65 points and 64 segments, so points can exceed 32 bits where
-/// primitives do not.
+/// An isoline patch of factors 64 has 64 lines of 65 points and 64 segments, so points can exceed
+/// 32 bits where primitives do not.
 #[test]
 fn points_beyond_32_bits_are_seen_where_primitives_are_fewer() {
     let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));

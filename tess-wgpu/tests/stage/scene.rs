@@ -12,8 +12,8 @@ pub(crate) const SIZE: [u32; 2] = [4 * model::PATCH, 2 * model::PATCH];
 /// The most patches.
 pub(crate) const PATCHES: u32 = 8;
 
-/// A pixel: the bits of u and v of its triangle's first vertex (on OpenGL: of its last), the patch, and 1; or
-/// four zeros.
+/// A pixel: the bits of u and v of its triangle's first vertex (on OpenGL: of its last), the patch,
+/// and 1; or four zeros.
 pub(crate) type Pixel = [u32; 4];
 
 /// The user's WGSL for a domain.
@@ -93,7 +93,8 @@ impl Scene {
         model::pixels(self.config, patches, if is_gl(&self.gpu) { 2 } else { 0 })
     }
 
-    /// A pipeline as an engine makes it: the entry point of a shader, vertex buffers, and a state of its own.
+    /// A pipeline as an engine makes it: the entry point of a shader, vertex buffers, and a state
+    /// of its own.
     pub(crate) fn pipeline(
         &self,
         wgsl: String,

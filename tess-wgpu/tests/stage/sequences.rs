@@ -1,7 +1,8 @@
 //! Any sequence of frames gives what the model says, on several stages of one device.
 //!
-//! The model of a stage is its factors, the place of its patches, its groups and the room that it says it has. From
-//! these follow the factors that a frame is scaled to, its points and indices word for word, and its pixels.
+//! The model of a stage is its factors, the place of its patches, its groups and the room that it
+//! says it has. From these follow the factors that a frame is scaled to, its points and indices
+//! word for word, and its pixels.
 
 mod calls;
 mod own;
@@ -51,7 +52,8 @@ impl World<'_> {
             StageCall::Late => {
                 if let Some((encoder, frame, count, recorded)) = own.kept.pop_front() {
                     own.drawn = None;
-                    // A bind group is recorded; factors in a buffer are those at the time of the run.
+                    // A bind group is recorded; factors in a buffer are those at the time of the
+                    // run.
                     let needed = match own.form.source {
                         Source::Hull => recorded,
                         Source::Host | Source::Buffer => own.needed(&own.frame_patches(count)),

@@ -1,4 +1,5 @@
-//! Stages with one tessellator share the pipelines that do not depend on what differs. Sequences compare their output.
+//! Stages with one tessellator share the pipelines that do not depend on what differs. Sequences
+//! compare their output.
 
 use crate::common::device::device_of;
 use crate::scene::{FORMAT, PATCHES, source};
@@ -13,8 +14,8 @@ fn pipelines(instance: &wgpu::Instance) -> [usize; 2] {
     [&hub.compute_pipelines, &hub.render_pipelines].map(|one| one.num_kept_from_user)
 }
 
-/// As a program makes one, whose cache is there from an earlier run or not. Making wgpu's cache is `unsafe`, so that
-/// these tests have none.
+/// As a program makes one, whose cache is there from an earlier run or not. Making wgpu's cache is
+/// `unsafe`, so that these tests have none.
 fn tessellator(device: &wgpu::Device, cache: Option<&wgpu::PipelineCache>) -> Tessellator {
     let new = Tessellator::new(device);
     cache.into_iter().fold(new, Tessellator::with_pipeline_cache)
@@ -83,8 +84,8 @@ fn a_stage_makes_the_pipelines_that_no_other_has() {
     assert!(left[1] == 0 && made == [compute - left[0], 1], "{left:?} were left, {made:?} made");
 }
 
-/// A room that grows out of a short batch and shrinks into one again, other groups, and a stage for more patches: what
-/// they run has been made when the first stage was built.
+/// A room that grows out of a short batch and shrinks into one again, other groups, and a stage for
+/// more patches: what they run has been made when the first stage was built.
 #[test]
 fn no_frame_makes_a_pipeline() {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());

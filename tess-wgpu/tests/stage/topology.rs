@@ -23,7 +23,8 @@ fn points_are_one_pixel_each() {
 fn lines_are_as_long_as_the_patch() {
     let lines = pixels(Domain::Isoline, OutputPrimitive::Line);
     let all = pixels(Domain::Quad, OutputPrimitive::TriangleCw);
-    // The lines v = 0 and v = 1/2 are as wide as the quad: its pixels are so many times half of theirs.
+    // The lines v = 0 and v = 1/2 are as wide as the quad: its pixels are so many times half of
+    // theirs.
     let width = lines / 2;
     assert!(width > 100 && all.is_multiple_of(width), "{lines} pixels; {all} of the quad");
 }

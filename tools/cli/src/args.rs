@@ -1,4 +1,5 @@
-//! Arguments of several commands: a patch (domain, factors and configuration), generated cases, names.
+//! Arguments of several commands: a patch (domain, factors and configuration), generated cases,
+//! names.
 
 use crate::campaign::{Placed, ShardArgs};
 use crate::failure::Failure;
@@ -52,7 +53,8 @@ pub(crate) struct PatchArgs {
 }
 
 impl PatchArgs {
-    /// The patch: its configuration and raw factors. Errors: the domain has other numbers of outer or inside factors.
+    /// The patch: its configuration and raw factors. Errors: the domain has other numbers of outer
+    /// or inside factors.
     pub(crate) fn case(&self) -> Result<Case, Failure> {
         let config =
             Config { partitioning: self.partitioning, output: self.output, split: self.split };
@@ -128,8 +130,8 @@ impl SelectionArgs {
         }
     }
 
-    /// The options that the cases depend on, so that a file says how it was made. Each note has the name of its
-    /// option, but for `--count`, whose note is `random`.
+    /// The options that the cases depend on, so that a file says how it was made. Each note has the
+    /// name of its option, but for `--count`, whose note is `random`.
     pub(crate) fn notes(&self, placed: Placed) -> Vec<(String, String)> {
         let pair = |key: &str, value: String| (key.to_owned(), value);
         let mut notes = vec![

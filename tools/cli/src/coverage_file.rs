@@ -16,8 +16,9 @@ pub(crate) struct CoverageFile {
 }
 
 impl CoverageFile {
-    /// Begins to count for a file that has a [`role`]. It need not be there yet. Errors: a place that cannot be
-    /// written; a file that cannot be read, or holds no coverage of this version's bins.
+    /// Begins to count for a file that has a [`role`]. It need not be there yet. Errors: a place
+    /// that cannot be written; a file that cannot be read, or holds no coverage of this version's
+    /// bins.
     pub(crate) fn open(path: PathBuf) -> Result<Self, Failure> {
         OutputArgs { file: path.clone() }.require_writable()?;
         #[cfg(windows)]
@@ -29,9 +30,9 @@ impl CoverageFile {
         Ok(Self { path, coverage: Coverage::default() })
     }
 
-    /// Adds the hits to the file, after `report` took the sum. Processes that add to one file take turns, so that no
-    /// hit is lost. Errors: those of `report`; a file that cannot be locked, read or written, which is then as it
-    /// was.
+    /// Adds the hits to the file, after `report` took the sum. Processes that add to one file take
+    /// turns, so that no hit is lost. Errors: those of `report`; a file that cannot be locked, read
+    /// or written, which is then as it was.
     pub(crate) fn add(
         self,
         report: impl FnOnce(&Coverage) -> Result<(), Failure>,
@@ -45,8 +46,8 @@ impl CoverageFile {
     }
 }
 
-/// A coverage file as one of the command's files. Errors: a path that is no regular file: a pipe would wait, and a
-/// device may be endless.
+/// A coverage file as one of the command's files. Errors: a path that is no regular file: a pipe
+/// would wait, and a device may be endless.
 pub(crate) fn role(path: &Path) -> Result<Role<'_>, Failure> {
     let is_other = path.metadata().is_ok_and(|found| !found.is_file());
     if path.as_os_str() == "-" || is_other {
@@ -58,12 +59,14 @@ pub(crate) fn role(path: &Path) -> Result<Role<'_>, Failure> {
     Ok(Role::output("--coverage", path))
 }
 
-/// Writes a coverage file. Errors: the place cannot be written; a file that was there is then as it was.
+/// Writes a coverage file. Errors: the place cannot be written; a file that was there is then as it
+/// was.
 pub(crate) fn write(path: &Path, coverage: &Coverage) -> Result<(), Failure> {
     OutputArgs { file: path.to_owned() }.write(coverage.to_ucis().as_bytes())
 }
 
-/// Reads a coverage file; `-` is stdin. Errors: it cannot be read, or holds no coverage of this version's bins.
+/// Reads a coverage file; `-` is stdin. Errors: it cannot be read, or holds no coverage of this
+/// version's bins.
 pub(crate) fn read_from(path: &Path) -> Result<Coverage, Failure> {
     if path.as_os_str() == "-" {
         return Coverage::read_ucis(io::stdin().lock())
@@ -107,8 +110,9 @@ fn locked(path: &Path) -> io::Result<impl Sized> {
     Ok(lock)
 }
 
-/// Windows neither reads a file that another handle has locked nor replaces one that is open. So the lock is a file
-/// beside it, which is in use as long as the lock is held. It stays: one that is being deleted cannot be opened.
+/// Windows neither reads a file that another handle has locked nor replaces one that is open. So
+/// the lock is a file beside it, which is in use as long as the lock is held. It stays: one that is
+/// being deleted cannot be opened.
 #[cfg(windows)]
 #[expect(clippy::disallowed_methods, reason = "nothing tells when the other program is done")]
 fn locked_beside(path: &Path) -> io::Result<File> {

@@ -38,8 +38,8 @@ pub(crate) fn cases(path: &Path) -> Result<Cases<Reader>, Failure> {
     Cases::new(name(path), reader(path)?).map_err(Failure::bad_input)
 }
 
-/// A whole text of at most `max` bytes, so that a device without an end does not fill the memory. Errors: it cannot
-/// be read, is longer, or is not UTF-8.
+/// A whole text of at most `max` bytes, so that a device without an end does not fill the memory.
+/// Errors: it cannot be read, is longer, or is not UTF-8.
 pub(crate) fn text(path: &Path, max: u64) -> io::Result<String> {
     let mut text = String::new();
     let read = open(path)?.take(max + 1).read_to_string(&mut text)?;

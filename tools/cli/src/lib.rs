@@ -1,8 +1,9 @@
 //! The library behind the program `tess`: [`main`] is all of it that others can call.
 //!
 //! `commands` has a folder for each command. What they share lies beside it: `args` (a patch on the
-//! command line), `backends` (who tessellates it), `campaign` (which part of the work, and its report), `formats`
-//! (what it is shown as), `input` (what is read), `output` and `coverage_file` (where results go) and `failure` (how a command ends). Drawings and explanations are made by
+//! command line), `backends` (who tessellates it), `campaign` (which part of the work, and its
+//! report), `formats` (what it is shown as), `input` (what is read), `output` and `coverage_file`
+//! (where results go) and `failure` (how a command ends). Drawings and explanations are made by
 //! `tess-verify`.
 
 mod args;

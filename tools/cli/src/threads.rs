@@ -7,9 +7,9 @@ use std::thread::{Builder, available_parallelism, scope};
 /// The most threads that are tried.
 const MOST: usize = 1024;
 
-/// Starts rayon's pool with the threads that can be started, at most [`MOST`]. By itself it panics where
-/// there are fewer than it wants, and starts tens of thousands if `RAYON_NUM_THREADS` asks for them.
-/// Without any, the pool is this thread.
+/// Starts rayon's pool with the threads that can be started, at most [`MOST`]. By itself it panics
+/// where there are fewer than it wants, and starts tens of thousands if `RAYON_NUM_THREADS` asks
+/// for them. Without any, the pool is this thread.
 pub(crate) fn start_pool() {
     let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
     let asked = asked.filter(|&number: &usize| number > 0);

@@ -21,8 +21,8 @@ pub fn choices() -> String {
     }))
 }
 
-/// The bits of a factor as `tess` reads it: a decimal number, nan, inf, or `0x` and its bits. Errors: the text is
-/// neither.
+/// The bits of a factor as `tess` reads it: a decimal number, nan, inf, or `0x` and its bits.
+/// Errors: the text is neither.
 #[wasm_bindgen]
 pub fn factor_bits(text: &str) -> Result<u32, JsError> {
     factor(text).map(f32::to_bits).map_err(thrown)

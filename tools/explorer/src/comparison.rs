@@ -14,8 +14,8 @@ use tess_verify::vectors::{Header, Kind, Record, VectorFile};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Whether two results are equal, the first difference in words, and the numbers of the points and the primitives
-/// that differ: JSON.
+/// Whether two results are equal, the first difference in words, and the numbers of the points and
+/// the primitives that differ: JSON.
 #[wasm_bindgen]
 pub fn compare(expected: &PatchView, observed: &PatchView) -> String {
     let (expected, observed) = (&expected.listing, &observed.listing);

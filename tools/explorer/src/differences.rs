@@ -1,7 +1,8 @@
 //! A listing's differences from the model as words that fit into a link.
 //!
-//! Words are joined by `-`: `P40` and `T60` are other numbers of points and primitives, `p7.aaab.5555`
-//! is point 7 with u and v as hex bits, `t12.6.8.7` is primitive 12 with its indices.
+//! Words are joined by `-`: `P40` and `T60` are other numbers of points and primitives,
+//! `p7.aaab.5555` is point 7 with u and v as hex bits, `t12.6.8.7` is primitive 12 with its
+//! indices.
 
 use crate::patch::PatchView;
 use std::fmt::Write;

@@ -28,8 +28,8 @@ impl GpuTables {
     }
 }
 
-/// Every shader that the configuration of a case line can need, by entry point: JSON. For tests of a browser's
-/// compiler. Errors: the line is no case.
+/// Every shader that the configuration of a case line can need, by entry point: JSON. For tests of
+/// a browser's compiler. Errors: the line is no case.
 #[wasm_bindgen]
 pub fn shader_sources(line: &str) -> Result<String, JsError> {
     let case: Case = line.parse().map_err(thrown)?;
@@ -83,16 +83,16 @@ struct PassStep {
 
 #[wasm_bindgen]
 impl GpuBatch {
-    /// The patches of case lines, one a line, all of one domain and configuration. Errors: a line that is no case or
-    /// of another configuration than the first one.
+    /// The patches of case lines, one a line, all of one domain and configuration. Errors: a line
+    /// that is no case or of another configuration than the first one.
     #[wasm_bindgen(constructor)]
     pub fn new(lines: &str) -> Result<Self, JsError> {
         let cases = lines.lines().map(str::parse).collect::<Result<Vec<Case>, _>>();
         Self::of_cases(&cases.map_err(thrown)?).map_err(thrown)
     }
 
-    /// The patches of a workload of `tess bench`, or the first ones, up to this many MiB of output. Errors: there is
-    /// no workload of that name, or not one of its patches makes so little.
+    /// The patches of a workload of `tess bench`, or the first ones, up to this many MiB of output.
+    /// Errors: there is no workload of that name, or not one of its patches makes so little.
     pub fn workload(name: &str, mebibytes: u32) -> Result<Self, JsError> {
         let all = Workload::named(name);
         let [workload] = &all[..] else {
@@ -119,8 +119,8 @@ impl GpuBatch {
         factor_words(&self.patches)
     }
 
-    /// The first difference between the model and what the shaders wrote, in words; nothing if every
-    /// bit is equal. `points` has two words for each point.
+    /// The first difference between the model and what the shaders wrote, in words; nothing if
+    /// every bit is equal. `points` has two words for each point.
     pub fn difference(&self, points: &[u32], indices: &[u32]) -> Option<String> {
         let (mut points, mut indices) = (points.as_chunks::<2>().0, indices);
         for &factors in &self.patches {
@@ -171,8 +171,8 @@ impl GpuBatch {
         Self { setup, patches, plan }
     }
 
-    /// A batch whose indices count from the batch's first point, in the order that draws fastest. It has
-    /// room for any factors of as many patches.
+    /// A batch whose indices count from the batch's first point, in the order that draws fastest.
+    /// It has room for any factors of as many patches.
     pub(crate) fn to_draw(config: Config, patches: &[PatchFactors]) -> Self {
         let order = Order::VertexCache;
         let setup = Setup { order, ..Setup::new(patches[0].domain(), config) };
@@ -220,7 +220,8 @@ const fn kind(resource: Resource, access: Access) -> &'static str {
     }
 }
 
-/// Room for everything, from the model's counts; at least one of each, so that the plan has outputs.
+/// Room for everything, from the model's counts; at least one of each, so that the plan has
+/// outputs.
 fn capacity(config: Config, patches: &[PatchFactors]) -> Capacity {
     let mut capacity = Capacity { points: 0, primitives: 0 };
     for &factors in patches {

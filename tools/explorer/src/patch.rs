@@ -51,7 +51,8 @@ impl PatchView {
 
 #[wasm_bindgen]
 impl PatchView {
-    /// The model's result for a case line. Errors: the line is no case; the message says which part is wrong.
+    /// The model's result for a case line. Errors: the line is no case; the message says which part
+    /// is wrong.
     #[wasm_bindgen(constructor)]
     pub fn new(line: &str) -> Result<Self, JsError> {
         let case: Case = line.parse().map_err(thrown)?;
@@ -83,8 +84,8 @@ impl PatchView {
         self.listing.case.primitive_size()
     }
 
-    /// Every stage as `tess explain` prints it; of a `pick` such as `p7` or `t12`, where that point or primitive
-    /// comes from. Nothing if there is none.
+    /// Every stage as `tess explain` prints it; of a `pick` such as `p7` or `t12`, where that point
+    /// or primitive comes from. Nothing if there is none.
     pub fn explain(&self, pick: &str) -> Option<String> {
         self.explanation(pick).map(|report| report.to_string())
     }
@@ -114,7 +115,8 @@ impl PatchView {
         self.listing.to_obj()
     }
 
-    /// The picture of `tess draw`: `colours` is plain, order or rings; `size` in pixels. Errors: unknown colours.
+    /// The picture of `tess draw`: `colours` is plain, order or rings; `size` in pixels. Errors:
+    /// unknown colours.
     pub fn svg(&self, colours: &str, indices: bool, size: u32) -> Result<String, JsError> {
         Ok(self.drawing(colours, indices, size)?.to_svg())
     }
@@ -124,8 +126,8 @@ impl PatchView {
         self.drawing(colours, indices, size)?.to_png().map_err(thrown)
     }
 
-    /// Red, green and blue of each primitive, as the pictures have them; `colours` is plain, order or rings. Errors:
-    /// unknown colours.
+    /// Red, green and blue of each primitive, as the pictures have them; `colours` is plain, order
+    /// or rings. Errors: unknown colours.
     pub fn fills(&self, colours: &str) -> Result<Vec<u8>, JsError> {
         Ok(self.drawing(colours, false, 64)?.fills.concat())
     }
@@ -136,8 +138,8 @@ impl PatchView {
         marks::areas(&self.listing)
     }
 
-    /// For each point of an outer edge or a line: 1 in the exact middle of an even edge, 2 where the
-    /// edge is split; else 0.
+    /// For each point of an outer edge or a line: 1 in the exact middle of an even edge, 2 where
+    /// the edge is split; else 0.
     pub fn point_marks(&self) -> Vec<u8> {
         marks::points(&self.patch)
     }

@@ -1,4 +1,5 @@
-//! Patches on a surface: their factors, what they are on the CPU, and what the GPU needs to draw them.
+//! Patches on a surface: their factors, what they are on the CPU, and what the GPU needs to draw
+//! them.
 
 use crate::gpu::GpuBatch;
 use crate::thrown;
@@ -61,8 +62,8 @@ impl SurfaceView {
         self.set_factors(partitioning, FactorRule::Uniform(factor))
     }
 
-    /// Gives all patches factors by the distance from an eye; `scale` is the factor at distance 1. Errors: an unknown
-    /// partitioning.
+    /// Gives all patches factors by the distance from an eye; `scale` is the factor at distance 1.
+    /// Errors: an unknown partitioning.
     pub fn by_distance(
         &mut self,
         partitioning: &str,
@@ -75,7 +76,8 @@ impl SurfaceView {
         self.set_factors(partitioning, FactorRule::Distance { eye, scale })
     }
 
-    /// Tessellates on the CPU, and evaluates every point. Errors: the output is too large for this machine.
+    /// Tessellates on the CPU, and evaluates every point. Errors: the output is too large for this
+    /// machine.
     pub fn tessellate(&mut self) -> Result<(), JsError> {
         let mut output = ExactOutput::new();
         let numbering = Numbering::PerBatch { base_vertex: 0 };
@@ -110,8 +112,9 @@ impl SurfaceView {
         factor_words(&self.factors)
     }
 
-    /// Words that the WGSL of [`Self::wgsl`] reads: 16 control points of each patch, x, y, z and 1, rows along
-    /// v; then, where there are any, 4 corner and 4 edge normals of each patch, with a fourth number of 0.
+    /// Words that the WGSL of [`Self::wgsl`] reads: 16 control points of each patch, x, y, z and 1,
+    /// rows along v; then, where there are any, 4 corner and 4 edge normals of each patch, with a
+    /// fourth number of 0.
     pub fn nets(&self) -> Vec<f32> {
         let surfaces = || (0..self.model.len()).map(|number| *self.model.patch(number).surface());
         let points = surfaces().flat_map(|surface| net(&surface)).flat_map(|p| p.to_array());
@@ -123,8 +126,8 @@ impl SurfaceView {
         points.chain(normals).collect()
     }
 
-    /// WGSL with the functions `surface_position` and `surface_normal` of a patch's number, u and v. They read
-    /// `nets`, an array of `vec4f`, which the caller declares.
+    /// WGSL with the functions `surface_position` and `surface_normal` of a patch's number, u and
+    /// v. They read `nets`, an array of `vec4f`, which the caller declares.
     pub fn wgsl(&self) -> String {
         let normal = match self.model.patch(0).surface() {
             Surface::PnQuad(_) => {

@@ -41,8 +41,8 @@ impl CpuBench {
         }
     }
 
-    /// Tessellates every patch once, a mebibyte of output at a time; how many primitives there are. Errors: a batch
-    /// is too large for this machine.
+    /// Tessellates every patch once, a mebibyte of output at a time; how many primitives there are.
+    /// Errors: a batch is too large for this machine.
     pub fn pass(&mut self) -> Result<f64, JsError> {
         let Self { workload, batches, tessellator, output } = self;
         let mut indices = 0;

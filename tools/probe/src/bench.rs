@@ -46,8 +46,8 @@ const PICTURE: u32 = 1024;
 const TRIANGLES: u64 = 1 << 23;
 const PATCHES: usize = 1 << 20;
 
-/// Times a workload of triangles on device `number`, each way `runs` times in turn. `spirv` gives the
-/// compute shaders.
+/// Times a workload of triangles on device `number`, each way `runs` times in turn. `spirv` gives
+/// the compute shaders.
 ///
 /// # Errors
 /// There is no such device; it fails; or a shader cannot be had.
@@ -250,8 +250,8 @@ impl BothWays {
         self.bind(device, to, &self.compute_drawn);
         let buffer = |resource| *compute.buffer(resource).handle;
         let (points, indices) = (buffer(Resource::Points), buffer(Resource::Indices));
-        // SAFETY: a pipeline is bound; the arguments and what they draw were written by the commands
-        // before, with a barrier behind them.
+        // SAFETY: a pipeline is bound; the arguments and what they draw were written by the
+        // commands before, with a barrier behind them.
         unsafe {
             device.cmd_bind_vertex_buffers(to, 0, &[points], &[0]);
             device.cmd_bind_index_buffer(to, indices, 0, vk::IndexType::UINT32);

@@ -47,8 +47,8 @@ pub struct Captured {
 }
 
 impl Captured {
-    /// The same as an output: each vertex is a separate point, in the order of the primitives; `None` if a
-    /// coordinate is no 16.16 number in 0..=1.
+    /// The same as an output: each vertex is a separate point, in the order of the primitives;
+    /// `None` if a coordinate is no 16.16 number in 0..=1.
     #[must_use]
     pub fn output(&self) -> Option<Tessellation> {
         let point = |&[u, v, _]: &[u32; 3]| Some(DomainPoint::from_bits(fixed(u)?, fixed(v)?));
@@ -121,8 +121,8 @@ impl Prober {
         self
     }
 
-    /// Makes draws of at most this many vertices, [`DRAW_VERTICES`] unless asked for, as the model expects
-    /// them; a patch with more is a draw of its own.
+    /// Makes draws of at most this many vertices, [`DRAW_VERTICES`] unless asked for, as the model
+    /// expects them; a patch with more is a draw of its own.
     #[must_use]
     pub const fn with_draw_vertices(mut self, most: usize) -> Self {
         self.draw_vertices = most;
@@ -160,7 +160,8 @@ impl Prober {
         self.method
     }
 
-    /// Shows `take` the device's output for each case; `progress` takes how many were shown since its last call.
+    /// Shows `take` the device's output for each case; `progress` takes how many were shown since
+    /// its last call.
     pub(crate) fn each(
         &mut self,
         cases: &[Case],
@@ -211,8 +212,8 @@ impl Prober {
         Ok(captured)
     }
 
-    /// Captures patches whose output the model expects to fit a submission; a device that gives more
-    /// gets more room.
+    /// Captures patches whose output the model expects to fit a submission; a device that gives
+    /// more gets more room.
     fn submission(
         &mut self,
         domain: Domain,

@@ -5,8 +5,8 @@ use tess_core::{Config, Domain, OutputPrimitive, SplitOrder};
 use tess_verify::Case;
 use tess_verify::generate::{Selection, Shard};
 
-/// The cases of a selection that a Vulkan device is [`asked`], in the split order that it has. Then one shard of them
-/// is taken.
+/// The cases of a selection that a Vulkan device is [`asked`], in the split order that it has. Then
+/// one shard of them is taken.
 #[must_use]
 pub fn cases(selection: Selection, shard: Shard) -> Vec<Case> {
     let split = selection.split.or(Some(SplitOrder::Ruler));
@@ -14,8 +14,8 @@ pub fn cases(selection: Selection, shard: Shard) -> Vec<Case> {
     (0..).zip(asked).filter(|(number, _)| shard.has(*number)).map(|(_, case)| case).collect()
 }
 
-/// Cases with what Vulkan does not have replaced by what it has: one split order, lines only from isolines, and from
-/// isolines no triangles. Each case comes once.
+/// Cases with what Vulkan does not have replaced by what it has: one split order, lines only from
+/// isolines, and from isolines no triangles. Each case comes once.
 #[must_use]
 pub fn asked(cases: impl IntoIterator<Item = Case>) -> Vec<Case> {
     let mut seen = HashSet::new();

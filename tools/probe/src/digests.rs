@@ -12,8 +12,8 @@ pub struct Digests {
 
 impl Digests {
     /// Continues over a patch whose primitives have `size` vertices: the number of its primitives,
-    /// then u and v of each vertex as 16.16 numbers. For the set, each triangle begins with the vertex
-    /// that makes it least, and primitives are sorted.
+    /// then u and v of each vertex as 16.16 numbers. For the set, each triangle begins with the
+    /// vertex that makes it least, and primitives are sorted.
     pub fn add(&mut self, output: &Tessellation, size: usize) {
         let place = |&index: &u32| {
             let point = output.points.get(index as usize);

@@ -9,7 +9,8 @@ pub(crate) type DrawRange = (u32, u32);
 /// Words of factors that a patch has in the buffer.
 const FACTOR_WORDS: usize = 6;
 
-/// The most vertices that a draw is expected to have, unless asked for: lavapipe's numbers wrap after 65536.
+/// The most vertices that a draw is expected to have, unless asked for: lavapipe's numbers wrap
+/// after 65536.
 pub const DRAW_VERTICES: usize = 49152;
 
 /// Cuts patches into draws of at most `most` vertices, or of one patch.
@@ -31,8 +32,8 @@ pub(crate) fn draws(expected: &[usize], most: usize) -> Vec<DrawRange> {
 
 /// The words of a patch in the buffer of factors: four outer and two inside.
 ///
-/// For `pow2`, which Vulkan lacks, factors are rounded to powers of two here. A culled patch stays as
-/// it is.
+/// For `pow2`, which Vulkan lacks, factors are rounded to powers of two here. A culled patch stays
+/// as it is.
 pub(crate) fn words_of(config: Config, factors: PatchFactors) -> [u32; FACTOR_WORDS] {
     let case = Case { config, factors };
     let rounded = match (config.partitioning, case.patch().processed().factors()) {

@@ -28,8 +28,8 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// A judge of captures of a device. `strength` says what counts as equal; its elements are those
-    /// that the method captures.
+    /// A judge of captures of a device. `strength` says what counts as equal; its elements are
+    /// those that the method captures.
     #[must_use]
     pub fn new(info: &Info, method: Method, strength: Strength) -> Self {
         let (name, elements) = match method {

@@ -1,5 +1,5 @@
-//! The execution modes of an evaluation shader, replaced in its SPIR-V: one text serves every domain,
-//! spacing and output.
+//! The execution modes of an evaluation shader, replaced in its SPIR-V: one text serves every
+//! domain, spacing and output.
 
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 

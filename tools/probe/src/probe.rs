@@ -8,8 +8,8 @@ use std::sync::Arc;
 use tess_verify::Case;
 use tess_verify::check::{Known, Strength};
 
-/// Asks a device every case and compares what it gives. `progress` is called with the number of cases
-/// that were compared since its last call.
+/// Asks a device every case and compares what it gives. `progress` is called with the number of
+/// cases that were compared since its last call.
 ///
 /// # Errors
 /// The device fails.
@@ -22,8 +22,8 @@ pub fn probe(
     probe_known(prober, cases, strength, &Arc::default(), progress)
 }
 
-/// [`probe`], where a case that differs does not count as different if that is `known`. The first different case is asked again
-/// by itself.
+/// [`probe`], where a case that differs does not count as different if that is `known`. The first
+/// different case is asked again by itself.
 ///
 /// # Errors
 /// The device fails.

@@ -8,12 +8,13 @@ use tess_verify::Case;
 use tess_verify::generate::Selection;
 use tess_verify::rules::{Checker, RulesReport, Specification};
 
-/// Asks a device the selected cases of the standard split order, repeated ones too, and judges what it gives by
-/// the rules of a standard. `progress` is called with the number of cases that were judged since its last call.
+/// Asks a device the selected cases of the standard split order, repeated ones too, and judges what
+/// it gives by the rules of a standard. `progress` is called with the number of cases that were
+/// judged since its last call.
 ///
 /// # Errors
-/// The device fails, gives points alone, or a coordinate that is no multiple of 2^-16 from 0 to 1: such
-/// coordinates cannot be judged.
+/// The device fails, gives points alone, or a coordinate that is no multiple of 2^-16 from 0 to 1:
+/// such coordinates cannot be judged.
 pub fn rules(
     prober: &mut Prober,
     selection: Selection,

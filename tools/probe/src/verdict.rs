@@ -18,7 +18,8 @@ pub(crate) enum PatchVerdict {
     Order,
     /// The model's points, other primitives.
     Connectivity,
-    /// Points that the model does not have, or fewer; the distance from the nearest in units of 2^-16.
+    /// Points that the model does not have, or fewer; the distance from the nearest in units of
+    /// 2^-16.
     Coordinates(u32),
     /// A patch that the model culls, or one that only the device culls.
     Culling,
@@ -29,7 +30,8 @@ pub(crate) fn any_order(method: Method) -> Strength {
     Strength { order: ListOrder::Any, elements: method.elements(), ..Strength::default() }
 }
 
-/// Compares a patch with the model's output for it. `None` instead of an output if it has coordinates that are no 16.16 numbers.
+/// Compares a patch with the model's output for it. `None` instead of an output if it has
+/// coordinates that are no 16.16 numbers.
 pub(crate) fn verdict(
     case: &Case,
     captured: &Captured,
@@ -72,8 +74,8 @@ fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Patch
     }
 }
 
-/// The most units of 2^-16, rounded up, by which a captured coordinate is away from the nearest point
-/// of the model; 0 if the device only lacks points.
+/// The most units of 2^-16, rounded up, by which a captured coordinate is away from the nearest
+/// point of the model; 0 if the device only lacks points.
 fn units(captured: &Captured, expected: &Tessellation) -> u32 {
     let distance = |vertex: &[u32; 3]| {
         let to = |point: &DomainPoint| {

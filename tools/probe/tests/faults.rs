@@ -79,7 +79,8 @@ fn exact_captures_are_equal_in_order() {
     }
 }
 
-/// A known case that differs is counted beside the different ones; another known case changes nothing.
+/// A known case that differs is counted beside the different ones; another known case changes
+/// nothing.
 #[test]
 fn known_differences_are_no_verdict() {
     for (known, different, excused) in [(LINE, 0, 1), (DENORMAL, 1, 0)] {
@@ -95,7 +96,8 @@ fn known_differences_are_no_verdict() {
     }
 }
 
-/// A case that is right when it is asked again says that what came before matters; one that is wrong again does not.
+/// A case that is right when it is asked again says that what came before matters; one that is
+/// wrong again does not.
 #[test]
 fn a_case_that_passes_alone_is_said() {
     let lost = |captured: &mut Captured| captured.vertices.truncate(3);

@@ -24,7 +24,8 @@ pub(crate) struct AblationArguments {
     /// Workloads of `tess bench`, for example uniform-16
     #[arg(required = true, value_name = "WORKLOAD")]
     workloads: Vec<String>,
-    /// How often the patches of a workload are repeated [default: as often as 1 GiB of output needs]
+    /// How often the patches of a workload are repeated [default: as often as 1 GiB of output
+    /// needs]
     #[arg(long, value_name = "N")]
     repeats: Option<u64>,
     /// Take the first N patches of each workload only

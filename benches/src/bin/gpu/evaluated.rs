@@ -1,4 +1,5 @@
-//! Times frames that draw one tessellation in one or four passes: `domain` in each, or evaluated once.
+//! Times frames that draw one tessellation in one or four passes: `domain` in each, or evaluated
+//! once.
 
 use crate::Result;
 use crate::timing::device_time;

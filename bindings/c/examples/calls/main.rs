@@ -1,5 +1,6 @@
-//! Times the Rust call that `run.py` compares the other languages' calls with: one quad of factor K, in
-//! 16.16 and 32-bit indices. Prints nanoseconds a call for each K, the least of 60 runs of 2000 calls.
+//! Times the Rust call that `run.py` compares the other languages' calls with: one quad of factor
+//! K, in 16.16 and 32-bit indices. Prints nanoseconds a call for each K, the least of 60 runs of
+//! 2000 calls.
 #![expect(clippy::print_stdout, reason = "a program prints its result")]
 #![expect(
     clippy::float_arithmetic,

@@ -27,8 +27,8 @@ impl<'a> Patches<'a> {
     /// The patches whose factors lie in a caller's array.
     ///
     /// # Safety
-    /// - If not null and aligned, `factors` points to `factor_count` floats that can be read and are
-    ///   not written while the patches live.
+    /// - If not null and aligned, `factors` points to `factor_count` floats that can be read and
+    ///   are not written while the patches live.
     pub(super) unsafe fn new(
         domain: Domain,
         factors: *const f32,

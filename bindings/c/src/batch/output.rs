@@ -12,16 +12,16 @@ pub const TESS_POINT_FIXED: u32 = 0;
 /// Point format: two floats, which have the values of the 16.16 numbers exactly.
 pub const TESS_POINT_F32: u32 = 1;
 
-/// Point format: as `TESS_POINT_F32`, but u and v in two arrays. `points` has `2 * point_capacity` floats: first u of
-/// each point, then, from float number `point_capacity`, v of each point.
+/// Point format: as `TESS_POINT_F32`, but u and v in two arrays. `points` has `2 * point_capacity`
+/// floats: first u of each point, then, from float number `point_capacity`, v of each point.
 pub const TESS_POINT_F32_APART: u32 = 2;
 
 /// Index type: `uint32_t`.
 pub const TESS_INDEX_U32: u32 = 0;
 /// Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`. With
 /// `TESS_NUMBERING_PER_BATCH` it numbers 65536 points. The last of these indices, 65535, restarts
-/// primitives in WebGL 2 and wherever primitive restart is on: keep `base_vertex` and the points of the
-/// batch together to `TESS_POINTS_WITHOUT_RESTART_U16` there.
+/// primitives in WebGL 2 and wherever primitive restart is on: keep `base_vertex` and the points of
+/// the batch together to `TESS_POINTS_WITHOUT_RESTART_U16` there.
 pub const TESS_INDEX_U16: u32 = 1;
 /// The points that `uint16_t` numbers from 0 without the index 65535.
 pub const TESS_POINTS_WITHOUT_RESTART_U16: u32 = 65535;
@@ -33,8 +33,8 @@ pub const TESS_NUMBERING_PER_BATCH: u32 = 1;
 
 /// Memory: the buffers may be uninitialised.
 pub const TESS_MEMORY_ANY: u32 = 0;
-/// Memory: every byte of the buffers was written before, by `calloc`, `memset`, an earlier call or the caller. This is
-/// faster, because nothing is cleared before it is written.
+/// Memory: every byte of the buffers was written before, by `calloc`, `memset`, an earlier call or
+/// the caller. This is faster, because nothing is cleared before it is written.
 pub const TESS_MEMORY_INITIALISED: u32 = 1;
 
 /// Sizes of a batch's output.
@@ -49,8 +49,8 @@ pub struct TessBatchCounts {
     pub indices: usize,
 }
 
-/// The part of a batch's output that belongs to one patch or one group. A culled patch has no points and no
-/// indices.
+/// The part of a batch's output that belongs to one patch or one group. A culled patch has no
+/// points and no indices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessRange {
@@ -79,7 +79,8 @@ pub struct TessBatchOutput {
     pub indices: *mut c_void,
     /// The elements that `indices` has room for.
     pub index_capacity: usize,
-    /// Receives one range for each patch. Null, with a `range_capacity` of 0, if they are not wanted.
+    /// Receives one range for each patch. Null, with a `range_capacity` of 0, if they are not
+    /// wanted.
     pub ranges: *mut TessRange,
     /// The elements that `ranges` has room for.
     pub range_capacity: usize,

@@ -89,8 +89,8 @@ const PART_PATCHES: usize = 64;
 
 /// Writes a batch into room of exactly its sizes.
 ///
-/// The batch backend takes initialised slices. So that what has to be initialised does not go through memory twice,
-/// that is done part by part, each just before its output is written.
+/// The batch backend takes initialised slices. So that what has to be initialised does not go
+/// through memory twice, that is done part by part, each just before its output is written.
 fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
     tessellator: &mut Tessellator,
     patches: Patches<'_>,
@@ -123,7 +123,8 @@ const fn narrow(count: usize) -> u32 {
 }
 
 impl<'a, P: PointRoom<'a>, I: IndexFormat> BatchRoom<'a, P, I> {
-    /// Has a counted batch written into room of exactly its sizes. Gives the ranges, if any are wanted.
+    /// Has a counted batch written into room of exactly its sizes. Gives the ranges, if any are
+    /// wanted.
     fn receive(
         self,
         counted: &mut Counted<'_>,

@@ -12,21 +12,22 @@ use std::mem::MaybeUninit;
 use tess_core::{Counts, DomainPoint, PatchFactors};
 use tess_simd::{Batch, CountedPatch, IndexFormat, Tessellator};
 
-/// Tessellates one patch into the caller's buffers: `tess_batch_run` for callers that have one patch at a
-/// time, such as drivers, emulators and test benches.
+/// Tessellates one patch into the caller's buffers: `tess_batch_run` for callers that have one
+/// patch at a time, such as drivers, emulators and test benches.
 ///
-/// `factors` holds the factors of one patch: 2, 4 or 6 floats. The ranges, numbering and `base_vertex` of
-/// `output` are ignored; indices count from the patch's first point. With `TESS_OK` the output is
-/// written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the
-/// sizes that are needed; `tess_shortage` names the buffer. With any other status nothing is written. Up to 64 elements past the output may be overwritten in either
-/// buffer, as far as it has room for them; a call with that much room is the fastest. Buffers, factors and
-/// `counts` must not overlap (`TESS_OVERLAP`).
+/// `factors` holds the factors of one patch: 2, 4 or 6 floats. The ranges, numbering and
+/// `base_vertex` of `output` are ignored; indices count from the patch's first point. With
+/// `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only
+/// `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With any
+/// other status nothing is written. Up to 64 elements past the output may be overwritten in either
+/// buffer, as far as it has room for them; a call with that much room is the fastest. Buffers,
+/// factors and `counts` must not overlap (`TESS_OVERLAP`).
 ///
-/// A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of 2022 with
-/// AVX-512). With `TESS_MEMORY_INITIALISED` and the same factors as the previous patch, it takes 19 ns and
-/// 28 ns on a server of 2024. It is faster than `tess_batch_run` with one patch, which counts twice; for large
-/// patches the two take equally long. A call allocates where a patch has point counts that this batch has not met before; after
-/// `tess_batch_reserve` none does.
+/// A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of
+/// 2022 with AVX-512). With `TESS_MEMORY_INITIALISED` and the same factors as the previous patch,
+/// it takes 19 ns and 28 ns on a server of 2024. It is faster than `tess_batch_run` with one patch,
+/// which counts twice; for large patches the two take equally long. A call allocates where a patch
+/// has point counts that this batch has not met before; after `tess_batch_reserve` none does.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -88,7 +89,8 @@ unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     // SAFETY: as above.
     let indices = unsafe { boundary::room(indices.0, indices.1) }?;
     let (tessellator, room) = (&mut batch.tessellator, (points, indices));
-    // Factors are copied whole: single ones would have to reach memory before the tessellator reads them in pairs.
+    // Factors are copied whole: single ones would have to reach memory before the tessellator reads
+    // them in pairs.
     let (written, needed) = match patches.batch() {
         Batch::Isolines(&[factors]) => write(tessellator, factors, room, memory),
         Batch::Triangles(&[factors]) => write(tessellator, factors, room, memory),
@@ -100,8 +102,8 @@ unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     written
 }
 
-/// Writes a patch if it has room; gives its sizes too. Memory that may hold anything is initialised as far as the patch
-/// may write it, which takes a count.
+/// Writes a patch if it has room; gives its sizes too. Memory that may hold anything is initialised
+/// as far as the patch may write it, which takes a count.
 #[inline(always)]
 fn write<'a, F: Copy + Into<PatchFactors>, P: PointRoom<'a>, I: IndexFormat>(
     tessellator: &mut Tessellator,

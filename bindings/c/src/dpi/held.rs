@@ -1,8 +1,8 @@
 //! One whole patch at a time, held for a test bench that reads all of its elements.
 //!
-//! `tess_dpi_point` and `tess_dpi_primitive` compute one element of any patch. A bench that compares
-//! whole patches opens a configuration once, passes it one patch after another, and reads points and
-//! indices from memory. The patches are tessellated as by
+//! `tess_dpi_point` and `tess_dpi_primitive` compute one element of any patch. A bench that
+//! compares whole patches opens a configuration once, passes it one patch after another, and reads
+//! points and indices from memory. The patches are tessellated as by
 //! [`tess_batch_patch`](crate::batch::tess_batch_patch).
 
 use super::{factors_of, sizes, write_each};
@@ -12,7 +12,8 @@ use crate::types::{TessConfig, TessPoint};
 use tess_core::{Counts, Domain, DomainPoint, MAX_INDICES, MAX_POINTS};
 use tess_simd::{CountedPatch, Tessellator};
 
-/// A configuration and its last tessellated patch. `tess_dpi_open` makes it, `tess_dpi_close` frees it.
+/// A configuration and its last tessellated patch. `tess_dpi_open` makes it, `tess_dpi_close` frees
+/// it.
 #[derive(Debug)]
 pub struct TessHeldPatch {
     tessellator: Tessellator,
@@ -23,7 +24,8 @@ pub struct TessHeldPatch {
     indices: Vec<u32>,
 }
 
-/// Makes a holder of one patch at a time of a configuration; before the first patch it has no elements.
+/// Makes a holder of one patch at a time of a configuration; before the first patch it has no
+/// elements.
 ///
 /// # Safety
 /// - `held`, if not null and aligned, must be valid for writing one pointer.
@@ -64,8 +66,8 @@ pub unsafe extern "C" fn tess_dpi_close(held: *mut TessHeldPatch) {
     }
 }
 
-/// Tessellates a patch, holds it in place of the one before, and gives its sizes. A refused call leaves
-/// the patch before.
+/// Tessellates a patch, holds it in place of the one before, and gives its sizes. A refused call
+/// leaves the patch before.
 ///
 /// # Safety
 /// - `held` is null or came from `tess_dpi_open`, and is in no other call at the same time.

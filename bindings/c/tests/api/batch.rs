@@ -1,4 +1,5 @@
-//! Batches in memory that was never written, and what they refuse. The sequences of calls have the rest.
+//! Batches in memory that was never written, and what they refuse. The sequences of calls have the
+//! rest.
 
 use super::samples::{self, patch_factors, samples};
 use std::mem::MaybeUninit;

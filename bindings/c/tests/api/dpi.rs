@@ -75,7 +75,8 @@ fn primitives() {
     }
 }
 
-/// Whole patches, one after another in the handle of their configuration: every element, and none behind.
+/// Whole patches, one after another in the handle of their configuration: every element, and none
+/// behind.
 #[test]
 fn held_patches() {
     let mut open: Vec<(TessConfig, *mut TessHeldPatch)> = Vec::new();

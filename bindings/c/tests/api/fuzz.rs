@@ -117,7 +117,8 @@ fn messages_do_not_overlap_the_data() {
     assert_eq!(bytes, [7; 32], "nothing is written");
 }
 
-/// A patch of a configuration that the device does not have is left out: neither equal nor different.
+/// A patch of a configuration that the device does not have is left out: neither equal nor
+/// different.
 #[test]
 fn what_a_device_does_not_have_is_left_out() {
     let (status, message) = ask(|_, _, _| TESS_DEVICE_UNSUPPORTED, TESS_ORDER_EXACT);

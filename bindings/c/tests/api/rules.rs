@@ -1,4 +1,5 @@
-//! `tess_check_rules`: devices that are right, break rules, fail, and have nothing that is asked for.
+//! `tess_check_rules`: devices that are right, break rules, fail, and have nothing that is asked
+//! for.
 
 use super::samples::{DeviceFault, device, text};
 use std::ffi::{c_char, c_void};

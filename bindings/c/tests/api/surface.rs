@@ -53,7 +53,8 @@ proptest! {
     }
 }
 
-/// Balls on both sides of each plane, and surfaces on both sides of the horizon: half of the answers are yes.
+/// Balls on both sides of each plane, and surfaces on both sides of the horizon: half of the
+/// answers are yes.
 #[test]
 fn culling_is_the_library_s() {
     let matrix = Mat4::from_cols_array(&[

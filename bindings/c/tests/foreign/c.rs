@@ -91,7 +91,8 @@ fn equals_golden(program: &Path) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Compares each listing of golden/cases.txt with what a command prints; gives the number of those that have one.
+/// Compares each listing of golden/cases.txt with what a command prints; gives the number of those
+/// that have one.
 pub(crate) fn golden_listings(command: impl Fn(&str) -> Option<Command>) -> Result<usize, String> {
     let golden = crate_folder().join("../../golden/cases.txt");
     let golden = std::fs::read_to_string(golden).map_err(|error| error.to_string())?;

@@ -1,4 +1,5 @@
-//! `integrations/mesa/tess_mesa.c`, driven as Mesa drives a tessellator, under the address sanitizer.
+//! `integrations/mesa/tess_mesa.c`, driven as Mesa drives a tessellator, under the address
+//! sanitizer.
 
 use super::c::{STRICT, SYSTEM_LIBRARIES, golden_listings};
 use super::tools::{build_folder, crate_folder, libraries, run};
@@ -7,7 +8,8 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// Cases of golden/cases.txt that Mesa can ask for: not the split order `center`, not lines from triangles and quads.
+/// Cases of golden/cases.txt that Mesa can ask for: not the split order `center`, not lines from
+/// triangles and quads.
 const GOLDEN: usize = 45;
 
 /// `mesa/check.c` with the sources that Mesa compiles, built once.
@@ -46,7 +48,8 @@ pub(crate) fn equals_golden() -> Result<(), Failed> {
     Err(format!("{compared} cases were compared, not {GOLDEN}").into())
 }
 
-/// Random draws in threads, patch by patch and all at once, with denormals kept and flushed by the processor.
+/// Random draws in threads, patch by patch and all at once, with denormals kept and flushed by the
+/// processor.
 pub(crate) fn draws_equal_model() -> Result<(), Failed> {
     let said = run(check()?.args(["draws", "4", "100000"]))?;
     if said == "4 threads, 100000 patches equal, with draws of several parts\n" {

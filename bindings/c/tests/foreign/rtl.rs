@@ -17,7 +17,8 @@ const ALL: [&str; 4] = ["+random=20000", "+gaps", "+resets=200", POWER_UP];
 const TIMED: [&str; 1] = ["+random=500"];
 /// Registers without reset hold anything at first.
 const POWER_UP: &str = "+verilator+rand+reset+2";
-/// Isolines, back to back: random patches have too few in a row to show a clock that is lost between them.
+/// Isolines, back to back: random patches have too few in a row to show a clock that is lost
+/// between them.
 const ISOLINE: &str = "isoline integer line ruler 40800000 41000000\n";
 
 /// The script that builds and runs the benches.
@@ -60,7 +61,8 @@ pub(crate) fn equals_model() -> Result<(), Failed> {
     Ok(())
 }
 
-/// Each planted fault makes the bench fail, naming the stage, the signal, both values and the patch; or it costs clocks.
+/// Each planted fault makes the bench fail, naming the stage, the signal, both values and the
+/// patch; or it costs clocks.
 #[expect(clippy::print_stdout, reason = "each fault takes a second, and its line says who saw it")]
 pub(crate) fn faults_are_caught() -> Result<(), Failed> {
     let folder = build_folder().join("rtl");
@@ -100,7 +102,8 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
     Ok(())
 }
 
-/// Whether the first report of a bench is what a list's `seen by` says; `None` if that is not `[assertion] STAGE SIGNAL`.
+/// Whether the first report of a bench is what a list's `seen by` says; `None` if that is not
+/// `[assertion] STAGE SIGNAL`.
 fn names(said: &str, seen_by: &str, words: &[String]) -> Option<bool> {
     let (kind, stage, signal) = match (seen_by, words) {
         ("assertion", [stage, signal]) => ("ASSERTION", stage.as_str(), signal),
@@ -115,8 +118,9 @@ fn names(said: &str, seen_by: &str, words: &[String]) -> Option<bool> {
     Some(is_whole && first.starts_with(&format!("{kind} stage={stage} signal={signal} ")))
 }
 
-/// Single stages equal the model: every context, the places of the factors about 1, 2, 3, 63 and 64, and 4096 patterns about 1;
-/// `tess_placer` at each integer and half, their neighbours, and 2011 more factors.
+/// Single stages equal the model: every context, the places of the factors about 1, 2, 3, 63 and
+/// 64, and 4096 patterns about 1; `tess_placer` at each integer and half, their neighbours, and
+/// 2011 more factors.
 pub(crate) fn stages_equal_model() -> Result<(), Failed> {
     let folder = build_folder().join("rtl");
     run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--stages", "--build"]))?;
@@ -170,7 +174,8 @@ pub(crate) fn stages_faults_are_caught() -> Result<(), Failed> {
     Ok(())
 }
 
-/// The `SystemC` modules of the circuit and of the model give the same streams; with another split order they do not.
+/// The `SystemC` modules of the circuit and of the model give the same streams; with another split
+/// order they do not.
 pub(crate) fn systemc_modules_are_equal() -> Result<(), Failed> {
     let folder = build_folder().join("systemc");
     let mut script = Command::new(crate_folder().join("../systemc/run"));

@@ -46,7 +46,8 @@ pub(crate) fn compiles_and_runs() -> Result<(), Failed> {
     sequences(&folder)
 }
 
-/// The patches of files, as the sequence sends them; lines that are no case, and what it says of them.
+/// The patches of files, as the sequence sends them; lines that are no case, and what it says of
+/// them.
 fn sequences(folder: &Path) -> Result<(), Failed> {
     let rows = "# tess-vectors 1 kind=patches\ndomain,partitioning,output,split,factors_f32_hex,points\n\n\
                 quad,fractional_odd,line,center,421b9633 3e052e37 419b19de 4200aeb2 3ffd6ee9 3f800040,98\n\

@@ -2,7 +2,8 @@
 
 use std::ffi::c_void;
 
-/// Bytes of a guard: more than the 64 elements that a call on one patch may overwrite behind its output.
+/// Bytes of a guard: more than the 64 elements that a call on one patch may overwrite behind its
+/// output.
 const GUARD: usize = 2048;
 
 /// A buffer, aligned to 8 bytes, of any number of bytes.

@@ -53,8 +53,8 @@ fn bytes<P, I>(counts: BatchCounts) -> usize {
 }
 
 impl BatchWork<'_> {
-    /// Writes it without the interpreter's lock. Errors: those of [`Counted::write`], and then nothing is written;
-    /// what a handler of a signal raised.
+    /// Writes it without the interpreter's lock. Errors: those of [`Counted::write`], and then
+    /// nothing is written; what a handler of a signal raised.
     pub(super) fn write<P: OutputPoint, I: IndexFormat>(
         self,
         py: Python<'_>,
@@ -106,8 +106,8 @@ const fn narrow(count: usize) -> u32 {
     count as u32
 }
 
-/// Writes a part, whose output begins at `first`, to the beginning of some room; `None` if it is too large for that
-/// and can be cut.
+/// Writes a part, whose output begins at `first`, to the beginning of some room; `None` if it is
+/// too large for that and can be cut.
 fn write_part<P: OutputPoint, I: IndexFormat>(
     tessellator: &mut Tessellator,
     part: Batch<'_>,

@@ -8,7 +8,8 @@ use std::process::Command;
 /// A folder that is filled with archives.
 pub(super) struct Release {
     pub(super) out: PathBuf,
-    /// The time of everything, in seconds since 1970: the commit's, unless `SOURCE_DATE_EPOCH` says another.
+    /// The time of everything, in seconds since 1970: the commit's, unless `SOURCE_DATE_EPOCH` says
+    /// another.
     pub(super) epoch: String,
 }
 
@@ -35,7 +36,8 @@ impl Release {
         Ok(stage)
     }
 
-    /// Packs a folder, which is removed, into `file`. Files that are hard links of each other are packed once.
+    /// Packs a folder, which is removed, into `file`. Files that are hard links of each other are
+    /// packed once.
     pub(super) fn archive(&self, folder: &Path, file: &str) -> Result<(), String> {
         let (Some(parent), Some(name)) = (folder.parent(), folder.file_name()) else {
             return Err(format!("{} has no name", folder.display()));
@@ -55,7 +57,8 @@ impl Release {
         fs::copy(file, to).map(drop).map_err(|error| in_file(file, &error))
     }
 
-    /// Moves its files to a folder, over what is there unless the release is `whole`: then nothing else stays.
+    /// Moves its files to a folder, over what is there unless the release is `whole`: then nothing
+    /// else stays.
     pub(super) fn publish(self, to: &Path, whole: bool) -> Result<Self, String> {
         if whole || !to.exists() {
             empty(to)?;
@@ -111,7 +114,8 @@ pub(super) fn copy_tracked(from: &str, to: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Copies what git tracks of these folders, files or patterns (`rtl/*.sv`) to their paths below `to`.
+/// Copies what git tracks of these folders, files or patterns (`rtl/*.sv`) to their paths below
+/// `to`.
 pub(super) fn copy_tree(patterns: &[&str], to: &Path) -> Result<(), String> {
     for pattern in patterns {
         tracked(&format!(":(glob){pattern}"))?

@@ -1,7 +1,7 @@
 //! READMEs of archives: each starts from the archive that has it.
 //!
-//! A README of the tree goes into an archive without its section [`ONLY_HERE`]. A link to a file of the archive stays; one to
-//! another file of the tree leads to the project's page.
+//! A README of the tree goes into an archive without its section [`ONLY_HERE`]. A link to a file of
+//! the archive stays; one to another file of the tree leads to the project's page.
 
 use crate::command::{self, in_file, workspace};
 use std::fs;
@@ -41,7 +41,8 @@ fn without_section(text: &str) -> String {
     }
 }
 
-/// The text, whose links to files are relative to `from` in the tree, as the file `to` of an archive.
+/// The text, whose links to files are relative to `from` in the tree, as the file `to` of an
+/// archive.
 ///
 /// # Errors
 /// A link leads to a file that neither has.

@@ -1,4 +1,5 @@
-//! The shaders of the usual setups: in every language for hosts without Rust, and as WGSL with a host for browsers.
+//! The shaders of the usual setups: in every language for hosts without Rust, and as WGSL with a
+//! host for browsers.
 
 use super::pack::{Release, copy_tracked};
 use super::{VERSION, readme, tess};
@@ -45,7 +46,8 @@ fn share_surfaces(folder: &Path, shared: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Keeps one copy of the tables, which depend on the order of splits alone: `keep` says what becomes of each.
+/// Keeps one copy of the tables, which depend on the order of splits alone: `keep` says what
+/// becomes of each.
 fn share_tables(
     folder: &Path,
     shared: &Path,

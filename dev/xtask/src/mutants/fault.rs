@@ -34,8 +34,8 @@ pub(super) fn read(folder: &Path) -> Result<Vec<ListedFault>, String> {
     Ok(faults)
 }
 
-/// The one file below `root` that has the fault's text, and what it becomes. `files` are the paths of all files from
-/// `root` on.
+/// The one file below `root` that has the fault's text, and what it becomes. `files` are the paths
+/// of all files from `root` on.
 ///
 /// # Errors
 /// The text is nowhere, or in several places.

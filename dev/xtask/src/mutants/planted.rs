@@ -1,8 +1,9 @@
 //! Faults planted by hand: `cargo xtask mutants planted`.
 //!
-//! A fault changes a copy of the tree, in which one program of tests is built again and run; the sources themselves
-//! are not touched. Switches in the code, one build for all faults, would be quicker, but the published crates would
-//! have them, and the tests would run on another build than the one that is published.
+//! A fault changes a copy of the tree, in which one program of tests is built again and run; the
+//! sources themselves are not touched. Switches in the code, one build for all faults, would be
+//! quicker, but the published crates would have them, and the tests would run on another build than
+//! the one that is published.
 
 use super::fault::{self, Planted};
 use crate::command::{self, in_file, workspace};
@@ -43,8 +44,8 @@ impl fmt::Display for Fate {
 /// Plants the faults whose folder, tests or name have one of `words`, or all of them.
 ///
 /// # Errors
-/// A fault that no test saw and that is not listed as equivalent, or the reverse; one that does not apply or compile;
-/// tests that fail without a fault.
+/// A fault that no test saw and that is not listed as equivalent, or the reverse; one that does not
+/// apply or compile; tests that fail without a fault.
 pub(super) fn run(words: &[&str]) -> Result<(), String> {
     let files = files()?;
     let faults = chosen(words)?;
@@ -136,7 +137,8 @@ fn files() -> Result<Vec<PathBuf>, String> {
     Ok(files.filter(|file| workspace().join(file).is_file()).collect())
 }
 
-/// Brings the copy of the tree up to date. What has not changed is left, so that it is not compiled again.
+/// Brings the copy of the tree up to date. What has not changed is left, so that it is not compiled
+/// again.
 fn copy(files: &[PathBuf]) -> Result<Tree, String> {
     let folder = command::target().join("planted");
     let tree = Tree { root: folder.join("tree"), target: folder.join("target") };
@@ -160,8 +162,8 @@ fn copy(files: &[PathBuf]) -> Result<Tree, String> {
     Ok(tree)
 }
 
-/// Copies the workspace's builds to `target`. The crates of other people then need not be compiled again; our own do, as
-/// their sources have another place and are newer.
+/// Copies the workspace's builds to `target`. The crates of other people then need not be compiled
+/// again; our own do, as their sources have another place and are newer.
 fn take_builds(target: &Path) -> Result<(), String> {
     let builds = command::target().join("debug");
     fs::create_dir_all(target).map_err(|error| in_file(target, &error))?;

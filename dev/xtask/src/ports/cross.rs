@@ -65,8 +65,8 @@ pub(super) const BRIEF: &[&str] = &[
     "test --package tess-simd --no-default-features --test baseline",
 ];
 
-/// Everything but a test that starts itself, which emulated programs cannot do; `tess-simd` has one CPU
-/// level on these processors.
+/// Everything but a test that starts itself, which emulated programs cannot do; `tess-simd` has one
+/// CPU level on these processors.
 const WHOLE: &[&str] = &[
     "test --package tess-core",
     "test --package tess-simd --all-features -- --skip too_large_a_pool",

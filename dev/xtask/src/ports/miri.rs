@@ -18,7 +18,8 @@ const WHOLE: &[&str] = &[
     "test --package tess-capi --lib --test api",
 ];
 
-/// Runs tests of the model, and those of the C interface, whose `unsafe` code takes callers' memory.
+/// Runs tests of the model, and those of the C interface, whose `unsafe` code takes callers'
+/// memory.
 pub(super) fn check(extent: Extent) -> Result<(), String> {
     let parts = [("component", "miri"), ("component", "rust-src")];
     setup::toolchain("nightly", &parts)?;

@@ -20,7 +20,8 @@ const NODE: Need = Need {
     is_there: || has_program("node"),
 };
 
-/// Checks that what a browser can use compiles, then runs the tests of the model and of the CPU backend.
+/// Checks that what a browser can use compiles, then runs the tests of the model and of the CPU
+/// backend.
 pub(super) fn check(extent: Extent) -> Result<(), String> {
     setup::provide(&[NODE])?;
     setup::target(BROWSER)?;

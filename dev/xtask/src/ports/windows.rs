@@ -33,7 +33,8 @@ pub(super) fn check(extent: Extent) -> Result<(), String> {
     library.args(["-shared", "-o"]).arg(folder.join("bcryptprimitives.dll"));
     library.arg(workspace().join("dev/xtask/src/ports/bcryptprimitives.c")).arg("-ladvapi32");
     command::run(&mut library)?;
-    // Wine's drive Z is the whole file system. It otherwise says on the standard error what it lacks.
+    // Wine's drive Z is the whole file system. It otherwise says on the standard error what it
+    // lacks.
     let path = format!("Z:{}", folder.display());
     cross::run(&WINDOWS, extent, &[("WINEPATH", path), ("WINEDEBUG", "-all".to_owned())])
 }

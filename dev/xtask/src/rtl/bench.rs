@@ -8,7 +8,8 @@ use std::process::Command;
 use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
 
-/// The arguments of `cargo` that build the tests of the C interface, and with them the library that benches link.
+/// The arguments of `cargo` that build the tests of the C interface, and with them the library that
+/// benches link.
 pub(crate) const CAPI: &str = "test --package tess-capi --all-features --test foreign";
 
 /// A program that Verilator built, and its folder.
@@ -40,7 +41,8 @@ pub(crate) enum Design {
 }
 
 impl Bench {
-    /// Lints the design and builds the bench, in the folder of the tests' bench: the same sources are not compiled twice.
+    /// Lints the design and builds the bench, in the folder of the tests' bench: the same sources
+    /// are not compiled twice.
     ///
     /// # Errors
     /// A tool is missing, the lint warns, or a build fails.
@@ -67,7 +69,8 @@ impl Bench {
         Ok(format!("+stimuli={}", file.display()))
     }
 
-    /// Runs the bench, which must find everything equal, in at least this number of `patches`; returns its output too.
+    /// Runs the bench, which must find everything equal, in at least this number of `patches`;
+    /// returns its output too.
     ///
     /// # Errors
     /// Something differs: what the bench printed.

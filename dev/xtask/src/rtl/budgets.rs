@@ -1,8 +1,10 @@
-//! The time that each port of the placed circuit leaves to its user, from the delays that nextpnr writes (SDF).
+//! The time that each port of the placed circuit leaves to its user, from the delays that nextpnr
+//! writes (SDF).
 //!
-//! `rtl/fpga/tess_registered.sv` has a register at each port: the cell that its pad is wired to. Of an input, the longest path from that register to one
-//! of the circuit counts; of an output, the longest one from a register of the circuit. What is left of a clock is the user's:
-//! its register, its logic and the wire to the port.
+//! `rtl/fpga/tess_registered.sv` has a register at each port: the cell that its pad is wired to. Of
+//! an input, the longest path from that register to one of the circuit counts; of an output, the
+//! longest one from a register of the circuit. What is left of a clock is the user's: its register,
+//! its logic and the wire to the port.
 //!
 //! ```text
 //! register of point_ready -> wire -> LUT -> wire -> register of the circuit      6.2 ns: 3.8 ns of 10 are left
@@ -119,8 +121,8 @@ impl Delays {
         paths.max()
     }
 
-    /// The time before the clock at which a value must be at a register's pin; 0 for those that SDF has no time of, such as a
-    /// reset.
+    /// The time before the clock at which a value must be at a register's pin; 0 for those that SDF
+    /// has no time of, such as a reset.
     fn rest(&self, pin: &str) -> Option<u64> {
         let is_register = self.cells.contains(cell_of(pin));
         self.setup.get(pin).copied().or_else(|| is_register.then_some(0))

@@ -13,7 +13,8 @@ const POINTS: u64 = 100_000;
 /// Four lines of eight segments: no workload of `tess bench` has isolines.
 pub(super) const ISOLINE: &str = "case isoline integer line ruler 40800000 41000000";
 
-/// What the bench says of streams that offer an element in each clock, from the first of a patch to its last.
+/// What the bench says of streams that offer an element in each clock, from the first of a patch to
+/// its last.
 const UNBROKEN: &str = "0 clocks without a point, 0 without a primitive";
 
 /// Clocks between two patches, and from a patch to its first element, at most.
@@ -23,7 +24,8 @@ const LATENCY: u64 = 30;
 /// Prints latencies, then a row of a table for each workload; docs/rtl.md must have both.
 ///
 /// # Errors
-/// A patch differs from the model, a stream stands still within a patch, or a number of clocks is not that of the document.
+/// A patch differs from the model, a stream stands still within a patch, or a number of clocks is
+/// not that of the document.
 pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     let document = sources().with_file_name("docs/rtl.md");
     let document = command::read(&document)?;
@@ -65,8 +67,8 @@ pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     }
 }
 
-/// Names and patches, with enough points each. Those of `tess bench` that come in batches: the circuit does not know the size
-/// of a call.
+/// Names and patches, with enough points each. Those of `tess bench` that come in batches: the
+/// circuit does not know the size of a call.
 fn workloads() -> Result<Vec<(String, Vec<Case>)>, String> {
     let batches = Workload::all().into_iter().filter(|workload| workload.calls == Calls::Batch);
     let mut all: Vec<_> =

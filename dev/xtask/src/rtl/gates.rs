@@ -1,6 +1,8 @@
-//! The circuit as a netlist of library cells, with registers that hold anything at power-up, against the model.
+//! The circuit as a netlist of library cells, with registers that hold anything at power-up,
+//! against the model.
 //!
-//! The netlist has register stages at its ports and padded AXI4-Stream words, so those are compared here too.
+//! The netlist has register stages at its ports and padded AXI4-Stream words, so those are compared
+//! here too.
 
 use super::bench::{Bench, Design};
 use super::clocks::ISOLINE;
@@ -12,10 +14,12 @@ use tess_verify::Case;
 const POWER_UP: [&str; 2] = ["+verilator+rand+reset+2", "+verilator+seed+7"];
 const PATCHES: usize = 200;
 
-/// Builds the netlist and its bench; then random patches after resets, and isolines without a clock lost.
+/// Builds the netlist and its bench; then random patches after resets, and isolines without a clock
+/// lost.
 ///
 /// # Errors
-/// A tool or the library of cells is missing, an element differs, or the register stages lose clocks.
+/// A tool or the library of cells is missing, an element differs, or the register stages lose
+/// clocks.
 pub(crate) fn run() -> Result<(), String> {
     setup::provide(&[setup::YOSYS, setup::CELLS])?;
     let bench = Bench::built(Design::Gates)?;

@@ -1,4 +1,5 @@
-//! Comparisons for hours, in shards. A shard that is done is not done again until a source of the circuit changes.
+//! Comparisons for hours, in shards. A shard that is done is not done again until a source of the
+//! circuit changes.
 
 use super::bench::Bench;
 use super::sources;
@@ -34,7 +35,8 @@ enum Shard {
 /// Runs all shards, one on each core at a time.
 ///
 /// # Errors
-/// Something differs: the shard's name and what the bench printed. The shards in work are ended first.
+/// Something differs: the shard's name and what the bench printed. The shards in work are ended
+/// first.
 pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     let level_2: Vec<Case> = Selection::level(GenLevel::Two, 1).cases().collect();
     let (stages, shards) = (Stages::built(&bench.folder)?, shards(level_2.len()));

@@ -1,4 +1,5 @@
-//! The lists of the design's files for Bender and `FuseSoC`, from `rtl/tess.f`; tests of the signals in `rtl/stages.tsv`.
+//! The lists of the design's files for Bender and `FuseSoC`, from `rtl/tess.f`; tests of the
+//! signals in `rtl/stages.tsv`.
 
 use super::sources;
 use crate::command::{self, in_file};
@@ -51,7 +52,8 @@ mod tests {
     use tess_testkit::circuit;
     use tess_testkit::listed::ListedFault;
 
-    /// The signals that benches and `tess explain --observed` compare, in the order in which each feeds the next.
+    /// The signals that benches and `tess explain --observed` compare, in the order in which each
+    /// feeds the next.
     const STAGES: &str = include_str!("../../../../rtl/stages.tsv");
 
     /// A signal of the circuit.
@@ -107,7 +109,8 @@ mod tests {
         }
     }
 
-    /// Each module is in the list of the design's files, except the one that is only for its own tests.
+    /// Each module is in the list of the design's files, except the one that is only for its own
+    /// tests.
     #[test]
     fn every_module_is_listed() {
         let list = command::read(&sources().join("tess.f")).expect("a list");

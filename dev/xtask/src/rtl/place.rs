@@ -1,4 +1,5 @@
-//! The clock that the circuit reaches: `rtl/place` synthesizes, places and routes it with tools of `PyPI`.
+//! The clock that the circuit reaches: `rtl/place` synthesizes, places and routes it with tools of
+//! `PyPI`.
 
 use super::{budgets, sources};
 use crate::command::{self, target};
@@ -13,8 +14,8 @@ const TOOLS: [&str; 2] =
 /// The seed of the placement that docs/rtl.md describes.
 const SEED: &str = "1";
 
-/// Prints the resources, the clock and the time that each port leaves, without and with register stages at the ports; installs
-/// the tools where they are missing.
+/// Prints the resources, the clock and the time that each port leaves, without and with register
+/// stages at the ports; installs the tools where they are missing.
 ///
 /// # Errors
 /// A tool cannot be had or fails, or the clock of `rtl/fpga/ecp5.lpf` is not reached.

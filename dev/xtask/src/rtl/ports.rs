@@ -1,4 +1,5 @@
-//! The ports of the circuit: no output may depend on an input in the same clock, except on the reset.
+//! The ports of the circuit: no output may depend on an input in the same clock, except on the
+//! reset.
 //!
 //! Yosys selects the logic between the outputs and the registers before them, and the inputs in it.
 
@@ -7,7 +8,8 @@ use crate::command;
 use std::path::Path;
 use std::process::Command;
 
-/// The planted faults that the check must find, with the register stages at the ports (`BUFFERED`) that each is in.
+/// The planted faults that the check must find, with the register stages at the ports (`BUFFERED`)
+/// that each is in.
 pub(super) const FAULTS: [(&str, bool); 2] = [
     ("a patch waits until the one before is taken from the front end", false),
     ("the buffer of one entry takes an element while one leaves", true),
@@ -39,7 +41,8 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
-/// The inputs of `tess_axis` in the design in `folder`, other than clock and reset, that an output depends on.
+/// The inputs of `tess_axis` in the design in `folder`, other than clock and reset, that an output
+/// depends on.
 fn inputs_of_outputs(folder: &Path, buffered: bool) -> Result<Vec<String>, String> {
     let script = format!(
         "read_verilog -sv -I . {}; chparam -set BUFFERED {} tess_axis; hierarchy -top tess_axis; proc; flatten; \

@@ -1,4 +1,5 @@
-//! Proofs with Yosys and an SMT solver: for all inputs and any number of clocks, not for those of a test.
+//! Proofs with Yosys and an SMT solver: for all inputs and any number of clocks, not for those of a
+//! test.
 
 use super::{place, sources};
 use crate::command::{self, in_file, target, workspace};
@@ -150,7 +151,8 @@ pub(super) fn folder() -> PathBuf {
     target().join("rtl/proof")
 }
 
-/// Copies the design and the proofs to one folder. Proofs of a module's registers are appended to it, because Yosys has no `bind`.
+/// Copies the design and the proofs to one folder. Proofs of a module's registers are appended to
+/// it, because Yosys has no `bind`.
 pub(super) fn copy(fault: Option<&str>) -> Result<(), String> {
     let number = match fault {
         None => 0,

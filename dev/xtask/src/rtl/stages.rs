@@ -1,4 +1,5 @@
-//! Single stages for every input of a range: context and place by factor, factor processing by binary32 pattern.
+//! Single stages for every input of a range: context and place by factor, factor processing by
+//! binary32 pattern.
 
 use super::bench::{library, output};
 use super::sources;

@@ -47,7 +47,8 @@ pub(crate) fn press(
     }
 }
 
-/// Writes the frame time, the triangles and who tessellates onto the screen and into the window's title.
+/// Writes the frame time, the triangles and who tessellates onto the screen and into the window's
+/// title.
 pub(crate) fn write(
     diagnostics: Res<DiagnosticsStore>,
     settings: Res<TessSettings>,

@@ -32,7 +32,8 @@ pub(crate) struct Progress {
     is_taken: bool,
 }
 
-/// Gives the camera its target, waits until the number of triangles is steady, and takes the picture.
+/// Gives the camera its target, waits until the number of triangles is steady, and takes the
+/// picture.
 pub(crate) fn take(
     mut commands: Commands,
     args: Res<Args>,

@@ -1,4 +1,5 @@
-//! A shape with hull and domain functions of its own: a rounded mesh, covered with wool, which nods.
+//! A shape with hull and domain functions of its own: a rounded mesh, covered with wool, which
+//! nods.
 
 use bevy::camera::primitives::Aabb;
 use bevy::math::{Mat4, Vec3, Vec4, ops};

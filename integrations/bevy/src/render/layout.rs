@@ -76,7 +76,8 @@ impl GpuInstance {
 /// The words that Bevy's fragment functions read of each entity.
 pub(crate) fn meshes(items: &[&Item]) -> Vec<u32> {
     let of = |item: &&Item| {
-        // The sign says that fragments are told which side is in front, whatever the transform does to triangles.
+        // The sign says that fragments are told which side is in front, whatever the transform does
+        // to triangles.
         let mut flags = MeshFlags::SIGN_DETERMINANT_MODEL_3X3;
         flags.set(MeshFlags::SHADOW_RECEIVER, item.receives_shadows);
         let world_from_local = item.world_from_local.into();

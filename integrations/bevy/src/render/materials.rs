@@ -53,7 +53,8 @@ impl Material {
     }
 }
 
-/// Finds the materials of the frame's surfaces. One without is not drawn: Bevy loads it, or the surface is hidden.
+/// Finds the materials of the frame's surfaces. One without is not drawn: Bevy loads it, or the
+/// surface is hidden.
 pub(crate) fn find(
     mut extracted: ResMut<Extracted>,
     instances: Res<RenderMaterialInstances>,

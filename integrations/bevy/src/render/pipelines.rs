@@ -21,7 +21,8 @@ use bevy::render::render_resource::{
 use bevy::shader::ShaderDefVal;
 use std::sync::Arc;
 
-/// A kind of draw: of Bevy's key, whether only depth, normals and motion, and whether as a wireframe.
+/// A kind of draw: of Bevy's key, whether only depth, normals and motion, and whether as a
+/// wireframe.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Kind {
     pub(crate) key: ErasedMaterialPipelineKey,
@@ -56,13 +57,15 @@ impl Pipelines {
     }
 }
 
-/// A mesh with the attributes that a fallback has, for whose layout Bevy states what a camera needs.
+/// A mesh with the attributes that a fallback has, for whose layout Bevy states what a camera
+/// needs.
 fn layout_of_a_mesh() -> MeshVertexBufferLayoutRef {
     crate::cpu::mesh(Default::default(), PrimitiveTopology::TriangleList)
         .get_mesh_vertex_buffer_layout(&mut MeshVertexBufferLayouts::default())
 }
 
-/// Bevy's pipeline for meshes, with the program's shaders and bind group in place of those for meshes.
+/// Bevy's pipeline for meshes, with the program's shaders and bind group in place of those for
+/// meshes.
 fn descriptor(
     own: &Own<'_>,
     program: &Program,
@@ -105,8 +108,8 @@ fn descriptor(
     descriptor
 }
 
-/// Bevy's pipeline for a mesh of a material. Where the device cannot draw what is in front of the near plane, the vertex
-/// shader moves it there.
+/// Bevy's pipeline for a mesh of a material. Where the device cannot draw what is in front of the
+/// near plane, the vertex shader moves it there.
 fn of_a_mesh(
     own: &Own<'_>,
     kind: &Kind,

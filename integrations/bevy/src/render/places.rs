@@ -89,7 +89,8 @@ pub(crate) struct Places {
     /// The words of all shapes.
     pub(crate) shapes: Growing,
     pub(crate) groups: HashMap<MainEntity, u32>,
-    /// The first patch of each group. Free patches are groups too, and there are empty ones at the end.
+    /// The first patch of each group. Free patches are groups too, and there are empty ones at the
+    /// end.
     pub(crate) begins: Vec<u32>,
     /// How often entities came, went or changed.
     pub(crate) changes: u64,

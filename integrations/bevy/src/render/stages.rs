@@ -45,7 +45,8 @@ impl Stages {
         prepared.stage.as_ref().map(|(stage, _)| stage)
     }
 
-    /// The bind group, buffers and group number of an entity's draw, for a camera or for a shadow map.
+    /// The bind group, buffers and group number of an entity's draw, for a camera or for a shadow
+    /// map.
     pub(crate) fn find(
         &self,
         view: RetainedViewEntity,
@@ -78,7 +79,8 @@ pub(crate) struct Prepared {
 
 /// A stage and its buffers are kept so many frames without entities: 17 seconds on most screens.
 const PATIENCE: u32 = 1024;
-/// Stages of so many patches have pipelines of their own. These are made with the first stage, so that growth waits for none.
+/// Stages of so many patches have pipelines of their own. These are made with the first stage, so
+/// that growth waits for none.
 const OTHER_KINDS: [u32; 2] = [SHORT_PATCHES + 1, CATALOGUE_PATCHES];
 /// No stage takes fewer patches.
 const LEAST_PATCHES: u32 = 1024;

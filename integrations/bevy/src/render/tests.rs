@@ -1,5 +1,5 @@
-//! Whole frames without a window: the domain points equal the CPU's, user shaders are drawn, and what is
-//! wrong with them does not end the program.
+//! Whole frames without a window: the domain points equal the CPU's, user shaders are drawn, and
+//! what is wrong with them does not end the program.
 
 mod images;
 mod materials;

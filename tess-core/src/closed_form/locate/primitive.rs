@@ -15,8 +15,8 @@
 //! other triangles               Transition, Ring or Centre                `locate/rings.rs`
 //! ```
 //!
-//! with `s` the segments of a line and `p = line * (s + 1) + segment`. Triangles are located clockwise; counterclockwise swaps the
-//! last two indices.
+//! with `s` the segments of a line and `p = line * (s + 1) + segment`. Triangles are located
+//! clockwise; counterclockwise swaps the last two indices.
 //!
 //! # One patch
 //!

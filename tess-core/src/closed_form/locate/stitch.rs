@@ -143,8 +143,8 @@ fn middle_triangle(
 
 /// Triangle `t` of a ring stitch whose inner row has `inner_points` points (spec section 7.3).
 ///
-/// The outer row has two points more, one at each end: its first and last triangle have no pair, and
-/// between them each inner segment makes a pair. With 4 inner points:
+/// The outer row has two points more, one at each end: its first and last triangle have no pair,
+/// and between them each inner segment makes a pair. With 4 inner points:
 ///
 /// ```text
 /// outer   o0 --- o1 --- o2 --- o3 --- o4 --- o5       segment p = (t - 1) / 2 of the inner row;

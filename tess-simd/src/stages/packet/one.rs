@@ -2,8 +2,8 @@
 //!
 //! A packet of one patch would cost what sixteen cost. Here each stage is one short vector with an
 //! element for each factor, and the results go to one lane of a packet, so that every later stage
-//! finds a patch as usual. `threads/part` calls it for one patch per call, `kernels/front_end` for a
-//! few patches or for one that repeats.
+//! finds a patch as usual. `threads/part` calls it for one patch per call, `kernels/front_end` for
+//! a few patches or for one that repeats.
 //!
 //! # Data
 //!

@@ -5,7 +5,8 @@ use std::fmt;
 use tess_core::FixedFactor;
 
 named! {
-    /// A stage on a patch's way, as far as a difference can be traced back; in the order of that way.
+    /// A stage on a patch's way, as far as a difference can be traced back; in the order of that
+    /// way.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     #[non_exhaustive]
     pub enum SpecStage: "stage" {

@@ -1,8 +1,8 @@
 //! The factors that a conforming device may have processed in place of the given ones.
 //!
-//! A factor whose multiple of 2^-16 lies 0.4 to 0.6 of the way between two integers has two legal fixed-point
-//! numbers. Edges of the same value must get the same number, or neighbouring patches would not meet. So a
-//! choice is made for each *value*, not for each factor.
+//! A factor whose multiple of 2^-16 lies 0.4 to 0.6 of the way between two integers has two legal
+//! fixed-point numbers. Edges of the same value must get the same number, or neighbouring patches
+//! would not meet. So a choice is made for each *value*, not for each factor.
 //!
 //! ```text
 //! factors    u0 = a   v0 = b   u1 = a   v1 = 3   inside_u = b   inside_v = 5      a and b are ambiguous
@@ -20,8 +20,8 @@
 //!
 //! - Six factors have at most six values, so `accepted` has at most 64 bits.
 //! - Choice 0 is the model's. A patch without ambiguous values has no other.
-//! - A value that does not show in an output is accepted either way; `check::consistency` therefore takes a
-//!   number for known only if every accepted choice agrees on it.
+//! - A value that does not show in an output is accepted either way; `check::consistency` therefore
+//!   takes a number for known only if every accepted choice agrees on it.
 
 use super::{Conversion, Denormals, Strength};
 use crate::case::Case;
@@ -92,9 +92,10 @@ impl Alternatives {
     }
 }
 
-/// The legal numbers of a factor that lies within 0.4 to 0.6 of the way between two: the nearest is at most
-/// half a unit away, and the other one at most 0.6 if the nearest is at least 0.4. A density, or a factor of an integer
-/// partitioning, was rounded up to an integer before, so it has one number.
+/// The legal numbers of a factor that lies within 0.4 to 0.6 of the way between two: the nearest is
+/// at most half a unit away, and the other one at most 0.6 if the nearest is at least 0.4. A
+/// density, or a factor of an integer partitioning, was rounded up to an integer before, so it has
+/// one number.
 #[expect(clippy::float_arithmetic, reason = "exact: a binary32 scaled by 2^16 in binary64")]
 fn ambiguous(factor: &ProcessedFactor) -> Option<Ambiguous> {
     let scaled = f64::from(f32::from_bits(factor.rounded)) * 65536.0;
@@ -105,7 +106,8 @@ fn ambiguous(factor: &ProcessedFactor) -> Option<Ambiguous> {
     both_legal.then_some(Ambiguous { value: factor.rounded, numbers: [nearest, other] })
 }
 
-/// The case with its denormal outer factors flushed to zero, which culls it; `None` if there are none.
+/// The case with its denormal outer factors flushed to zero, which culls it; `None` if there are
+/// none.
 #[must_use]
 pub fn flushed(case: &Case) -> Option<Case> {
     let is_denormal = |factor: f32| factor.is_subnormal() && factor > 0.0;
@@ -148,8 +150,8 @@ mod tests {
         Alternatives::new(&case, Conversion::Within06Ulp).values.len()
     }
 
-    /// From 1 to 2 a binary32 has steps of 2^-23, which are 1/128 of 2^-16: 51 of them are 0.398 units
-    /// and 52 are 0.406; from above, 77 are 0.602 and 76 are 0.594.
+    /// From 1 to 2 a binary32 has steps of 2^-23, which are 1/128 of 2^-16: 51 of them are 0.398
+    /// units and 52 are 0.406; from above, 77 are 0.602 and 76 are 0.594.
     #[test]
     fn values_are_ambiguous_from_four_tenths_on() {
         let line = "case tri fractional_odd point ruler 40200000 40a00000 3fa00000 40900000";

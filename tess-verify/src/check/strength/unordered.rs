@@ -1,8 +1,9 @@
 //! Comparison of outputs whose order is free: as multisets of places and of primitives.
 //!
-//! The model's distinct places are sorted, and each place gets its *rank*, its position in that list. An
-//! observed point has the rank of its place, or [`NOWHERE`] if the model has no such place. A primitive is a
-//! key made of its vertices' ranks; equal keys are equal primitives, so sorted keys are compared.
+//! The model's distinct places are sorted, and each place gets its *rank*, its position in that
+//! list. An observed point has the rank of its place, or [`NOWHERE`] if the model has no such
+//! place. A primitive is a key made of its vertices' ranks; equal keys are equal primitives, so
+//! sorted keys are compared.
 //!
 //! ```text
 //! place (64 bits)   63..32  bits of u      31..0  bits of v       sorting it sorts by u, then v
@@ -10,17 +11,18 @@
 //!                   lines: 25..13, 12..0       points: 12..0      NOWHERE is 8191; ranks are below 4225
 //! ```
 //!
-//! The patch of one triangle, (0, 1), (0, 0), (1, 0): sorted, the places are (0, 0), (0, 1), (1, 0), so the
-//! triangle's ranks are 1, 0, 2. Its three keys, by the vertex that leads, are 1-0-2, 0-2-1 and 2-1-0; the
-//! smallest, 0-2-1, stands for all of them. The other orientation has 0-1-2, which is another key.
+//! The patch of one triangle, (0, 1), (0, 0), (1, 0): sorted, the places are (0, 0), (0, 1),
+//! (1, 0), so the triangle's ranks are 1, 0, 2. Its three keys, by the vertex that leads, are
+//! 1-0-2, 0-2-1 and 2-1-0; the smallest, 0-2-1, stands for all of them. The other orientation has
+//! 0-1-2, which is another key.
 //!
 //! - The leading vertex of a triangle is free, and its orientation is not.
-//! - A place may be listed more often than the model lists it if primitives use each of its points: a device
-//!   without an index buffer lists a vertex for each use.
+//! - A place may be listed more often than the model lists it if primitives use each of its points:
+//!   a device without an index buffer lists a vertex for each use.
 //! - Points that are primitives may be merged where they coincide, and may not be drawn more often.
 //!
-//! Comparing sets of coordinate tuples is simpler. Ranks make a key fit 64 bits, and level 2 has 207 million
-//! indices to sort.
+//! Comparing sets of coordinate tuples is simpler. Ranks make a key fit 64 bits, and level 2 has
+//! 207 million indices to sort.
 
 use super::Elements;
 use crate::case::Case;
@@ -116,8 +118,8 @@ impl DistinctPlaces {
     }
 }
 
-/// The first place that only one output has, or that the observed one lists more often where it must
-/// not.
+/// The first place that only one output has, or that the observed one lists more often where it
+/// must not.
 fn points(
     elements: Elements,
     observed: &Tessellation,
@@ -205,8 +207,8 @@ fn triangle([a, b, c]: [u64; 3]) -> u64 {
 }
 
 impl Difference {
-    /// The first of the wrong elements, with what is there instead: vertices, and how often observed
-    /// and expected.
+    /// The first of the wrong elements, with what is there instead: vertices, and how often
+    /// observed and expected.
     fn first(wrong: impl Iterator<Item = (Vec<[u32; 2]>, usize, usize)>) -> Option<Self> {
         let difference =
             |(vertices, observed, expected)| Self { vertices, observed, expected, instead: None };
@@ -279,8 +281,8 @@ mod tests {
         assert_eq!(first.instead.map(|other| other.vertices), Some(vec![[0x101, 0]]), "beside it");
     }
 
-    /// Each index of a patch in turn names another point: what is missing and what is there instead are the two
-    /// primitives, by the places of their vertices.
+    /// Each index of a patch in turn names another point: what is missing and what is there instead
+    /// are the two primitives, by the places of their vertices.
     #[test]
     fn primitives_that_differ_are_shown_by_their_vertices() {
         let of = "40000000 40000000 40000000 40000000 40000000 40000000";

@@ -37,11 +37,11 @@ pub struct SubjectRow {
     pub passes_alone: bool,
 }
 
-/// Compares the units of a subject that are in the shard, one row for each backend. A patch that differs is no mismatch
-/// if that is `known`.
+/// Compares the units of a subject that are in the shard, one row for each backend. A patch that
+/// differs is no mismatch if that is `known`.
 ///
-/// Give one list of backends for each thread to use, all lists with the same backends. `progress` is
-/// called from any thread with the number of units that are done, and the number of all.
+/// Give one list of backends for each thread to use, all lists with the same backends. `progress`
+/// is called from any thread with the number of units that are done, and the number of all.
 ///
 /// # Errors
 /// A backend that could not run, or no backend at all.

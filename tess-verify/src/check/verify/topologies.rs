@@ -3,7 +3,8 @@
 use crate::case::Case;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
-/// Every pair of an outer and an inside factor: a transition depends on the two point counts alone. Four outer factors at a time, along either axis of a quad; three on a triangle.
+/// Every pair of an outer and an inside factor: a transition depends on the two point counts alone.
+/// Four outer factors at a time, along either axis of a quad; three on a triangle.
 pub(super) fn transitions() -> impl Iterator<Item = Case> {
     let pairs = (1..=64u8).flat_map(|inside| (1..=64u8).map(move |outer| (outer, inside)));
     SplitOrder::ALL.into_iter().flat_map(move |split| {

@@ -135,8 +135,8 @@ impl Units {
     }
 }
 
-/// The seed of a unit of a configuration: each configuration has a seed drawn from the subject's, and each of its units
-/// a seed drawn from that.
+/// The seed of a unit of a configuration: each configuration has a seed drawn from the subject's,
+/// and each of its units a seed drawn from that.
 fn seed_of_unit(seed: u64, configuration: usize, number: u64) -> u64 {
     let of_configuration = SplitMix64::after(seed, configuration as u64).next_u64();
     SplitMix64::after(of_configuration, number).next_u64()

@@ -48,8 +48,8 @@ fn mix(from: Colour, to: Colour, part: f64) -> Colour {
     Colour(channel(from.0, to.0), channel(from.1, to.1), channel(from.2, to.2))
 }
 
-/// Transitions stand out; rings alternate; the centre has its own. Minimum patches and other outputs than triangles
-/// have no ring.
+/// Transitions stand out; rings alternate; the centre has its own. Minimum patches and other
+/// outputs than triangles have no ring.
 pub(super) const fn of_ring(origin: Option<PrimitiveOrigin>) -> Colour {
     match origin {
         Some(PrimitiveOrigin::Transition { edge, .. }) if edge % 2 == 0 => Colour(0xf6, 0xc2, 0x8b),

@@ -82,7 +82,8 @@ mod tests {
         (found - expected).abs() < 1e-9
     }
 
-    /// Points that coincide have one disc; others have the room to their neighbours, 15 pixels at most.
+    /// Points that coincide have one disc; others have the room to their neighbours, 15 pixels at
+    /// most.
     #[test]
     fn discs_have_room() {
         let points = [[0.0, 0.0], [1.0, 0.0], [40.0, 0.0], [50.0, 0.0], [52.0, 0.0]];
@@ -93,7 +94,8 @@ mod tests {
         assert!(all, "{radii:?}");
     }
 
-    /// The incircle of a triangle of 30, 40 and 50 pixels has a radius of 10 and its centre 10 from both legs.
+    /// The incircle of a triangle of 30, 40 and 50 pixels has a radius of 10 and its centre 10 from
+    /// both legs.
     #[test]
     fn numbers_stand_in_the_middle() {
         let (centre, radius) = incircle([0.0, 0.0], [40.0, 0.0], [0.0, 30.0]).expect("an inside");

@@ -13,8 +13,8 @@ pub struct Differences {
     pub points: usize,
     /// Primitives whose indices differ, and primitives that one result lacks.
     pub primitives: usize,
-    /// Differences that a picture cannot show as they are, a line each: primitives that are missing, have no
-    /// extent or name points that are not there.
+    /// Differences that a picture cannot show as they are, a line each: primitives that are
+    /// missing, have no extent or name points that are not there.
     pub in_words: Vec<String>,
 }
 
@@ -123,8 +123,8 @@ fn indices(primitive: &[u32]) -> String {
     format!("`{}`", words.join(" "))
 }
 
-/// A primitive in red: an outline, filled if it is a triangle and there is a colour; a disc if it is
-/// a point.
+/// A primitive in red: an outline, filled if it is a triangle and there is a colour; a disc if it
+/// is a point.
 fn red(mut corners: Vec<Position>, fill: Option<Colour>, points: usize) -> Vec<Shape> {
     let mut shapes = Vec::new();
     match (corners.len(), fill) {

@@ -3,7 +3,8 @@
 
 use super::Position;
 
-/// Digits on a grid 4 wide and 6 high, y down: x and y of each corner, and a comma between two lines.
+/// Digits on a grid 4 wide and 6 high, y down: x and y of each corner, and a comma between two
+/// lines.
 const STROKES: [&str; 10] = [
     "10 30 41 45 36 16 05 01 10",
     "11 20 26, 16 36",

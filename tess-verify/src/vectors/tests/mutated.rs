@@ -5,7 +5,8 @@ use crate::vectors::{Listing, Record, Values, VectorError, VectorFile};
 use proptest::prelude::*;
 use std::fs::read_to_string;
 
-/// The most memory that a file of a few kilobytes may take: a record of the largest patch is 130 KB.
+/// The most memory that a file of a few kilobytes may take: a record of the largest patch is 130
+/// KB.
 const MOST_BYTES: u64 = 2 << 20;
 
 /// The first lines of a golden file, with as many records as its header then says.

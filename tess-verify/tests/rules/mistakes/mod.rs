@@ -14,9 +14,12 @@
 //!
 //! - Vulkan has no pow2, so only Direct3D judges it.
 //! - Where a standard allows a mistake, 100 patches are judged.
-//! - Patches are judged until the first broken rule, so a row has the rules that see a mistake first.
-//! - A variant that changes no answer of a domain and spacing is not planted there. Each is planted somewhere.
-//! - OpenGL has Vulkan's rules, which [`opengl_has_the_rules_of_vulkan`] shows, so both are one column.
+//! - Patches are judged until the first broken rule, so a row has the rules that see a mistake
+//!   first.
+//! - A variant that changes no answer of a domain and spacing is not planted there. Each is planted
+//!   somewhere.
+//! - OpenGL has Vulkan's rules, which [`opengl_has_the_rules_of_vulkan`] shows, so both are one
+//!   column.
 
 mod geometry;
 mod levels;

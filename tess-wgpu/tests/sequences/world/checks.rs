@@ -11,7 +11,8 @@ use tess_wgpu::{Error, Outputs};
 use wgpu::BufferUsages as Usage;
 
 impl World<'_> {
-    /// Compares what only a batch has: its counts, its draws, where its patches begin, and what a shader pulls.
+    /// Compares what only a batch has: its counts, its draws, where its patches begin, and what a
+    /// shader pulls.
     pub(super) fn compare_own(
         &mut self,
         made: &Made,

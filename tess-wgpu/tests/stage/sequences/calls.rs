@@ -12,12 +12,13 @@ use tess_wgpu::stage::{Overflow, Points, Room};
 pub(crate) enum StageCall {
     /// Another stage is used, which is built if it has not been.
     Use { stage: usize },
-    /// Another stage takes the place of the one in use: of another hull or fragment shader, and on a tessellator of its
-    /// own or on the one that all share.
+    /// Another stage takes the place of the one in use: of another hull or fragment shader, and on
+    /// a tessellator of its own or on the one that all share.
     Rebuild { variant: u32, is_alone: bool },
     /// The patches get other factors, by a seed. What records them may be dropped.
     Give { seed: u64, is_dropped: bool },
-    /// The patches are moved on by so many places of the grid, through the uniform or another bind group.
+    /// The patches are moved on by so many places of the grid, through the uniform or another bind
+    /// group.
     Move { by: u32, is_bound: bool },
     /// Other groups of patches, from the next frame on.
     Group { groups: u32 },

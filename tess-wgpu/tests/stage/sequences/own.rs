@@ -51,8 +51,8 @@ const OTHER: u32 = 7;
 /// Frames of little output after which a stage gives room back.
 pub(super) const PATIENCE: u64 = 2;
 
-/// The scene's WGSL with a grid that a uniform turns. A variant exchanges patches in `hull`, or writes another number
-/// in the fragment shader, or both.
+/// The scene's WGSL with a grid that a uniform turns. A variant exchanges patches in `hull`, or
+/// writes another number in the fragment shader, or both.
 fn source(form: StageForm, variant: u32) -> String {
     let place = "return vec2<f32>(f32(number % 4u), f32(number / 4u));";
     let text = scene::source(form.domain);
@@ -66,7 +66,8 @@ fn source(form: StageForm, variant: u32) -> String {
 }
 
 impl Own {
-    /// A stage that takes the place of `old` has its layouts, so that it can share all of its pipelines.
+    /// A stage that takes the place of `old` has its layouts, so that it can share all of its
+    /// pipelines.
     pub(super) fn new(
         (gpu, shared): (&Gpu, &Tessellator),
         form: StageForm,
@@ -240,7 +241,8 @@ impl Own {
         self.check_room(before)
     }
 
-    /// Compares what a frame left that ran last, but for its pixels. Returns the patches that are drawn.
+    /// Compares what a frame left that ran last, but for its pixels. Returns the patches that are
+    /// drawn.
     pub(super) fn compare(
         &mut self,
         count: u32,

@@ -8,7 +8,8 @@ use tess_wgpu::Gpu;
 use tess_wgpu::stage::Room;
 
 impl Own {
-    /// The room behind `before`, when the stage has heard of all that ran; `None` where the budget decides.
+    /// The room behind `before`, when the stage has heard of all that ran; `None` where the budget
+    /// decides.
     pub(super) fn next_room(&mut self, before: Capacity) -> Option<Capacity> {
         let (Room::Automatic { most_bytes }, Some((frame, needed))) = (self.form.room, self.heard)
         else {

@@ -60,8 +60,8 @@ fn cpu_level(name: &str) -> Result<Level, String> {
 }
 
 impl BackendArgs {
-    /// Makes the chosen backend ready. Errors: exit code 2 if it has no such options, 3 if this build or this machine
-    /// does not have it, with the next step.
+    /// Makes the chosen backend ready. Errors: exit code 2 if it has no such options, 3 if this
+    /// build or this machine does not have it, with the next step.
     pub(crate) fn select(self) -> Result<Box<dyn Backend>, Failure> {
         self.options.fit(&[self.backend])?;
         self.options.select(self.backend)
@@ -69,8 +69,8 @@ impl BackendArgs {
 }
 
 impl BackendOptions {
-    /// Refuses options that none of the backends in use has. Errors: exit code 2 if a CPU level is asked for without
-    /// the simd backend, or 16-bit indices without a backend that has them.
+    /// Refuses options that none of the backends in use has. Errors: exit code 2 if a CPU level is
+    /// asked for without the simd backend, or 16-bit indices without a backend that has them.
     pub(crate) fn fit(self, backends: &[BackendName]) -> Result<(), Failure> {
         let has = |name: BackendName| backends.contains(&name);
         if self.cpu_level.is_some() && !has(BackendName::Simd) {
@@ -84,16 +84,16 @@ impl BackendOptions {
         Ok(())
     }
 
-    /// The CPU level to run the simd backend at. Errors: exit code 3 if this machine cannot run the one that is asked
-    /// for.
+    /// The CPU level to run the simd backend at. Errors: exit code 3 if this machine cannot run the
+    /// one that is asked for.
     pub(crate) fn level(self) -> Result<Level, Failure> {
         let level = self.cpu_level.unwrap_or_else(Level::detect);
         level.require().map_err(unavailable)?;
         Ok(level)
     }
 
-    /// Makes a backend ready as these options say, as far as they are for it. Errors: exit code 3 if this build or
-    /// this machine does not have it, with the next step.
+    /// Makes a backend ready as these options say, as far as they are for it. Errors: exit code 3
+    /// if this build or this machine does not have it, with the next step.
     pub(crate) fn select(self, name: BackendName) -> Result<Box<dyn Backend>, Failure> {
         match name {
             BackendName::Core => Ok(Box::new(CoreBackend)),

@@ -3,8 +3,8 @@
 use clap::{ArgMatches, Command};
 use std::collections::BTreeMap;
 
-/// The options that say where a shard's files lie, or which shard it is. Shards of one campaign differ in them.
-/// The baseline is compared by its cases.
+/// The options that say where a shard's files lie, or which shard it is. Shards of one campaign
+/// differ in them. The baseline is compared by its cases.
 const PLACES: [&str; 11] = [
     "shard", "given", "report", "junit", "file", "cases", "failures", "coverage", "picture",
     "json", "known",
@@ -43,8 +43,8 @@ impl Invocation {
     }
 }
 
-/// The commit that the program was built from: its number, with `+changes` if a source file differed from it, or
-/// `unknown`.
+/// The commit that the program was built from: its number, with `+changes` if a source file
+/// differed from it, or `unknown`.
 pub(crate) const fn commit() -> &'static str {
     env!("TESS_COMMIT")
 }

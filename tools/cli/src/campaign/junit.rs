@@ -98,7 +98,8 @@ impl JunitCase {
 }
 
 impl Outcome {
-    /// The outcome of a comparison in which so many of so many differ: the first, and the period of all.
+    /// The outcome of a comparison in which so many of so many differ: the first, and the period of
+    /// all.
     pub(crate) fn of(
         (mismatches, cases): (u64, u64),
         first: Option<&First>,

@@ -17,9 +17,14 @@ use tess_verify::rules::Specification;
 /// The `--known` option.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct KnownArgs {
-    /// Known differences: lines that begin with `case` or `rule`, or a vector file as --failures writes it
+    /// Known differences: lines that begin with `case` or `rule`, or a vector file as --failures
+    /// writes it
     ///
-    /// They are counted as known, not as mismatches. A case or rule may be followed by ` | EXPECTED | OWNER | UNTIL | REASON` (docs/campaigns.md): a line that has expired or is not met gives exit code 1. Cases without these terms that no longer differ are named on stderr. A file with only a header or only remarks is a baseline of nothing; an empty file is refused.
+    /// They are counted as known, not as mismatches. A case or rule may be followed by ` |
+    /// EXPECTED | OWNER | UNTIL | REASON` (docs/campaigns.md): a line that has expired or is not
+    /// met gives exit code 1. Cases without these terms that no longer differ are named on stderr.
+    /// A file with only a header or only remarks is a baseline of nothing; an empty file is
+    /// refused.
     #[arg(long, value_name = "FILE")]
     known: Option<PathBuf>,
 }
@@ -95,8 +100,8 @@ impl Baseline {
         recorder.update(|report| report.known.clone_from(&self.file));
     }
 
-    /// Ends a run and writes its report. If it came to its end, that says what became of the baseline, and it is a
-    /// difference if a line has expired or is not met.
+    /// Ends a run and writes its report. If it came to its end, that says what became of the
+    /// baseline, and it is a difference if a line has expired or is not met.
     ///
     /// # Errors
     /// The run's; a report that cannot be written.

@@ -1,10 +1,10 @@
-//! Work that is cut into shards for many machines: which shard a command does, what it reports, what is known
-//! to differ.
+//! Work that is cut into shards for many machines: which shard a command does, what it reports,
+//! what is known to differ.
 //!
-//! `shard` finds the shard on the command line or in the environment. `invocation` says what was run, and
-//! `recorder` writes that with what was found as a `report`, and as `junit`. `known` reads the baseline.
-//! `tess merge` (`commands/merge`) proves from the reports that all shards ran. docs/campaigns.md describes both
-//! formats.
+//! `shard` finds the shard on the command line or in the environment. `invocation` says what was
+//! run, and `recorder` writes that with what was found as a `report`, and as `junit`. `known` reads
+//! the baseline. `tess merge` (`commands/merge`) proves from the reports that all shards ran.
+//! docs/campaigns.md describes both formats.
 
 mod invocation;
 pub(crate) mod junit;

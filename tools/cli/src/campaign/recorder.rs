@@ -17,7 +17,9 @@ use std::time::Instant;
 pub(crate) struct ReportArgs {
     /// Write a report of the run to this file: a line of JSON that `tess merge` reads
     ///
-    /// It is written on exit, also when a signal ends the run. The report of an earlier run is removed before anything else is done; a file that is not a report is kept, and is an error. docs/campaigns.md explains the entries.
+    /// It is written on exit, also when a signal ends the run. The report of an earlier run is
+    /// removed before anything else is done; a file that is not a report is kept, and is an error.
+    /// docs/campaigns.md explains the entries.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Write the result to this file as `JUnit` XML, for Jenkins and similar tools
@@ -141,7 +143,8 @@ impl Recorder {
         }
     }
 
-    /// Writes the report of a run that ended, and gives its end. Errors: the run's; a file that cannot be written.
+    /// Writes the report of a run that ended, and gives its end. Errors: the run's; a file that
+    /// cannot be written.
     pub(crate) fn finish(self, ended: Result<Exit, Failure>) -> Result<Exit, Failure> {
         let Some(live) = lock(&self.live).take() else { return ended };
         let state = match &ended {

@@ -1,4 +1,5 @@
-//! Which part of the work a command does: `--shard`, or what a batch system says in the environment.
+//! Which part of the work a command does: `--shard`, or what a batch system says in the
+//! environment.
 
 use crate::failure::Failure;
 use crate::output::note;
@@ -12,9 +13,10 @@ use tess_verify::generate::Shard;
 pub(crate) struct ShardArgs {
     /// One of N disjoint parts, counted from 1 [default: from the batch system, or 1/1]
     ///
-    /// Without it, the part is taken from the environment: `TEST_SHARD_INDEX` and `TEST_TOTAL_SHARDS` (Bazel,
-    /// googletest), `SLURM_ARRAY_TASK_ID` (Slurm arrays that begin with 0 or 1), `JOB_COMPLETION_INDEX` with
-    /// `TESS_SHARDS` (Kubernetes). --shard 1/1 does everything, whatever the environment says.
+    /// Without it, the part is taken from the environment: `TEST_SHARD_INDEX` and
+    /// `TEST_TOTAL_SHARDS` (Bazel, googletest), `SLURM_ARRAY_TASK_ID` (Slurm arrays that begin with
+    /// 0 or 1), `JOB_COMPLETION_INDEX` with `TESS_SHARDS` (Kubernetes). --shard 1/1 does
+    /// everything, whatever the environment says.
     #[arg(long = "shard", value_name = "I/N", value_parser = shard)]
     given: Option<Shard>,
 }
@@ -23,7 +25,8 @@ pub(crate) struct ShardArgs {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Placed {
     pub(crate) shard: Shard,
-    /// `--shard`, or the variable that numbers the part; `None` if all is done because nobody said anything.
+    /// `--shard`, or the variable that numbers the part; `None` if all is done because nobody said
+    /// anything.
     pub(crate) source: Option<&'static str>,
 }
 
@@ -44,8 +47,8 @@ impl fmt::Display for Placed {
 }
 
 impl ShardArgs {
-    /// The part to do. Errors: variables of a batch system that contradict each other, or from which no part follows;
-    /// a status file that cannot be touched.
+    /// The part to do. Errors: variables of a batch system that contradict each other, or from
+    /// which no part follows; a status file that cannot be touched.
     pub(crate) fn place(self) -> Result<Placed, Failure> {
         if let Some(shard) = self.given {
             return Ok(Placed { shard, source: Some(OPTION) });
@@ -70,8 +73,8 @@ impl ShardArgs {
         Ok(placed)
     }
 
-    /// All of what cannot be cut. Errors: a batch system asks for parts, so that everything would be done several
-    /// times.
+    /// All of what cannot be cut. Errors: a batch system asks for parts, so that everything would
+    /// be done several times.
     pub(crate) fn whole(self, what: &str) -> Result<Placed, Failure> {
         let placed = self.place()?;
         if placed.shard == Shard::WHOLE {
@@ -128,8 +131,8 @@ fn other(value: Environment<'_>, set: &str, name: &str) -> Result<u64, String> {
     number(value, name)?.ok_or_else(|| format!("{set} is set, and {name} is not"))
 }
 
-/// Slurm counts from where the array begins. Only a whole array, which begins with 0 or 1 and leaves nothing
-/// out, says which part of everything a task is.
+/// Slurm counts from where the array begins. Only a whole array, which begins with 0 or 1 and
+/// leaves nothing out, says which part of everything a task is.
 fn slurm(value: Environment<'_>) -> Result<Option<Shard>, String> {
     let Some(task) = number(value, SLURM)? else { return Ok(None) };
     let other = |name| other(value, SLURM, name);

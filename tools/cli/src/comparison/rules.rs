@@ -11,8 +11,8 @@ use tess_verify::Named;
 use tess_verify::check::Known;
 use tess_verify::rules::{RuleRow, RulesReport};
 
-/// Prints a report and adds each rule to the run's: how many patches it judged, and how many of them break it.
-/// Different if a rule is broken, unless so often is known.
+/// Prints a report and adds each rule to the run's: how many patches it judged, and how many of
+/// them break it. Different if a rule is broken, unless so often is known.
 ///
 /// # Errors
 /// It cannot be written.

@@ -65,8 +65,8 @@ pub(crate) struct OnePatch {
 }
 
 impl OnePatch {
-    /// Has a backend tessellate one patch. Errors: the backend could not run, or returned another number of patches
-    /// than one.
+    /// Has a backend tessellate one patch. Errors: the backend could not run, or returned another
+    /// number of patches than one.
     pub(crate) fn tessellate(backend: &mut dyn Backend, case: Case) -> Result<Self, Failure> {
         let mut results = backend.tessellate(case.config, &[case.factors])?;
         let name = backend.name();

@@ -126,8 +126,8 @@ fn is_device(found: &fs::Metadata) -> bool {
     !found.is_file()
 }
 
-/// Refuses an output that is the same file as an input or as another output, whether by one path, by links or by
-/// redirection. Errors: exit code 2, with the first two roles of one file.
+/// Refuses an output that is the same file as an input or as another output, whether by one path,
+/// by links or by redirection. Errors: exit code 2, with the first two roles of one file.
 pub(crate) fn refuse_shared(roles: &[Role<'_>]) -> Result<(), Failure> {
     let is_output = |role: &Role<'_>| role.standard == Standard::Output;
     let outputs = roles.iter().enumerate().filter(|(_, role)| is_output(role));

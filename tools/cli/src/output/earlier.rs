@@ -5,9 +5,10 @@
 //!                                                 1. r.jsonl is removed   2. stdin is empty: exit code 2
 //! ```
 //!
-//! Whoever reads the file afterwards trusts it, so a run that ends early, for whatever reason, must leave none.
-//! That is why the words are looked at here and not the options: a command line that is no command counts too.
-//! A file that begins as no file of that kind does is kept, and so is one that the command reads.
+//! Whoever reads the file afterwards trusts it, so a run that ends early, for whatever reason, must
+//! leave none. That is why the words are looked at here and not the options: a command line that is
+//! no command counts too. A file that begins as no file of that kind does is kept, and so is one
+//! that the command reads.
 
 use super::distinct::Role;
 use super::file::Destination;
@@ -47,8 +48,8 @@ const CHECK: [TrustedForm; 3] =
 const MERGE: [TrustedForm; 1] = [JUNIT];
 const COVERAGE: [TrustedForm; 1] = [form("--merged", "coverage file", UCIS)];
 
-/// The outputs of a command that are trusted when it has ended. What it adds to, as `--coverage` of other
-/// commands, is none: that stays as it was.
+/// The outputs of a command that are trusted when it has ended. What it adds to, as `--coverage` of
+/// other commands, is none: that stays as it was.
 fn trusted(command: &OsStr) -> &'static [TrustedForm] {
     match command.to_str() {
         Some("check") => &CHECK,
@@ -66,8 +67,9 @@ struct Named {
     at: usize,
 }
 
-/// Removes the outputs of earlier runs that these words of a command line name, the program first. Errors: the first
-/// that is kept because it is no file of its kind, or cannot be removed. The others are removed all the same.
+/// Removes the outputs of earlier runs that these words of a command line name, the program first.
+/// Errors: the first that is kept because it is no file of its kind, or cannot be removed. The
+/// others are removed all the same.
 pub(crate) fn remove_earlier(words: &[OsString]) -> Result<(), Failure> {
     let forms = words.get(1).map_or(&[][..], |command| trusted(command));
     // After `--` there are no options.

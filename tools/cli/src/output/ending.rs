@@ -30,7 +30,8 @@ impl Drop for Guard {
     }
 }
 
-/// Makes something and says what undoes it. No signal ends the process between the two. Errors: it cannot be made.
+/// Makes something and says what undoes it. No signal ends the process between the two. Errors: it
+/// cannot be made.
 pub(crate) fn guarded<T>(
     make: impl FnOnce() -> io::Result<(T, Cleanup)>,
 ) -> io::Result<(T, Guard)> {
@@ -44,9 +45,9 @@ pub(crate) fn guarded<T>(
     Ok((made, Guard(number)))
 }
 
-/// Starts to listen to the signals by which users and batch systems end a process: the cleanups are done before it ends as
-/// it would have without. Where no thread can be started, signals end the process at once. A terminal that closes does so
-/// too, as `nohup` has it ignored.
+/// Starts to listen to the signals by which users and batch systems end a process: the cleanups are
+/// done before it ends as it would have without. Where no thread can be started, signals end the
+/// process at once. A terminal that closes does so too, as `nohup` has it ignored.
 #[cfg(unix)]
 fn listen() {
     use signal_hook::consts::{SIGINT, SIGTERM};

@@ -20,8 +20,8 @@ pub(super) enum Destination {
 }
 
 impl Destination {
-    /// Finds out what is there, following symbolic links. Errors: a folder, a file that may not be written, a circle
-    /// of links.
+    /// Finds out what is there, following symbolic links. Errors: a folder, a file that may not be
+    /// written, a circle of links.
     pub(super) fn of(path: &Path) -> io::Result<Self> {
         const STDOUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
         if STDOUT.iter().any(|name| path.as_os_str() == *name) {
@@ -133,7 +133,8 @@ fn persist(file: NamedTempFile, path: &Path) -> io::Result<()> {
     file.persist(path).map(drop).map_err(|error| error.error)
 }
 
-/// Windows replaces no file that another program looks at: that takes a moment, and may happen again.
+/// Windows replaces no file that another program looks at: that takes a moment, and may happen
+/// again.
 #[cfg(windows)]
 #[expect(clippy::disallowed_methods, reason = "nothing tells when the other program is done")]
 fn persist(mut file: NamedTempFile, path: &Path) -> io::Result<()> {
@@ -159,8 +160,8 @@ impl Write for Partial {
     }
 }
 
-/// Makes a file of this content, unless there is a file already. Errors: the folder cannot be written, or the path is
-/// none of a file.
+/// Makes a file of this content, unless there is a file already. Errors: the folder cannot be
+/// written, or the path is none of a file.
 pub(crate) fn create_unless_there(path: &Path, content: &[u8]) -> io::Result<()> {
     let mut partial = Partial::of(&follow(path)?)?;
     partial.write_all(content)?;
@@ -192,8 +193,8 @@ impl OutputFile {
         }
     }
 
-    /// Whether a path leads to no pipe, no device and not to stdout. It opens nothing, as opening a pipe
-    /// waits for its reader.
+    /// Whether a path leads to no pipe, no device and not to stdout. It opens nothing, as opening a
+    /// pipe waits for its reader.
     pub(crate) fn would_be_file(path: &Path) -> bool {
         !matches!(Destination::of(path), Ok(Destination::Stdout | Destination::Stream(_)))
     }
@@ -210,7 +211,8 @@ impl OutputFile {
         write_at(self.file(), bytes, offset)
     }
 
-    /// Puts the whole output in its place. Errors: it cannot be put there; then nothing is, or what was there before.
+    /// Puts the whole output in its place. Errors: it cannot be put there; then nothing is, or what
+    /// was there before.
     pub(crate) fn finish(self) -> io::Result<()> {
         match self {
             Self::Partial(partial) => partial.persist(),
@@ -237,7 +239,8 @@ fn write_at(file: &File, mut bytes: &[u8], mut offset: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// A file for what goes to a pipe in the end. Errors: the folder for temporary files cannot be written.
+/// A file for what goes to a pipe in the end. Errors: the folder for temporary files cannot be
+/// written.
 fn spool() -> Result<File, Failure> {
     let folder = std::env::temp_dir();
     tempfile::tempfile_in(&folder)

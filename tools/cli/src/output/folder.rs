@@ -26,7 +26,8 @@ pub(crate) fn refuse_stdout(folder: &Path, why: &str) -> Result<(), Failure> {
 }
 
 impl NewFolder {
-    /// Begins a folder, and makes those that it lies in. Errors: it is there already, or cannot be made.
+    /// Begins a folder, and makes those that it lies in. Errors: it is there already, or cannot be
+    /// made.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         if path.symlink_metadata().is_ok() {
             return Err(io::Error::new(

@@ -13,8 +13,8 @@ pub(crate) trait FileForm: ValueEnum + PartialEq {
     const COMMON_EXTENSIONS: &'static [&'static str] = &[];
 }
 
-/// The form that is asked for, else the form that the file's name says, else the default. Errors: the name says
-/// another form than the one asked for, or one that there is not.
+/// The form that is asked for, else the form that the file's name says, else the default. Errors:
+/// the name says another form than the one asked for, or one that there is not.
 pub(crate) fn choose<F: FileForm>(asked: Option<F>, file: &Path) -> Result<F, Failure> {
     let extension = file.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let extension = extension.unwrap_or_default();

@@ -1,8 +1,8 @@
 //! Where results go: stdout, a pipe, or a file that is there whole or not at all.
 //!
-//! [`mod@file`] is the one way in which commands write files, [`stdout()`] the one way to stdout. Both name
-//! [`ending`] what must not stay behind when a signal ends the process. [`form`] chooses the form of
-//! a file by its name. [`earlier`] removes what a run before this one left.
+//! [`mod@file`] is the one way in which commands write files, [`stdout()`] the one way to stdout.
+//! Both name [`ending`] what must not stay behind when a signal ends the process. [`form`] chooses
+//! the form of a file by its name. [`earlier`] removes what a run before this one left.
 
 mod distinct;
 mod earlier;
@@ -35,14 +35,14 @@ pub(crate) struct OutputArgs {
 }
 
 impl OutputArgs {
-    /// Writes `content` to stdout or to the file. Errors: the place cannot be written; a file that was there is then
-    /// as it was.
+    /// Writes `content` to stdout or to the file. Errors: the place cannot be written; a file that
+    /// was there is then as it was.
     pub(crate) fn write(&self, content: &[u8]) -> Result<(), Failure> {
         self.stream(|out| out.write_all(content))
     }
 
-    /// Writes to stdout or to the file what `content` writes, as it comes. Errors: the place cannot be written; a
-    /// file that was there is then as it was.
+    /// Writes to stdout or to the file what `content` writes, as it comes. Errors: the place cannot
+    /// be written; a file that was there is then as it was.
     pub(crate) fn stream(
         &self,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -67,8 +67,8 @@ impl OutputArgs {
         write().map_err(|error| Failure::write(&self.file, error))
     }
 
-    /// Refuses a place that cannot be written, before long work for it. Errors: as [`OutputArgs::write`] would; but a
-    /// pipe is not opened, which waits for its reader.
+    /// Refuses a place that cannot be written, before long work for it. Errors: as
+    /// [`OutputArgs::write`] would; but a pipe is not opened, which waits for its reader.
     pub(crate) fn require_writable(&self) -> Result<(), Failure> {
         let attempt = || match Destination::of(&self.file)? {
             Destination::Stdout | Destination::Stream(_) => Ok(()),
@@ -87,8 +87,8 @@ impl OutputArgs {
         matches!(Destination::of(&self.file), Ok(Destination::Stdout))
     }
 
-    /// Refuses to write bytes that are no text to a terminal. Errors: the result goes to stdout, and that is a
-    /// terminal.
+    /// Refuses to write bytes that are no text to a terminal. Errors: the result goes to stdout,
+    /// and that is a terminal.
     pub(crate) fn refuse_terminal(&self, what: &str) -> Result<(), Failure> {
         if self.is_stdout() && io::stdout().is_terminal() {
             let message =
@@ -121,8 +121,8 @@ pub(crate) fn progress(length: u64, unit: &str) -> ProgressBar {
     bar
 }
 
-/// Prints results to stdout as soon as they are ready, with the progress bar out of their way. Errors: stdout cannot
-/// be written.
+/// Prints results to stdout as soon as they are ready, with the progress bar out of their way.
+/// Errors: stdout cannot be written.
 pub(crate) fn print(bar: &ProgressBar, text: &str) -> Result<(), Failure> {
     let print = || {
         let mut out = stdout();
@@ -151,7 +151,8 @@ pub(crate) fn note(message: &str) {
 /// Characters of the longest line of JSON that [`json`] joins.
 const LONGEST_ROW: usize = 400;
 
-/// A document as indented JSON with a newline at its end. An object or a list that has no other inside is one line.
+/// A document as indented JSON with a newline at its end. An object or a list that has no other
+/// inside is one line.
 ///
 /// # Panics
 /// If the document has a map whose keys are not text; none of this program's has.

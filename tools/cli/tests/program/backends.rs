@@ -1,4 +1,5 @@
-//! The backends behind the program: exact on the recorded results, and told when they are not there.
+//! The backends behind the program: exact on the recorded results, and told when they are not
+//! there.
 
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 use crate::support::tess_with_environment;

@@ -55,7 +55,8 @@ fn bad_options_say_what_would_be_right() {
     }
 }
 
-/// Frames repeat a workload until a call has their output, and what is timed is still compared with the model.
+/// Frames repeat a workload until a call has their output, and what is timed is still compared with
+/// the model.
 #[test]
 fn frames() {
     let words = "bench --backend simd --workload uniform-2 --working-set cache --samples 1 --json";

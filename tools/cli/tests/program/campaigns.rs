@@ -1,4 +1,5 @@
-//! Campaigns: reports of shards, `JUnit` XML, `tess merge`, shards from the environment, known differences.
+//! Campaigns: reports of shards, `JUnit` XML, `tess merge`, shards from the environment, known
+//! differences.
 
 use crate::support::{Folder, Run, command, directory, shell, tess, tess_with_input};
 use serde_json::Value;
@@ -334,7 +335,8 @@ fn shards_of_files() {
     run.exits(2).says("one says shard 3/4, the other shard 2/4 (from FILE)");
 }
 
-/// Answers that name how their cases were made are of one campaign only if those are the same cases.
+/// Answers that name how their cases were made are of one campaign only if those are the same
+/// cases.
 #[test]
 fn shards_of_other_cases() {
     let folder = directory("shards-of-other-cases");
@@ -445,7 +447,8 @@ fn known_differences_have_terms() {
     tess_in(&folder, "merge r.jsonl").exits(1).prints("\nbaseline ");
 }
 
-/// When the device is mended, the baseline that is written anew has no record; it excuses nothing and is no error.
+/// When the device is mended, the baseline that is written anew has no record; it excuses nothing
+/// and is no error.
 #[test]
 fn baselines_that_became_empty() {
     let folder = directory("baselines_that_became_empty");

@@ -181,8 +181,8 @@ fn every_freedom_is_used() {
     };
     let quad = "quad fractional_odd triangle_cw ruler 40a00000 40d00000 40e00000 40500000 40a80000";
     let culled = "tri integer triangle_cw ruler 00000000 40400000 40400000 40400000";
-    // A denormal that counts as zero; a factor halfway between two numbers that went to the other one;
-    // another leading vertex; a triangle that is not the model's.
+    // A denormal that counts as zero; a factor halfway between two numbers that went to the other
+    // one; another leading vertex; a triangle that is not the model's.
     let flushed = listing(&culled.replace("00000000", "00000001"), culled);
     let converted = listing(&format!("{quad} 40400020"), &format!("{quad} 40400040"));
     let whole = tess_with_input("patch --cases -", TRI).stdout;

@@ -188,7 +188,8 @@ fn endless_input() {
     run.exits(2).says("stdin:3: points: 99999999999 is too many");
 }
 
-/// Of many differences each stage and configuration has a line that counts them, and its smallest case is shown.
+/// Of many differences each stage and configuration has a line that counts them, and its smallest
+/// case is shown.
 #[test]
 fn many_differences() {
     let text = excerpt("patches.csv", 100);

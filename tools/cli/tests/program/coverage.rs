@@ -32,7 +32,8 @@ fn row(report: &str, group: &str) -> Vec<String> {
     row.split_whitespace().skip(2).map(str::to_owned).collect()
 }
 
-/// A device that has quads in one configuration alone: level 1 of it leaves bins that it could hit, and no other.
+/// A device that has quads in one configuration alone: level 1 of it leaves bins that it could hit,
+/// and no other.
 #[test]
 fn what_a_device_cannot_hit_is_excluded() {
     let folder = directory("what_a_device_cannot_hit_is_excluded");

@@ -1,6 +1,8 @@
-//! Options crossed by pairs: what is taken gives the model's result, and what is refused names both options.
+//! Options crossed by pairs: what is taken gives the model's result, and what is refused names both
+//! options.
 //!
-//! A run takes 3 ms of processor time, with the GPU 200 and with a report 400. So rows have these two seldom.
+//! A run takes 3 ms of processor time, with the GPU 200 and with a report 400. So rows have these
+//! two seldom.
 
 mod checks;
 
@@ -16,7 +18,8 @@ use tess_verify::vectors::Listing;
 /// Two values that exclude each other, and what the message says of each.
 type Excluded = ((usize, &'static str), (usize, &'static str), [&'static str; 2]);
 
-/// Options by their values, which are words of a command line or none, behind the four that make the patch.
+/// Options by their values, which are words of a command line or none, behind the four that make
+/// the patch.
 struct Crossed {
     values: Vec<Vec<&'static str>>,
     excluded: Vec<Excluded>,
@@ -49,7 +52,8 @@ impl Crossed {
         dear.map(|(option, (_, value))| (option, value)).collect()
     }
 
-    /// Calls `taken` with each row that is taken, and `refused` with each that is not and what its message says.
+    /// Calls `taken` with each row that is taken, and `refused` with each that is not and what its
+    /// message says.
     fn run(
         &self,
         mut taken: impl FnMut(Case, &[&str]),
@@ -223,7 +227,8 @@ fn backends_are_verified_whatever_the_options() {
 /// A known deviation that nothing here has.
 const KNOWN: &str = "case tri integer point center 40a00000 40a00000 40a00000 40a00000\n";
 
-/// A bench compares digests with the model's before it times. That of a GPU takes seconds and runs once.
+/// A bench compares digests with the model's before it times. That of a GPU takes seconds and runs
+/// once.
 #[test]
 fn backends_are_timed_whatever_the_options() {
     let others: [&[&str]; 4] =

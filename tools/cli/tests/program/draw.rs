@@ -16,7 +16,8 @@ fn svg_has_every_triangle_and_point() {
     assert_eq!(run.stdout, tess(&format!("patch {PATCH} --format svg")).stdout, "by tess patch");
 }
 
-/// Every number, colour and place: whoever changes how pictures look says so here, after a look at them.
+/// Every number, colour and place: whoever changes how pictures look says so here, after a look at
+/// them.
 #[test]
 fn pictures_are_the_recorded_ones() {
     let patches = [

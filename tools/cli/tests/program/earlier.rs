@@ -5,7 +5,8 @@ use crate::support::{Folder, Run, directory, shell, tess};
 use std::fs;
 use std::path::Path;
 
-/// The trusted outputs, each by its option with a name and the beginning of what yesterday's run left there.
+/// The trusted outputs, each by its option with a name and the beginning of what yesterday's run
+/// left there.
 const OLD: [(&str, &str, &str); 4] = [
     ("--report", "r.jsonl", "{\"format\":\"tess-report 1\",\"state\":\"done\"}\n"),
     ("--junit", "r.xml", "<?xml version=\"1.0\"?>\n<testsuites name=\"tess\" tests=\"19\"/>\n"),
@@ -25,7 +26,8 @@ fn prepare(folder: &Path) {
     }
 }
 
-/// Runs a script that ends early, in which `$TESS` is the program, and demands that nothing looks like its result.
+/// Runs a script that ends early, in which `$TESS` is the program, and demands that nothing looks
+/// like its result.
 fn left_nothing(folder: &Folder, script: &str, names: &[&str]) -> Run {
     prepare(folder);
     let run = shell(script, folder);
@@ -120,7 +122,8 @@ fn sums_that_cannot_be_made() {
     }
 }
 
-/// One typo away from `--report /etc/fstab`: what is no file of its kind stays, and the run says so at once.
+/// One typo away from `--report /etc/fstab`: what is no file of its kind stays, and the run says so
+/// at once.
 #[test]
 fn what_is_another_file_is_kept() {
     let folder = directory("what_is_another_file_is_kept");

@@ -97,7 +97,8 @@ fn elements_are_explained() {
     }
 }
 
-/// A circuit's output is compared: each signal that differs has its stage and module, and the run ends with 1.
+/// A circuit's output is compared: each signal that differs has its stage and module, and the run
+/// ends with 1.
 #[test]
 fn mismatches_of_a_circuit_are_named() {
     let patch = "explain quad --outer 3,4,5,6 --inner 4,7";

@@ -64,8 +64,8 @@ fn new_files_follow_the_mask() {
     }
 }
 
-/// A named pipe is written to, not replaced, by formats that are written from the front and by those
-/// that are not.
+/// A named pipe is written to, not replaced, by formats that are written from the front and by
+/// those that are not.
 #[test]
 fn pipes_are_streamed() {
     let folder = directory("pipes_are_streamed");

@@ -64,7 +64,8 @@ fn memory_images_and_coverage() {
     tess("gen --format readmemh").exits(2); // images need a folder
 }
 
-/// Two shards in one file have the patches of the whole, and so has a check of the vectors, in the same order.
+/// Two shards in one file have the patches of the whole, and so has a check of the vectors, in the
+/// same order.
 #[test]
 fn coverage_files_merge() {
     let folder = directory("coverage");
@@ -167,7 +168,8 @@ fn a_shard_without_cases() {
     tess("gen --level 3 --count 0").exits(2); // no case at all
 }
 
-/// Vectors of one stage: the same bytes for the same arguments, in both forms, for one block of a circuit.
+/// Vectors of one stage: the same bytes for the same arguments, in both forms, for one block of a
+/// circuit.
 #[test]
 fn vectors_of_single_stages() {
     for stage in ["factors", "context", "place", "stitch"] {

@@ -1,5 +1,5 @@
-//! Commands that work for a long time: they stop when their reader leaves, and leave nothing half-written when a signal
-//! ends them.
+//! Commands that work for a long time: they stop when their reader leaves, and leave nothing
+//! half-written when a signal ends them.
 
 use crate::support::{command, directory};
 use std::fs;

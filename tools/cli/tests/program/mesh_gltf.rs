@@ -1,4 +1,5 @@
-//! `tess mesh` on glTF files that break the rules of the format: each is a right file with one change.
+//! `tess mesh` on glTF files that break the rules of the format: each is a right file with one
+//! change.
 
 use crate::mesh::{counts, mesh, write};
 use crate::mesh_input::refused;

@@ -5,7 +5,8 @@ use crate::support::{Run, directory, tess};
 use std::fs;
 use std::path::Path;
 
-/// Runs `tess mesh` on bad input: exit code 2, a message with the file's name and `message`, no output.
+/// Runs `tess mesh` on bad input: exit code 2, a message with the file's name and `message`, no
+/// output.
 pub(crate) fn refused(input: &Path, options: &str, message: &str) {
     let out = input.with_file_name("refused.out.obj");
     let run = tess(&format!("mesh {} {options} -o {}", input.display(), out.display()));

@@ -1,5 +1,5 @@
-//! `tess mesh` on models with faces that need care: each is repaired or kept, and a note says which, how many, and
-//! where the first one is.
+//! `tess mesh` on models with faces that need care: each is repaired or kept, and a note says
+//! which, how many, and where the first one is.
 #![expect(clippy::float_arithmetic, reason = "triangles are made of floats")]
 
 use crate::mesh::{CUBE, counts, mesh, open_edges, write};

@@ -1,4 +1,5 @@
-//! `tess probe` on the first Vulkan device, which the tests have: exit codes and forms of the report.
+//! `tess probe` on the first Vulkan device, which the tests have: exit codes and forms of the
+//! report.
 
 use crate::support::{directory, tess};
 
@@ -28,7 +29,8 @@ fn reports_are_json_on_request() {
     assert_eq!(report["rows"][0]["set_digest"].as_str().map(str::len), Some(16), "{text}");
 }
 
-/// A shard without a case is done, as those of other commands are, so that its campaign can be whole.
+/// A shard without a case is done, as those of other commands are, so that its campaign can be
+/// whole.
 #[test]
 fn shards_without_cases_are_done() {
     let folder = directory("shards_without_cases_are_done");

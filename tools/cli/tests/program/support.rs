@@ -127,8 +127,8 @@ pub(crate) fn tess_program() -> &'static Path {
     Path::new(env!("CARGO_BIN_EXE_tess"))
 }
 
-/// An empty directory for one run of one test, removed when it is dropped. Other processes may run the
-/// same test at the same time.
+/// An empty directory for one run of one test, removed when it is dropped. Other processes may run
+/// the same test at the same time.
 pub(crate) struct Folder(TempDir);
 
 impl Deref for Folder {

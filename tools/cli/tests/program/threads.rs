@@ -3,8 +3,8 @@
 use crate::support::{Folder, Run, directory, shell, tess_program};
 use std::fs;
 
-/// Runs `tess` where a user may have this many threads. The limit is not for root, who becomes somebody
-/// else for it, and so needs a program that anybody can read.
+/// Runs `tess` where a user may have this many threads. The limit is not for root, who becomes
+/// somebody else for it, and so needs a program that anybody can read.
 fn with_threads(threads: u32, words: &str, folder: &Folder) -> Run {
     let limited = format!("ulimit -u {threads}; exec {}/tess {words}", folder.display());
     let is_root = shell("test $(id -u) = 0", folder).code == Some(0);

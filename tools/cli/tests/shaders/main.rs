@@ -1,5 +1,5 @@
-//! The files of `tess shaders` in the hands of others: compilers that are not naga, and the host in C
-//! of `bindings/vulkan`, whose output must be the model's.
+//! The files of `tess shaders` in the hands of others: compilers that are not naga, and the host in
+//! C of `bindings/vulkan`, whose output must be the model's.
 //!
 //! Where a tool is missing, its tests are reported as ignored, with the tool's name; with the
 //! environment variable `CI` set they fail.
@@ -70,7 +70,8 @@ fn run(command: &mut Command) -> Result<String, String> {
 
 static FOLDERS: OnceLock<PathBuf> = OnceLock::new();
 
-/// The folder of this process, in which every test has others. Another process may run the same tests.
+/// The folder of this process, in which every test has others. Another process may run the same
+/// tests.
 fn folders() -> &'static Path {
     FOLDERS.get_or_init(|| {
         let made =

@@ -121,8 +121,8 @@ impl DeviceBuffer {
     fn mapped<T>(&self, words: usize, with: impl FnOnce(&mut [u32]) -> T) -> Result<T, Error> {
         assert!(self.is_mapped && 4 * words as u64 <= self.bytes, "words of a shared buffer");
         let flags = vk::MemoryMapFlags::empty();
-        // SAFETY: the memory is visible to the host and not mapped: this is the only place that maps
-        // it, and it unmaps it below.
+        // SAFETY: the memory is visible to the host and not mapped: this is the only place that
+        // maps it, and it unmaps it below.
         let start = unsafe { self.gpu.device.map_memory(*self.memory, 0, vk::WHOLE_SIZE, flags) }
             .map_err(Error::of("vkMapMemory"))?;
         // SAFETY: mapped memory is aligned to 64 bytes and as large as the buffer, and any bits are

@@ -63,8 +63,8 @@ impl Commands {
         record(device, self.buffer);
         let buffers = [self.buffer];
         let submit = [vk::SubmitInfo::default().command_buffers(&buffers)];
-        // SAFETY: the queue is used by this thread alone, because `Prober` and `Bench` are not shared
-        // between threads; what the commands use outlives the wait.
+        // SAFETY: the queue is used by this thread alone, because `Prober` and `Bench` are not
+        // shared between threads; what the commands use outlives the wait.
         unsafe {
             device.end_command_buffer(self.buffer).map_err(Error::of("vkEndCommandBuffer"))?;
             device

@@ -184,7 +184,7 @@ fn device(
     if info.captures {
         create = create.enabled_extension_names(&names).push_next(&mut feedback);
     }
-    // SAFETY: every feature and extension is one that the device said it has, and the structures live
-    // through the call.
+    // SAFETY: every feature and extension is one that the device said it has, and the structures
+    // live through the call.
     unsafe { instance.create_device(physical, &create, None) }.map_err(Error::of("vkCreateDevice"))
 }

@@ -15,7 +15,8 @@ type Create<T, I> = unsafe fn(&ash::Device, &I, Callbacks<'_>) -> VkResult<T>;
 /// Its counterpart.
 type Destroy<T> = unsafe fn(&ash::Device, T, Callbacks<'_>);
 
-/// A handle of a device. Fields are dropped from the first to the last: what uses a handle stands before it.
+/// A handle of a device. Fields are dropped from the first to the last: what uses a handle stands
+/// before it.
 pub(crate) struct Owned<T: Copy> {
     handle: T,
     destroy: Destroy<T>,
@@ -26,8 +27,8 @@ impl<T: Copy> Owned<T> {
     /// Makes a handle by the function of this name, as `info` says.
     ///
     /// # Safety
-    /// `info` is as the function demands; `destroy` is its counterpart; and nothing that runs uses the handle
-    /// when it is dropped, which holds as each submission is waited for.
+    /// `info` is as the function demands; `destroy` is its counterpart; and nothing that runs uses
+    /// the handle when it is dropped, which holds as each submission is waited for.
     pub(crate) unsafe fn new<I>(
         gpu: &Arc<Gpu>,
         name: &'static str,

@@ -9,7 +9,8 @@ use std::sync::Arc;
 /// The SPIR-V of a stage.
 pub(crate) type Shader<'a> = (vk::ShaderStageFlags, &'a [u32]);
 
-/// The shaders' interface: storage buffers in set 0, numbered from 0, and two words of push constants.
+/// The shaders' interface: storage buffers in set 0, numbered from 0, and two words of push
+/// constants.
 #[derive(Debug)]
 pub(crate) struct BoundInterface {
     pub(crate) set: vk::DescriptorSet,
@@ -146,8 +147,8 @@ impl DrawPass {
             .framebuffer(*self.framebuffer)
             .render_area(self.area())
             .clear_values(&clear[..usize::from(self.image.is_some())]);
-        // SAFETY: the command buffer is being recorded, and the pass outlives what is recorded: it is
-        // submitted and waited for while the caller borrows it.
+        // SAFETY: the command buffer is being recorded, and the pass outlives what is recorded: it
+        // is submitted and waited for while the caller borrows it.
         unsafe { device.cmd_begin_render_pass(commands, &begin, vk::SubpassContents::INLINE) };
         draws(device);
         // SAFETY: the pass was begun above.
@@ -171,8 +172,8 @@ pub(crate) type Pipeline = Owned<vk::Pipeline>;
 pub(super) fn module(gpu: &Arc<Gpu>, words: &[u32]) -> Result<Owned<vk::ShaderModule>, Error> {
     let create = vk::ShaderModuleCreateInfo::default().code(words);
     let calls = (ash::Device::create_shader_module as _, ash::Device::destroy_shader_module as _);
-    // SAFETY: the words are naga's, or SPIR-V that spirv-val accepts, but for the modes that `modes.rs`
-    // replaces by others of the same kind.
+    // SAFETY: the words are naga's, or SPIR-V that spirv-val accepts, but for the modes that
+    // `modes.rs` replaces by others of the same kind.
     unsafe { Owned::new(gpu, "vkCreateShaderModule", calls, &create) }
 }
 

@@ -1,5 +1,5 @@
-//! The cases that the recorded devices were asked: level 1 in its first version. `tess gen` makes a later one, so its
-//! cases are frozen here until the devices are asked again.
+//! The cases that the recorded devices were asked: level 1 in its first version. `tess gen` makes a
+//! later one, so its cases are frozen here until the devices are asked again.
 
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, SplitOrder,

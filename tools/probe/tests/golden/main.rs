@@ -36,7 +36,8 @@ fn asked_of(report: &Value) -> Vec<Case> {
     cases(Selection::level(GenLevel::One, 1), Shard::WHOLE)
 }
 
-/// The digests and numbers of patches that the model has for what a device was asked, with its freedom and `fault`.
+/// The digests and numbers of patches that the model has for what a device was asked, with its
+/// freedom and `fault`.
 fn model(report: &Value, fault: impl Fn(&Case, &mut Vec<u32>)) -> BTreeMap<Names, (u64, Digests)> {
     let flush = is_flushing(report);
     let mut all = BTreeMap::<Names, (u64, Digests)>::new();

@@ -120,7 +120,8 @@ fn a_mask_casts_the_shadow_of_what_is_there() {
     assert!(left.abs_diff(right) < 9, "opaque, neither does: {left}, {right}");
 }
 
-/// Hills that face the camera, lit from the right, with this normal to the left and its mirror image to the right.
+/// Hills that face the camera, lit from the right, with this normal to the left and its mirror
+/// image to the right.
 fn bumpy(world: &mut World, normal: Option<[u8; 4]>, has_prepass: bool) {
     world.spawn((
         DirectionalLight { illuminance: 2000.0, ..default() },

@@ -15,8 +15,8 @@ pub(super) fn square(at: Vec3) -> impl Bundle {
     (Tessellated::new(level), Transform::from_translation(at).with_rotation(facing))
 }
 
-/// How bright the middle of a square is if another one is behind the camera, towards the light: as it is, if it casts no
-/// shadow, if the first receives none, and without it.
+/// How bright the middle of a square is if another one is behind the camera, towards the light: as
+/// it is, if it casts no shadow, if the first receives none, and without it.
 fn brightness(backend: TessBackend, light: fn(&mut World) -> Entity) -> [u8; 4] {
     let mut app = app();
     app.insert_resource(TessSettings { backend, ..default() });

@@ -120,7 +120,8 @@ fn no_pipeline_is_made_when_surfaces_come() {
     assert_eq!(pipelines(&app), before, "16464 patches more");
 }
 
-/// `cargo test --release -- --ignored --nocapture hitch`: times of frames in which 10 000 patches come and go beside a terrain.
+/// `cargo test --release -- --ignored --nocapture hitch`: times of frames in which 10 000 patches
+/// come and go beside a terrain.
 #[test]
 #[ignore = "it measures time"]
 fn no_frame_is_a_hitch() {

@@ -1,4 +1,5 @@
-//! A backend of the CPU under the clock: the batches of a workload, into buffers that are made once.
+//! A backend of the CPU under the clock: the batches of a workload, into buffers that are made
+//! once.
 
 use super::parts::parts;
 use super::runner::{Amount, Description, Runner, WorkingSet, totals};
@@ -26,7 +27,8 @@ pub(super) trait Kernel {
     /// Takes the patches that will be written. Errors: they cannot be.
     fn take(&mut self, workload: &Workload) -> Result<(), BackendError>;
 
-    /// Tessellates some of the patches into the beginning of the buffers. Errors: the backend failed.
+    /// Tessellates some of the patches into the beginning of the buffers. Errors: the backend
+    /// failed.
     fn write(
         &mut self,
         patches: &Range<usize>,

@@ -47,11 +47,11 @@ impl fmt::Display for Plan<'_> {
     }
 }
 
-/// Checks the digest, then times backend, fill and core in turn, part by part; the core alone first,
-/// if the backend runs on a separate device.
+/// Checks the digest, then times backend, fill and core in turn, part by part; the core alone
+/// first, if the backend runs on a separate device.
 ///
-/// A part's time is the median over the samples; the workload's is the sum over its parts. Errors: the output differs
-/// from the model's (exit code 1), or a run failed.
+/// A part's time is the median over the samples; the workload's is the sum over its parts. Errors:
+/// the output differs from the model's (exit code 1), or a run failed.
 pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<BenchRow, Failure> {
     let description = runner.description().clone();
     let Description { threads, sleeps, is_device, .. } = description;
@@ -115,8 +115,8 @@ struct Core {
 }
 
 impl Core {
-    /// Gets ready to run a workload in the working set of the plan; beside a device, whose memory is not
-    /// the core's, in the working set `cache`.
+    /// Gets ready to run a workload in the working set of the plan; beside a device, whose memory
+    /// is not the core's, in the working set `cache`.
     fn prepare(beside: &Description, plan: Plan<'_>) -> Result<Self, Failure> {
         let set = if beside.is_device { WorkingSet::Cache } else { plan.working_set };
         let mut runner = core::runner();
@@ -179,8 +179,8 @@ fn after_a_pause(
     Ok(run()?.as_secs_f64())
 }
 
-/// The mean time of as many runs as take a fifth of a millisecond for each thread, in seconds. The first run of
-/// several threads is not timed: it wakes them.
+/// The mean time of as many runs as take a fifth of a millisecond for each thread, in seconds. The
+/// first run of several threads is not timed: it wakes them.
 fn sample(
     threads: u32,
     run: &mut dyn FnMut() -> Result<Duration, BackendError>,

@@ -53,7 +53,8 @@ pub(crate) struct BenchCommand {
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: u32,
-    /// One batch of about N MiB a call, each after a pause in which threads fall asleep, as frames have it
+    /// One batch of about N MiB a call, each after a pause in which threads fall asleep, as frames
+    /// have it
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1024))]
     frame: Option<u32>,
@@ -73,7 +74,8 @@ pub(crate) struct BenchCommand {
     json: bool,
 }
 
-/// Runs the command. Errors: an unknown workload, a backend that is not available, stdout that cannot be written.
+/// Runs the command. Errors: an unknown workload, a backend that is not available, stdout that
+/// cannot be written.
 pub(crate) fn run(args: &BenchCommand) -> Result<Exit, Failure> {
     let workloads = find_workloads(&args.workload)?;
     let working_sets = match &args.working_set[..] {
@@ -137,8 +139,8 @@ fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Resul
     Ok(left_out.first().map_or(Exit::Done, |(_, failure)| failure.exit))
 }
 
-/// The runner of the backend, with a CPU level that this machine has. Errors: exit code 3 if the backend is not
-/// available.
+/// The runner of the backend, with a CPU level that this machine has. Errors: exit code 3 if the
+/// backend is not available.
 fn runner(args: &BenchCommand, level: Level) -> Result<Box<dyn Runner>, Failure> {
     match args.backend {
         BackendName::Core => Ok(Box::new(core::runner())),

@@ -82,21 +82,22 @@ pub(crate) trait Runner {
     /// The timed backend, and how it is timed.
     fn description(&self) -> &Description;
 
-    /// Gets everything ready to run a workload in a working set, buffers included, and says what each part amounts
-    /// to. Errors: the implementation cannot run it.
+    /// Gets everything ready to run a workload in a working set, buffers included, and says what
+    /// each part amounts to. Errors: the implementation cannot run it.
     fn prepare(
         &mut self,
         workload: &Workload,
         working_set: WorkingSet,
     ) -> Result<Vec<Amount>, BackendError>;
 
-    /// Runs what is prepared, once over the workload's patches, and digests the output as [`Workload::digest`]
-    /// does. Errors: the implementation failed.
+    /// Runs what is prepared, once over the workload's patches, and digests the output as
+    /// [`Workload::digest`] does. Errors: the implementation failed.
     fn digest(&mut self) -> Result<u64, BackendError>;
 
     /// Runs a part and says how long it took. Errors: the implementation failed.
     fn run(&mut self, part: usize) -> Result<Duration, BackendError>;
 
-    /// Fills the bytes that a run of the part writes and says how long it took. Errors: the device failed.
+    /// Fills the bytes that a run of the part writes and says how long it took. Errors: the device
+    /// failed.
     fn fill(&mut self, part: usize) -> Result<Duration, BackendError>;
 }

@@ -21,8 +21,8 @@ struct State {
     written: io::Result<()>,
     /// Number of the record whose turn it is to be written.
     next: u64,
-    /// Records behind it that threads have checked, by the number of the first: how many they are, and
-    /// those that differ.
+    /// Records behind it that threads have checked, by the number of the first: how many they are,
+    /// and those that differ.
     waiting: BTreeMap<u64, (u64, String)>,
 }
 
@@ -43,7 +43,8 @@ impl Failures {
         Ok(Self { path: path.to_owned(), state })
     }
 
-    /// Adds what differs of some records. The file has them in their order, whichever thread is first.
+    /// Adds what differs of some records. The file has them in their order, whichever thread is
+    /// first.
     pub(super) fn add(&self, checked: Checked<'_>) {
         let Checked { first, records, different, .. } = checked;
         let pairs = records.iter().zip(different);

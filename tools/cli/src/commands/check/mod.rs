@@ -312,8 +312,8 @@ fn show(
     out.flush()
 }
 
-/// Notes cases that are right, of at most the first million records. A case that differs elsewhere depends on what the
-/// device was asked before.
+/// Notes cases that are right, of at most the first million records. A case that differs elsewhere
+/// depends on what the device was asked before.
 fn note_right(right: &mut HashSet<Case>, checked: Checked<'_>) {
     const MOST: usize = 1 << 20;
     let pairs = checked.records.iter().zip(checked.different);
@@ -321,7 +321,8 @@ fn note_right(right: &mut HashSet<Case>, checked: Checked<'_>) {
     right.extend(cases.take(MOST.saturating_sub(right.len())));
 }
 
-/// A difference with where its first wrong element comes from in the model, and the commands that show it again.
+/// A difference with where its first wrong element comes from in the model, and the commands that
+/// show it again.
 fn show_one(out: &mut impl Write, difference: &Difference, backend: &str) -> io::Result<()> {
     writeln!(out, "{difference}")?;
     for line in difference.origin().unwrap_or_default().lines() {

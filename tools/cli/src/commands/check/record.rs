@@ -26,7 +26,8 @@ pub(super) fn add(report: &mut Report, checked: Checked<'_>) {
 /// The part of what no record shows by itself.
 const OTHERS: &str = "missing answers, answers to other cases, contradictions";
 
-/// Adds what is known at the end: stages, differences, and mismatches that no record shows by itself.
+/// Adds what is known at the end: stages, differences, and mismatches that no record shows by
+/// itself.
 pub(super) fn finish(report: &mut Report, found: &check::Report) {
     let others = ReportPart {
         cases: found.cases.saturating_sub(report.cases),
@@ -61,8 +62,8 @@ pub(super) fn first(difference: &Difference) -> First {
 const MADE: [&str; 8] =
     ["level", VERSION, "seed", "random", "domain", "partitioning", "output", "split"];
 
-/// Adds how the cases were made, which shards of one campaign have in common: as the first line of the cases that were
-/// asked says, or that of the answers.
+/// Adds how the cases were made, which shards of one campaign have in common: as the first line of
+/// the cases that were asked says, or that of the answers.
 pub(super) fn add_asked(report: &mut Report, asked: &Header) {
     let version = level(asked).map(|(_, version)| (VERSION.to_owned(), version.to_owned()));
     let made = asked.notes.iter().filter(|(key, _)| MADE.contains(&&**key));
@@ -85,8 +86,8 @@ const VERSION: &str = "level-version";
 
 const SHARD: &str = "shard";
 
-/// Which part a file is: as the option or the environment says, or the note in the first line of the cases that
-/// were asked, or of the file itself.
+/// Which part a file is: as the option or the environment says, or the note in the first line of
+/// the cases that were asked, or of the file itself.
 ///
 /// # Errors
 /// They contradict each other; a note that is no shard.

@@ -15,10 +15,12 @@ use tess_verify::rules::{Checker, Specification};
 use tess_verify::vectors::{Cases, Kind, Record, VectorFile};
 use tess_verify::{Backend, Case, CoreBackend, Named};
 
-/// Judges every listing of a file and prints the verdicts, and which of the `asked` cases it does not answer.
+/// Judges every listing of a file and prints the verdicts, and which of the `asked` cases it does
+/// not answer.
 ///
 /// # Errors
-/// A file that is malformed, truncated or too long, or has no listings; the asked cases cannot be read.
+/// A file that is malformed, truncated or too long, or has no listings; the asked cases cannot be
+/// read.
 pub(super) fn run(
     file: VectorFile<Reader>,
     mut asked: Option<Cases<Reader>>,
@@ -78,8 +80,8 @@ pub(super) fn run(
     Ok(if answers.mismatches > 0 { Exit::Different } else { ended })
 }
 
-/// How a patch compares with the model, vertex by vertex: equal (0), in another order (1), different (2). No standard
-/// but Direct3D's asks for its order.
+/// How a patch compares with the model, vertex by vertex: equal (0), in another order (1),
+/// different (2). No standard but Direct3D's asks for its order.
 fn beside_model(case: &Case, observed: &Tessellation) -> usize {
     let expected = case.patch().tessellate();
     let is_equal =

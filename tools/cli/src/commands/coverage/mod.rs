@@ -69,8 +69,8 @@ pub(crate) struct CoverageCommand {
 /// The most bytes of `--exclude`: every bin by its path has 110 kB.
 const MAX_EXCLUDE_BYTES: u64 = 1 << 24;
 
-/// Runs the command. Errors: files that are no coverage files, or given twice; patterns of no bin; places that cannot
-/// be written.
+/// Runs the command. Errors: files that are no coverage files, or given twice; patterns of no bin;
+/// places that cannot be written.
 pub(crate) fn run(args: &CoverageCommand) -> Result<Exit, Failure> {
     if let Some(file) = args.covergroups.clone() {
         OutputArgs { file }.write(covergroups::text().as_bytes())?;

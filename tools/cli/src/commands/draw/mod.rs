@@ -61,8 +61,8 @@ struct DrawArgs {
     size: u32,
 }
 
-/// Runs the command. Errors: wrong number of factors, a backend that is not available, a listing that cannot be read
-/// or has no such patch, an output that cannot be written.
+/// Runs the command. Errors: wrong number of factors, a backend that is not available, a listing
+/// that cannot be read or has no such patch, an output that cannot be written.
 pub(crate) fn run(args: &DrawCommand) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
     let format = form::choose(args.format, &args.output.file)?;

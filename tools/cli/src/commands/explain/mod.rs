@@ -35,7 +35,8 @@ pub(crate) struct ExplainCommand {
     /// Explain only what becomes of this factor: 0 is the first outer one
     #[arg(long, value_name = "K", group = "part")]
     factor: Option<u32>,
-    /// Compare what a circuit gave there, name the stage, module and signal that differ, and end with 1 if any does
+    /// Compare what a circuit gave there, name the stage, module and signal that differ, and end
+    /// with 1 if any does
     #[arg(long, value_name = "SIGNAL=N,..", value_delimiter = ',', value_parser = observation)]
     #[arg(long_help = OBSERVED)]
     observed: Vec<(String, u32)>,
@@ -58,8 +59,8 @@ fn observation(text: &str) -> Result<(String, u32), String> {
     Ok((signal.to_owned(), number))
 }
 
-/// Runs the command. Errors: wrong number of factors, no such factor, point, primitive or signal, an output that
-/// cannot be written.
+/// Runs the command. Errors: wrong number of factors, no such factor, point, primitive or signal,
+/// an output that cannot be written.
 pub(crate) fn run(args: &ExplainCommand) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
     let part = args.part();

@@ -35,8 +35,9 @@ pub(super) struct ImageWords {
     pub(super) primitives: u64,
 }
 
-/// Writes the five files, in the order of [`FILES`], with results from the model. Errors: those of the writers;
-/// [`io::ErrorKind::InvalidInput`] for so many cases that their points or primitives have no number of 32 bits.
+/// Writes the five files, in the order of [`FILES`], with results from the model. Errors: those of
+/// the writers; [`io::ErrorKind::InvalidInput`] for so many cases that their points or primitives
+/// have no number of 32 bits.
 pub(super) fn write_images(
     files: &mut [&mut dyn Write; 5],
     cases: impl Iterator<Item = Case>,

@@ -41,15 +41,18 @@ Examples:
 pub(crate) struct GenCommand {
     #[command(flatten)]
     selection: SelectionArgs,
-    /// Instead of a level, families of patches that the rules of the standards compare, and --count random ones
+    /// Instead of a level, families of patches that the rules of the standards compare, and --count
+    /// random ones
     #[arg(long, conflicts_with = "level")]
     rules: bool,
     /// One split order only
     #[arg(long, value_name = "NAME", value_parser = name_of::<SplitOrder>())]
     split: Option<SplitOrder>,
-    /// Instead of patches, the inputs and outputs of one stage for them: factors, context, place or stitch
+    /// Instead of patches, the inputs and outputs of one stage for them: factors, context, place or
+    /// stitch
     ///
-    /// To test a block of a circuit: each distinct row once, as CSV or, with --format readmemh, as one image.
+    /// To test a block of a circuit: each distinct row once, as CSV or, with --format readmemh, as
+    /// one image.
     #[arg(long, value_name = "NAME", value_parser = name_of::<StageBlock>(), conflicts_with = "coverage")]
     stage: Option<StageBlock>,
     /// Form of the vectors
@@ -57,7 +60,9 @@ pub(crate) struct GenCommand {
     format: VectorFormat,
     /// Instead of vectors, report which coverage bins they hit
     ///
-    /// Bins that no selected configuration can hit are excluded. With a FILE, the hits are added to that file of UCIS XML, and the sum is reported. Shards may add to one file, also at the same time.
+    /// Bins that no selected configuration can hit are excluded. With a FILE, the hits are added to
+    /// that file of UCIS XML, and the sum is reported. Shards may add to one file, also at the same
+    /// time.
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with = "format")]
     coverage: Option<Option<PathBuf>>,
     #[command(flatten)]

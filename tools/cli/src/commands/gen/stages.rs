@@ -1,4 +1,5 @@
-//! Vectors of single stages, for blocks of a circuit: what a stage takes and what the model makes of it.
+//! Vectors of single stages, for blocks of a circuit: what a stage takes and what the model makes
+//! of it.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -32,7 +33,8 @@ impl Named for StageBlock {
     ];
 }
 
-/// The columns of a stage's rows, each with its width in bits: first what the stage takes, then what it gives.
+/// The columns of a stage's rows, each with its width in bits: first what the stage takes, then
+/// what it gives.
 const FACTORS: &str = "domain 2, partitioning 2, raw0 32, raw1 32, raw2 32, raw3 32, raw4 32, raw5 32, \
     outcome 2, fixed0 23, odd0 1, fixed1 23, odd1 1, fixed2 23, odd2 1, fixed3 23, odd3 1, \
     fixed4 23, odd4 1, fixed5 23, odd5 1";
@@ -170,8 +172,8 @@ fn stitches(case: &Case, rows: &mut BTreeSet<Vec<u32>>) {
     });
 }
 
-/// Writes rows as CSV: a comment with what the numbers mean, the columns' names, and the numbers in hex. Errors:
-/// those of the writer.
+/// Writes rows as CSV: a comment with what the numbers mean, the columns' names, and the numbers in
+/// hex. Errors: those of the writer.
 pub(super) fn write_csv(
     out: &mut dyn Write,
     block: StageBlock,
@@ -195,8 +197,8 @@ pub(super) fn write_csv(
     })
 }
 
-/// Writes rows as an image for `$readmemh`: a comment with the layout from the top bit down, then one word a row.
-/// Errors: those of the writer.
+/// Writes rows as an image for `$readmemh`: a comment with the layout from the top bit down, then
+/// one word a row. Errors: those of the writer.
 pub(super) fn write_memh(
     out: &mut dyn Write,
     block: StageBlock,

@@ -14,7 +14,8 @@ pub(super) struct Campaign {
     pub(super) of: u64,
     /// The place of each report of another campaign, and how it differs from the first.
     pub(super) strangers: Vec<(String, String)>,
-    /// The sums of all shards that ended: cases, mismatches, also by stage and by part, and the time.
+    /// The sums of all shards that ended: cases, mismatches, also by stage and by part, and the
+    /// time.
     pub(super) sum: Report,
 }
 
@@ -164,7 +165,8 @@ impl Campaign {
         sum
     }
 
-    /// How many different baselines there are, and what became of them in all shards; `None` if there was none.
+    /// How many different baselines there are, and what became of them in all shards; `None` if
+    /// there was none.
     pub(super) fn known(&self) -> Option<(u64, KnownCases)> {
         let mut digests = BTreeSet::new();
         let mut gone = BTreeSet::new();

@@ -1,4 +1,5 @@
-//! `tess merge`: proves from the reports of a campaign that all its shards ran once, and adds them up.
+//! `tess merge`: proves from the reports of a campaign that all its shards ran once, and adds them
+//! up.
 
 mod campaign;
 mod read;

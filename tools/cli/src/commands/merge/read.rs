@@ -24,8 +24,8 @@ pub(super) struct Reports {
     pub(super) absent: Vec<PathBuf>,
 }
 
-/// Reads every report of the files. Errors: a file that cannot be read, is too long, or has a line that is no report;
-/// which, and the line.
+/// Reads every report of the files. Errors: a file that cannot be read, is too long, or has a line
+/// that is no report; which, and the line.
 pub(super) fn reports(paths: &[PathBuf]) -> Result<Reports, Failure> {
     let mut all = Reports::default();
     for path in paths {

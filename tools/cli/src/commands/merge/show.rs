@@ -10,7 +10,8 @@ use std::fmt::Write;
 /// How many shards of a kind the text shows.
 const SHOWN: usize = 100;
 
-/// How many faults the `JUnit` file lists: a report may speak of more shards than there is memory for.
+/// How many faults the `JUnit` file lists: a report may speak of more shards than there is memory
+/// for.
 const LISTED: usize = 1_000_000;
 
 /// The table, what differs, what is wrong, and what to run again.

@@ -62,8 +62,8 @@ pub(crate) struct MeshCommand {
     input: Option<PathBuf>,
     /// File to write: .obj, .gltf or .glb for a mesh, .png for a picture; - is stdout
     ///
-    /// A .gltf has its binary part beside it in a .bin of the same name. An existing .bin is replaced only if the
-    /// existing .gltf refers to it.
+    /// A .gltf has its binary part beside it in a .bin of the same name. An existing .bin is
+    /// replaced only if the existing .gltf refers to it.
     #[arg(short = 'o', value_name = "OUT", required = true)]
     output: PathBuf,
     /// Form of the result [default: from the file's name]
@@ -74,9 +74,9 @@ pub(crate) struct MeshCommand {
     surface: Option<Style>,
     /// Close gaps between faces that are at most this wide, in the model's units
     ///
-    /// Joins corners that are closer to each other, and splits edges at corners that are closer to them. Without a
-    /// length, only gaps that come from rounding are closed: up to 1e-6 of the model's diagonal. Only edges of one face
-    /// have gaps.
+    /// Joins corners that are closer to each other, and splits edges at corners that are closer to
+    /// them. Without a length, only gaps that come from rounding are closed: up to 1e-6 of the
+    /// model's diagonal. Only edges of one face have gaps.
     #[arg(long, value_name = "LENGTH", num_args = 0..=1, require_equals = true)]
     #[arg(value_parser = ValueParser::new(positive))]
     weld: Option<Option<f32>>,
@@ -93,7 +93,8 @@ pub(crate) struct MeshCommand {
     #[arg(long, value_name = "LENGTH", default_value = "0.1", allow_hyphen_values = true)]
     #[arg(value_parser = ValueParser::new(finite), requires = "displace")]
     height: f32,
-    /// Heights beyond the image [default: clamp if all texture coordinates are within 0 and 1, or else repeat]
+    /// Heights beyond the image [default: clamp if all texture coordinates are within 0 and 1, or
+    /// else repeat]
     #[arg(long, value_name = "NAME", value_parser = choice(WRAPS), requires = "displace")]
     wrap: Option<Address>,
     /// Largest height image to read, in pixels
@@ -189,7 +190,8 @@ fn too_high(error: HeightError) -> Failure {
     Failure::bad_input(format!("--height is too large: {error}"))
 }
 
-/// Runs the command. Errors: a model that cannot be read or tessellated, an output that cannot be written.
+/// Runs the command. Errors: a model that cannot be read or tessellated, an output that cannot be
+/// written.
 pub(crate) fn run(args: &MeshCommand) -> Result<Exit, Failure> {
     let form = args.form()?;
     let part = output::part_beside(&args.output, form);
@@ -242,8 +244,8 @@ impl MeshCommand {
         self.wrap.unwrap_or(fitting)
     }
 
-    /// The files of the command: with the buffers beside the model that it reads, and the binary part
-    /// beside the result that it writes.
+    /// The files of the command: with the buffers beside the model that it reads, and the binary
+    /// part beside the result that it writes.
     fn roles<'a>(&'a self, buffers: &'a [PathBuf], part: Option<&'a Path>) -> Vec<Role<'a>> {
         let input = self.input.as_deref().map(|path| Role::input("IN", path));
         let map = self.displace.as_deref().map(|path| Role::input("--displace", path));
@@ -253,8 +255,8 @@ impl MeshCommand {
         inputs.chain([Role::output("-o", &self.output)]).chain(part).collect()
     }
 
-    /// The form of the result. Errors: no form can be told from the name, an option that this form does not have, or
-    /// bytes for a terminal.
+    /// The form of the result. Errors: no form can be told from the name, an option that this form
+    /// does not have, or bytes for a terminal.
     fn form(&self) -> Result<ResultForm, Failure> {
         let form = form::choose(self.format, &self.output)?;
         let is_picture = form == ResultForm::Png;

@@ -95,8 +95,8 @@ impl ViewArgs {
     }
 }
 
-/// How far from `target`, in direction `away`, points fill the picture: all lie within [`FILLED`] of
-/// its half width and half height, which are `half` at distance 1.
+/// How far from `target`, in direction `away`, points fill the picture: all lie within [`FILLED`]
+/// of its half width and half height, which are `half` at distance 1.
 fn distance_to_fit(points: &[Vec3], target: Vec3, away: Vec3, axis: Vec3, half: [f32; 2]) -> f32 {
     let right = axis.cross(away).normalize();
     let top = away.cross(right);

@@ -23,7 +23,8 @@ Examples:
 pub(crate) struct PatchCommand {
     #[command(flatten)]
     patch: Option<PatchArgs>,
-    /// Instead of one patch, the cases of a vector file, or lines that begin with `case`; - is stdin
+    /// Instead of one patch, the cases of a vector file, or lines that begin with `case`; - is
+    /// stdin
     #[arg(long, value_name = "FILE", conflicts_with = "PatchArgs")]
     cases: Option<PathBuf>,
     #[command(flatten)]
@@ -42,8 +43,8 @@ pub(crate) fn without_patch_if_cases(command: clap::Command) -> clap::Command {
     })
 }
 
-/// Runs the command. Errors: wrong number of factors, cases that cannot be read, a backend that is not available, an
-/// output that cannot be written.
+/// Runs the command. Errors: wrong number of factors, cases that cannot be read, a backend that is
+/// not available, an output that cannot be written.
 pub(crate) fn run(args: &PatchCommand) -> Result<Exit, Failure> {
     let format = form::choose(args.format, &args.output.file)?;
     let patch = match (&args.cases, &args.patch) {

@@ -39,8 +39,8 @@ pub(super) fn run(
     output.write(text.as_bytes())
 }
 
-/// Milliseconds and billions of triangles a second, of tessellation alone and from factors to pixels:
-/// the fixed-function stage, the compute shaders, and these with the vertex-cache order.
+/// Milliseconds and billions of triangles a second, of tessellation alone and from factors to
+/// pixels: the fixed-function stage, the compute shaders, and these with the vertex-cache order.
 #[expect(
     clippy::float_arithmetic,
     clippy::cast_precision_loss,

@@ -64,10 +64,12 @@ pub(crate) struct ProbeCommand {
     /// Capture domain points alone, as is done on devices without transform feedback
     #[arg(long)]
     points: bool,
-    /// The most vertices of a draw. Drivers whose numbers wrap around give other results with more than 65536
+    /// The most vertices of a draw. Drivers whose numbers wrap around give other results with more
+    /// than 65536
     #[arg(long, value_name = "N", default_value_t = tess_probe::DRAW_VERTICES)]
     draw_vertices: usize,
-    /// Instead, judge the device by the rules of this standard: vulkan, opengl or d3d11 (docs/rules.md)
+    /// Instead, judge the device by the rules of this standard: vulkan, opengl or d3d11
+    /// (docs/rules.md)
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
     #[arg(conflicts_with_all = ["level", "given", "points", "picture", "json"])]
     rules: Option<Specification>,
@@ -102,8 +104,8 @@ const LIST_ORDERS: Choices<ListOrder> = &[
     ("any", ListOrder::Any, "Any, and any leading vertex of a triangle"),
 ];
 
-/// Runs the command. Errors: no Vulkan, no such device, one that cannot be captured, or one that fails; no case to
-/// ask; an output that cannot be written.
+/// Runs the command. Errors: no Vulkan, no such device, one that cannot be captured, or one that
+/// fails; no case to ask; an output that cannot be written.
 pub(crate) fn run(args: &ProbeCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     if args.list {
         return args.list_devices();
@@ -255,8 +257,8 @@ struct FirstPicture {
 }
 
 impl FirstPicture {
-    /// Finds the form and tries the place, before the device is asked. Errors: a name that says no form; a place that
-    /// cannot be written.
+    /// Finds the form and tries the place, before the device is asked. Errors: a name that says no
+    /// form; a place that cannot be written.
     fn prepare(file: &Path) -> Result<Self, Failure> {
         let format = form::choose(None, file)?;
         let output = OutputArgs { file: file.to_owned() };

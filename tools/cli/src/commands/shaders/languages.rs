@@ -203,7 +203,8 @@ impl Target {
 }
 
 impl Read {
-    /// Each binding with what stands for it in a language that numbers bindings of all kinds together.
+    /// Each binding with what stands for it in a language that numbers bindings of all kinds
+    /// together.
     fn map<T>(&self, target: impl Fn(u32) -> T) -> impl Iterator<Item = (ResourceBinding, T)> {
         let count = u32::try_from(self.stage.bindings().len()).unwrap_or(u32::MAX);
         (0..count).map(move |binding| (ResourceBinding { group: 0, binding }, target(binding)))
@@ -228,7 +229,8 @@ impl Read {
         u32::try_from(self.stage.bindings().len()).unwrap_or(u32::MAX)
     }
 
-    /// The bindings whose length only the host knows, in the order in which naga's MSL asks for them.
+    /// The bindings whose length only the host knows, in the order in which naga's MSL asks for
+    /// them.
     fn unsized_bindings(&self) -> Vec<u32> {
         let globals = self.module.global_variables.iter();
         globals
@@ -255,8 +257,8 @@ impl Read {
     }
 }
 
-/// HLSL in which atomic loads from buffers, which naga writes as `x.InterlockedOr(at, 0, result)`, have
-/// an unsigned zero: glslang makes an invalid instruction of the signed one.
+/// HLSL in which atomic loads from buffers, which naga writes as `x.InterlockedOr(at, 0, result)`,
+/// have an unsigned zero: glslang makes an invalid instruction of the signed one.
 fn with_unsigned_zeros(hlsl: &str) -> String {
     let line = |line: &str| {
         if line.contains(".InterlockedOr(") {

@@ -22,7 +22,8 @@ pub(super) const TABLES_FILE: &str = "tables.bin";
 /// The file of the manifest for C.
 pub(super) const HEADER_FILE: &str = "tess_shaders.h";
 
-/// The names of the files that this command wrote into a folder; none if it has no manifest of this format.
+/// The names of the files that this command wrote into a folder; none if it has no manifest of this
+/// format.
 pub(super) fn files_of(folder: &Path) -> Vec<String> {
     #[derive(Deserialize)]
     struct Written {

@@ -1,4 +1,5 @@
-//! The dispatches of a batch of one portion and one window, as formulas: everything that `tess_gpu::Plan` says.
+//! The dispatches of a batch of one portion and one window, as formulas: everything that
+//! `tess_gpu::Plan` says.
 
 use super::formula::{Formula, Variable};
 use serde::{Serialize, Serializer};
@@ -75,7 +76,8 @@ pub(super) fn stages(variants: &[Variant]) -> impl Iterator<Item = Stage> {
     Stage::ALL.into_iter().filter(runs)
 }
 
-/// All ways in which batches run, by their numbers of patches from 1 on: with a catalogue, or without.
+/// All ways in which batches run, by their numbers of patches from 1 on: with a catalogue, or
+/// without.
 pub(super) fn variants(setup: Setup) -> Vec<Variant> {
     let most = with(setup, u32::MAX).portion_patches();
     let ranges = match with(setup, most).has_catalogue() {
@@ -91,10 +93,12 @@ pub(super) fn resources() -> impl Iterator<Item = Resource> {
     Resource::ALL.into_iter().filter(move |resource| !is_of_groups(resource))
 }
 
-/// Bytes of one storage binding: in nothing are batches bound but by the number of workgroups in a row.
+/// Bytes of one storage binding: in nothing are batches bound but by the number of workgroups in a
+/// row.
 const BINDING: u64 = 1 << 35;
 
-/// The plan of a batch with room for one point and one primitive, in the stages that every batch can have.
+/// The plan of a batch with room for one point and one primitive, in the stages that every batch
+/// can have.
 fn with(setup: Setup, patches: u32) -> Plan {
     let limits = Limits { storage_binding: BINDING, workgroups: u32::MAX };
     Plan::in_long_stages(setup, patches, Capacity { points: 1, primitives: 1 }, limits)
@@ -123,8 +127,8 @@ impl Variant {
     }
 }
 
-/// The smallest batch of a variant. What does not depend on the batch is as in its plan; a test compares the
-/// formulas with the plans of others.
+/// The smallest batch of a variant. What does not depend on the batch is as in its plan; a test
+/// compares the formulas with the plans of others.
 struct Least {
     setup: Setup,
     plan: Plan,

@@ -60,7 +60,8 @@ fn add(module: &Module, ty: naga::Handle<naga::Type>, found: &mut Vec<Structure>
     found.push(Structure { name: name.clone(), bytes, members });
 }
 
-/// Whether only the host knows how long something of this type is: an array, or a structure that ends with one.
+/// Whether only the host knows how long something of this type is: an array, or a structure that
+/// ends with one.
 pub(super) fn ends_open(module: &Module, ty: naga::Handle<naga::Type>) -> bool {
     match &module.types[ty].inner {
         TypeInner::Array { size: naga::ArraySize::Dynamic, .. } => true,

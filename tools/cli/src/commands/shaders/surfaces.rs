@@ -1,4 +1,5 @@
-//! The folder `surfaces` beside shaders in WGSL: modules of functions for shaders of the user's own.
+//! The folder `surfaces` beside shaders in WGSL: modules of functions for shaders of the user's
+//! own.
 
 use crate::output::json;
 use serde::Serialize;
@@ -28,7 +29,8 @@ pub(super) fn files() -> Vec<String> {
     modules.chain([LIST, TABLES].map(str::to_owned)).collect()
 }
 
-/// Writes the folder into another: a file for each module, their list, and the tables of modules and functions.
+/// Writes the folder into another: a file for each module, their list, and the tables of modules
+/// and functions.
 ///
 /// # Errors
 /// A file cannot be written.

@@ -101,8 +101,8 @@ fn assert_windows(pairs: impl Iterator<Item = (u32, u64)>, words: usize, batch: 
 }
 
 /// Every language writes every stage of every configuration, and no writer needs constants from the
-/// host that the manifest does not have. What is written depends on a stage's source alone, which many
-/// configurations share: each source is written once.
+/// host that the manifest does not have. What is written depends on a stage's source alone, which
+/// many configurations share: each source is written once.
 #[test]
 fn every_language_has_words_for_every_stage() {
     let mut sources = HashSet::new();

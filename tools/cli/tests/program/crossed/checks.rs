@@ -13,7 +13,8 @@ fn second(case: Case) -> Case {
     Case { factors: PatchFactors::from_fn(case.domain(), |i| FACTORS[5 - i]), ..case }
 }
 
-/// A file with the model's answer and then a wrong one to the second case, as listings or as digests.
+/// A file with the model's answer and then a wrong one to the second case, as listings or as
+/// digests.
 fn answers(case: Case, kind: &str) -> String {
     let (right, mut wrong) = (Listing::of_model(case), Listing::of_model(second(case)));
     let last = wrong.output.points.last_mut().expect("a point");
@@ -25,7 +26,8 @@ fn answers(case: Case, kind: &str) -> String {
     right.replacen(" count=1 ", " count=2 ", 1) + &wrong
 }
 
-/// How the backend of a check runs is one option: all but the first exclude what is for the listings of devices.
+/// How the backend of a check runs is one option: all but the first exclude what is for the
+/// listings of devices.
 const CHECKED_BY: [&str; 5] = [
     "",
     "--backend core",

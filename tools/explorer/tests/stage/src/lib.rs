@@ -27,7 +27,8 @@ pub struct StageReport {
 
 #[wasm_bindgen]
 impl StageReport {
-    /// The first difference between what the stage stored and the model; nothing if every bit is equal.
+    /// The first difference between what the stage stored and the model; nothing if every bit is
+    /// equal.
     pub fn difference(&self) -> String {
         self.difference.clone()
     }
@@ -40,8 +41,8 @@ impl StageReport {
 
 /// Draws frames of a displaced terrain until the stage has room for it.
 ///
-/// `wgsl_fault` is put in front of the user's WGSL; with `is_wrong` the model is asked about other factors, as
-/// a planted fault.
+/// `wgsl_fault` is put in front of the user's WGSL; with `is_wrong` the model is asked about other
+/// factors, as a planted fault.
 ///
 /// # Errors
 /// The stage's error, in words.

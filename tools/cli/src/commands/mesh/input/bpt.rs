@@ -2,12 +2,12 @@
 //! control points row by row, three numbers each.
 //!
 //! Points may have four numbers, x y z w: then they are rational with weight w, a form that the
-//! classic files do not know. Some files have the numbers of points, `4 4`, in the place of the degrees. The file is
-//! text, and `#` begins a comment.
+//! classic files do not know. Some files have the numbers of points, `4 4`, in the place of the
+//! degrees. The file is text, and `#` begins a comment.
 //!
-//! There are two layouts. With one point on each line, points of three and of four numbers may be mixed. In a free
-//! layout, with any white space between the numbers, all points must have the same number of numbers: the length of
-//! the file says which.
+//! There are two layouts. With one point on each line, points of three and of four numbers may be
+//! mixed. In a free layout, with any white space between the numbers, all points must have the same
+//! number of numbers: the length of the file says which.
 
 use super::text::{number, quoted, without_mark, words};
 use glam::{Vec3, Vec4};
@@ -56,8 +56,8 @@ fn without_comment(line: &[u8]) -> &[u8] {
     line[..end.unwrap_or(line.len())].trim_ascii()
 }
 
-/// The number of numbers of each point in a free layout; `None` if the layout is not free. Errors: a file with several
-/// points on a line that has not as many numbers as its patches need.
+/// The number of numbers of each point in a free layout; `None` if the layout is not free. Errors:
+/// a file with several points on a line that has not as many numbers as its patches need.
 fn free_numbers(bytes: &[u8]) -> Result<Option<usize>, String> {
     let Some((line, first)) = lines(bytes).next() else { return Ok(None) };
     let Some(count) = words(first).next().and_then(count_of) else { return Ok(None) };

@@ -1,8 +1,8 @@
 //! Faces without area, such as those at the pole of a sphere.
 //!
-//! A triangle with corners in the same place is an edge. Without it, the faces on its two sides meet
-//! at that edge, so it is dropped; a quad with one collapsed edge becomes a triangle. Faces whose
-//! distinct corners are on one line are dropped too, but the edges around them are then open.
+//! A triangle with corners in the same place is an edge. Without it, the faces on its two sides
+//! meet at that edge, so it is dropped; a quad with one collapsed edge becomes a triangle. Faces
+//! whose distinct corners are on one line are dropped too, but the edges around them are then open.
 
 use super::draft::Draft;
 use super::tally::Tally;

@@ -1,4 +1,5 @@
-//! A mesh between the file and the model: its faces may be cut or dropped, and keep their places in the file.
+//! A mesh between the file and the model: its faces may be cut or dropped, and keep their places in
+//! the file.
 
 use tess_surface::{Face, PolygonMesh};
 
@@ -54,8 +55,8 @@ impl Draft {
         self.originals.get(face).copied().unwrap_or(face)
     }
 
-    /// Replaces every face by those that `with` makes of it. It gets the mesh, the face and a function that gives the
-    /// face's place.
+    /// Replaces every face by those that `with` makes of it. It gets the mesh, the face and a
+    /// function that gives the face's place.
     pub(super) fn replace_faces(
         &mut self,
         mut with: impl FnMut(&PolygonMesh, &Face, &dyn Fn() -> String) -> Vec<Face>,

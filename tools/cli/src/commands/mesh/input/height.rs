@@ -21,7 +21,8 @@ pub(crate) struct Heights {
     pub(crate) texels: Vec<f32>,
 }
 
-/// Reads a PNG of at most `most` pixels. Errors: a file that cannot be read, is no PNG or is too large.
+/// Reads a PNG of at most `most` pixels. Errors: a file that cannot be read, is no PNG or is too
+/// large.
 pub(crate) fn load(path: &Path, most: u64) -> Result<HeightMap, Failure> {
     let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
     let in_file = |what| Failure::bad_input(format!("cannot read {}: {what}", path.display()));
@@ -29,8 +30,8 @@ pub(crate) fn load(path: &Path, most: u64) -> Result<HeightMap, Failure> {
     HeightMap::new(width, height, texels).map_err(|error| in_file(error.to_string()))
 }
 
-/// Decodes a PNG. Grey images keep up to 16 bits; of colours the Rec. 709 luma is taken. Errors: the malformed part,
-/// or the size and the limit.
+/// Decodes a PNG. Grey images keep up to 16 bits; of colours the Rec. 709 luma is taken. Errors:
+/// the malformed part, or the size and the limit.
 pub(crate) fn decode(file: impl BufRead + Seek, most: u64) -> Result<Heights, String> {
     let mut decoder = Decoder::new_with_limits(file, Limits { bytes: MOST_BESIDE });
     decoder.set_transformations(Transformations::EXPAND);

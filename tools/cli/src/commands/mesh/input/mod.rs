@@ -103,8 +103,9 @@ impl TexcoordRange {
     }
 }
 
-/// Reads a model file, or makes the teapot if there is none. Errors: a file that cannot be read, is of no known kind
-/// or is malformed; a model that cannot be tessellated. The message has file and line, or file and face.
+/// Reads a model file, or makes the teapot if there is none. Errors: a file that cannot be read, is
+/// of no known kind or is malformed; a model that cannot be tessellated. The message has file and
+/// line, or file and face.
 pub(crate) fn load(path: Option<&Path>, options: InputOptions) -> Result<Input, Failure> {
     let Some(path) = path else { return embedded_teapot(options) };
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();

@@ -1,9 +1,9 @@
 //! OBJ files: polygons with texture coordinates and normals.
 //!
-//! The keywords are `v`, `vt`, `vn` and `f` with all forms of indices. Comments, names, groups, materials
-//! and display attributes do not change a surface and are skipped. Points and lines have no surface; they
-//! are skipped and counted. Every other keyword is an error, so that no misspelt line is lost. Polygons of more
-//! than four corners are cut into triangles.
+//! The keywords are `v`, `vt`, `vn` and `f` with all forms of indices. Comments, names, groups,
+//! materials and display attributes do not change a surface and are skipped. Points and lines have
+//! no surface; they are skipped and counted. Every other keyword is an error, so that no misspelt
+//! line is lost. Polygons of more than four corners are cut into triangles.
 
 use super::polygon::{self, Corner, triangles};
 use super::tally::Tally;
@@ -36,13 +36,15 @@ pub(crate) struct Obj {
 struct Reader {
     mesh: PolygonMesh,
     lines: Vec<usize>,
-    /// Polygons of more than four corners; `mesh` has a triangle of each in its place, with this number.
+    /// Polygons of more than four corners; `mesh` has a triangle of each in its place, with this
+    /// number.
     polygons: Vec<(usize, Vec<Corner>)>,
     /// Points and lines.
     skipped: Tally,
 }
 
-/// Reads a file. Errors: the first line that is malformed, or the first face with an index out of range.
+/// Reads a file. Errors: the first line that is malformed, or the first face with an index out of
+/// range.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
     let mut reader = Reader::default();
     for (number, line) in (1..).zip(TextLines(without_mark(bytes))) {

@@ -1,9 +1,10 @@
 //! Polygons of any number of corners, and cutting them into triangles.
 //!
-//! Ears are cut off, one after the other (G. H. Meisters, *Polygons Have Ears*, American Mathematical Monthly 82(6),
-//! 1975): triangles of three consecutive corners with no other corner in them. The roundest ear is cut first. So a
-//! corner on the straight line between its neighbours stays until it is part of a triangle with area, and meets the
-//! corner of a neighbouring face that is there; libraries for pictures leave such corners out.
+//! Ears are cut off, one after the other (G. H. Meisters, *Polygons Have Ears*, American
+//! Mathematical Monthly 82(6), 1975): triangles of three consecutive corners with no other corner
+//! in them. The roundest ear is cut first. So a corner on the straight line between its neighbours
+//! stays until it is part of a triangle with area, and meets the corner of a neighbouring face that
+//! is there; libraries for pictures leave such corners out.
 
 use glam::{DVec2, DVec3, Vec3};
 use tess_surface::{Face, Sides};
@@ -16,7 +17,8 @@ pub(super) struct Corner {
     pub(super) normal: Option<u32>,
 }
 
-/// A face of three or four corners, which all have the same kinds of indices; `None` for other numbers.
+/// A face of three or four corners, which all have the same kinds of indices; `None` for other
+/// numbers.
 pub(super) fn face(corners: &[Corner]) -> Option<Face> {
     let sides = match *corners {
         [a, b, c] => Sides::Triangle([a, b, c]),
@@ -55,8 +57,9 @@ pub(super) fn triangles(corners: &[Corner], positions: &[Vec3]) -> Vec<Face> {
     cut.into_iter().filter_map(|triangle| face(&triangle.map(|corner| corners[corner]))).collect()
 }
 
-/// The triangles of a polygon's inside, as numbers of its corners, each in the polygon's direction. Every corner is
-/// used, also one on the straight line between its neighbours. `None` for a polygon that has no area or crosses itself.
+/// The triangles of a polygon's inside, as numbers of its corners, each in the polygon's direction.
+/// Every corner is used, also one on the straight line between its neighbours. `None` for a polygon
+/// that has no area or crosses itself.
 fn cut(corners: &[Vec3]) -> Option<Vec<[usize; 3]>> {
     let plane = flattened(corners)?;
     let mut left: Vec<usize> = (0..plane.len()).collect();
@@ -80,8 +83,8 @@ fn neighbours(left: &[usize], at: usize) -> [usize; 3] {
 /// The roundness up to which a triangle may be one without area that is rounded.
 const THIN: f64 = 1e-5;
 
-/// The place of the corner whose ear is the roundest. It is rounder than `thin`, and would still be empty if it were
-/// wider by this part of its size.
+/// The place of the corner whose ear is the roundest. It is rounder than `thin`, and would still be
+/// empty if it were wider by this part of its size.
 fn roundest_ear(plane: &[DVec2], left: &[usize], thin: f64) -> Option<usize> {
     let triangle = |at: usize| neighbours(left, at).map(|corner| plane[corner]);
     let mut ears: Vec<(f64, usize)> =
@@ -97,14 +100,15 @@ fn roundest_ear(plane: &[DVec2], left: &[usize], thin: f64) -> Option<usize> {
     ears.into_iter().map(|(_, at)| at).find(|&at| is_empty(at))
 }
 
-/// Twice the area of a triangle divided by the sum of its sides' squares; negative if it turns clockwise.
+/// Twice the area of a triangle divided by the sum of its sides' squares; negative if it turns
+/// clockwise.
 fn roundness([a, b, c]: [DVec2; 3]) -> f64 {
     let sides = (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared();
     (b - a).perp_dot(c - a) / sides.max(f64::MIN_POSITIVE)
 }
 
-/// Whether a point is in a triangle that turns counter-clockwise, on one of its sides, or as close to it as this part of
-/// a side.
+/// Whether a point is in a triangle that turns counter-clockwise, on one of its sides, or as close
+/// to it as this part of a side.
 fn is_in([a, b, c]: [DVec2; 3], point: DVec2, reach: f64) -> bool {
     [[a, b], [b, c], [c, a]].iter().all(|&[from, to]| {
         let side = to - from;
@@ -112,8 +116,8 @@ fn is_in([a, b, c]: [DVec2; 3], point: DVec2, reach: f64) -> bool {
     })
 }
 
-/// The corners in the plane that fits them, so that they turn counter-clockwise. The plane's normal is M. Newell's:
-/// the sum of all corners' cross products.
+/// The corners in the plane that fits them, so that they turn counter-clockwise. The plane's normal
+/// is M. Newell's: the sum of all corners' cross products.
 fn flattened(corners: &[Vec3]) -> Option<Vec<DVec2>> {
     let first = corners.first()?.as_dvec3();
     let points: Vec<DVec3> = corners.iter().map(|corner| corner.as_dvec3() - first).collect();

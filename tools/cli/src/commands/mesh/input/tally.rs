@@ -24,7 +24,8 @@ impl Tally {
         Self { count: count as u64, first }
     }
 
-    /// The note, such as `2 faces without area: left out (first: line 12)`; none if there was nothing.
+    /// The note, such as `2 faces without area: left out (first: line 12)`; none if there was
+    /// nothing.
     pub(super) fn note(&self, noun: &str, rest: &str, done: &str) -> Option<String> {
         let Self { count, first } = self;
         let things = counted(*count, noun);

@@ -61,8 +61,8 @@ pub(super) fn number(word: &[u8]) -> Result<f32, String> {
 
 /// The number of a short word of digits, perhaps with a sign and a point.
 ///
-/// Both the digits and the power of ten are exact in 32 bits, so the quotient is correctly rounded (W. D.
-/// Clinger, *How to Read Floating Point Numbers Accurately*, PLDI 1990).
+/// Both the digits and the power of ten are exact in 32 bits, so the quotient is correctly rounded
+/// (W. D. Clinger, *How to Read Floating Point Numbers Accurately*, PLDI 1990).
 #[inline]
 fn decimal(word: &[u8]) -> Option<f32> {
     const POWERS: [f32; 8] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7];

@@ -1,5 +1,5 @@
-//! Gaps between faces that should be neighbours: corners that nearly coincide, and corners on the inside of another
-//! face's edge.
+//! Gaps between faces that should be neighbours: corners that nearly coincide, and corners on the
+//! inside of another face's edge.
 //!
 //! ```text
 //!    d-----------c-------g        The edge b-c of the large quad has no neighbour: the small quads have b-e and
@@ -147,7 +147,8 @@ fn split(draft: &mut Draft, hanging: &[(HalfEdge, Vec<Vec3>)]) {
     super::collapsed::repair(draft);
 }
 
-/// The corner of a split edge at a place, with texture coordinates and a normal between those of the edge's ends.
+/// The corner of a split edge at a place, with texture coordinates and a normal between those of
+/// the edge's ends.
 fn corner_between(mesh: &mut PolygonMesh, ends: [Corner; 2], at: Vec3, position: u32) -> Corner {
     let [a, b] = ends.map(|corner| mesh.positions[corner.position as usize]);
     let t = (at - a).dot(b - a) / (b - a).length_squared();
@@ -207,7 +208,8 @@ impl OpenEdges {
         Self(open.collect())
     }
 
-    /// The places of all ends in the order of the edges, each once, and the number of the first face that has it.
+    /// The places of all ends in the order of the edges, each once, and the number of the first
+    /// face that has it.
     fn ends(&self) -> Vec<(Vec3, usize)> {
         let mut seen = HashSet::new();
         // The first edge of a face ends at its first corner.
@@ -271,9 +273,10 @@ impl OpenEdges {
     }
 }
 
-/// Points in an order in which those near a line are found quickly: the middle one splits the others along x, the
-/// middles of both halves split theirs along y, and so on (J. L. Bentley, *Multidimensional Binary Search Trees Used
-/// for Associative Searching*, CACM 18(9), 1975).
+/// Points in an order in which those near a line are found quickly: the middle one splits the
+/// others along x, the middles of both halves split theirs along y, and so on (J. L.
+/// Bentley, *Multidimensional Binary Search Trees Used for Associative Searching*, CACM
+/// 18(9), 1975).
 struct PointTree(Vec<Vec3>);
 
 impl PointTree {

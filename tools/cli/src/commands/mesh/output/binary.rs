@@ -1,7 +1,7 @@
 //! The binary part of glTF: interleaved vertices, then indices, and the JSON that describes them.
 //!
-//! How many vertices and indices there will be is known beforehand. So every thread makes the bytes of a
-//! part of a block, and writes them to their place.
+//! How many vertices and indices there will be is known beforehand. So every thread makes the bytes
+//! of a part of a block, and writes them to their place.
 
 use super::{IndexWidth, MeshBlock, Options, Sink, Totals, glb};
 use crate::commands::mesh::input::Up;
@@ -18,7 +18,8 @@ const STRIDE: usize = 32;
 /// The largest number of vertices that 16 bits can number: 65535 itself restarts primitives.
 const MAX_NARROW: u64 = 65535;
 
-/// Bytes that a thread writes at a time: they stay in its cache, and allocators keep so small pieces.
+/// Bytes that a thread writes at a time: they stay in its cache, and allocators keep so small
+/// pieces.
 const PART: usize = 1 << 16;
 
 /// The smallest and the largest coordinates of positions.

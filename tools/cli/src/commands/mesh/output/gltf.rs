@@ -29,8 +29,8 @@ pub(super) fn create(path: &Path, options: &Options) -> Result<Binary, Failure> 
     Ok(Binary::new(OutputFile::create(&beside)?, 0, json, options))
 }
 
-/// The reference to a file beside: every byte percent-encoded that has a meaning in a URI (RFC 3986,
-/// section 2).
+/// The reference to a file beside: every byte percent-encoded that has a meaning in a URI (RFC
+/// 3986, section 2).
 fn encode(file: &Path) -> String {
     let mut uri = String::new();
     for &byte in file.file_name().unwrap_or_default().as_encoded_bytes() {

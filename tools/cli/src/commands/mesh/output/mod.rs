@@ -36,7 +36,8 @@ pub(crate) struct Totals {
     pub(crate) indices: u64,
 }
 
-/// Takes the result block by block. Errors: the output cannot be written, or the form cannot hold so much.
+/// Takes the result block by block. Errors: the output cannot be written, or the form cannot hold
+/// so much.
 trait Sink {
     /// Takes how much there will be, before the first block.
     fn begin(&mut self, _totals: Totals) -> io::Result<()> {
@@ -46,7 +47,8 @@ trait Sink {
     /// The next vertices and triangles.
     fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()>;
 
-    /// Ends the output and puts it in its place; after an error nothing is there, or what was there before.
+    /// Ends the output and puts it in its place; after an error nothing is there, or what was there
+    /// before.
     fn finish(self: Box<Self>) -> io::Result<()>;
 }
 

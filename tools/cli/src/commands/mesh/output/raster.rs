@@ -3,8 +3,8 @@
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use tess_surface::Sample;
 
-/// How much nearer triangles seen from behind would have to be: where a sheet has a face for each side, the two are at one
-/// place but for rounding, and the one that looks here is seen.
+/// How much nearer triangles seen from behind would have to be: where a sheet has a face for each
+/// side, the two are at one place but for rounding, and the one that looks here is seen.
 const BEHIND: f32 = 1.0 - 1.0 / 16384.0;
 
 /// The point of a surface that a pixel shows.
@@ -24,7 +24,8 @@ pub(super) struct Fragment {
 pub(super) struct Raster {
     size: (usize, usize),
     clip: Mat4,
-    /// 1 / distance of the nearest point, times [`BEHIND`] if it is seen from behind; 0 is the background.
+    /// 1 / distance of the nearest point, times [`BEHIND`] if it is seen from behind; 0 is the
+    /// background.
     depth: Vec<f32>,
     colour: Vec<[u8; 3]>,
 }

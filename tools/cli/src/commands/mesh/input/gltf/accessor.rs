@@ -1,13 +1,13 @@
 //! Accessors: the rules about their bytes, and reading them.
 //!
-//! glTF 2.0 Specification, section 3.6.2 and the properties `accessor` and `bufferView` in section 5.
-//! [`check`] must have passed before anything is read.
+//! glTF 2.0 Specification, section 3.6.2 and the properties `accessor` and `bufferView` in
+//! section 5. [`check`] must have passed before anything is read.
 
 use super::document::{Accessor, BufferView, ComponentType, Document, Sparse, broken};
 use std::borrow::Cow;
 
-/// Checks every buffer view and every accessor of a document. Errors: the first rule that is broken, with the JSON
-/// path.
+/// Checks every buffer view and every accessor of a document. Errors: the first rule that is
+/// broken, with the JSON path.
 pub(super) fn check(document: &Document) -> Result<(), String> {
     for (number, view) in document.buffer_views.iter().enumerate() {
         check_view(document, view)
@@ -150,8 +150,8 @@ pub(super) struct Data<'a> {
 }
 
 impl Data<'_> {
-    /// The elements of an accessor with `N` components, each made of its bytes by `component`. Errors: sparse indices
-    /// that are out of range or do not increase, with the JSON path.
+    /// The elements of an accessor with `N` components, each made of its bytes by `component`.
+    /// Errors: sparse indices that are out of range or do not increase, with the JSON path.
     pub(super) fn read<T: Copy + Default, const N: usize>(
         &self,
         number: usize,
@@ -182,7 +182,8 @@ impl Data<'_> {
         Ok(elements)
     }
 
-    /// The elements of an accessor of any component type; normalized integers as section 3.6.2.2 has it.
+    /// The elements of an accessor of any component type; normalized integers as section 3.6.2.2
+    /// has it.
     pub(super) fn numbers<const N: usize>(&self, number: usize) -> Result<Vec<[f32; N]>, String> {
         let accessor = &self.document.accessors[number];
         let most = match (accessor.normalized, accessor.component_type) {

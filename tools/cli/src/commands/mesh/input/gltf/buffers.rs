@@ -19,8 +19,9 @@ pub(super) struct LoadedBuffers<'a> {
     pub(super) files: Vec<PathBuf>,
 }
 
-/// The content of every buffer. Errors: a buffer without content or with too little, a URI that leads out of
-/// `folder`, a file that cannot be read or is no ordinary file, buffers of more than 4 GiB.
+/// The content of every buffer. Errors: a buffer without content or with too little, a URI that
+/// leads out of `folder`, a file that cannot be read or is no ordinary file, buffers of more than 4
+/// GiB.
 pub(super) fn load<'a>(
     buffers: &[GltfBuffer],
     folder: Option<&Path>,

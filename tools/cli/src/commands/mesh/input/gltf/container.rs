@@ -5,8 +5,8 @@ const MAGIC: &[u8] = b"glTF";
 const JSON: &[u8] = b"JSON";
 const BIN: &[u8] = b"BIN\0";
 
-/// The JSON of a file, and the chunk of bytes that a GLB file may have. Errors: a GLB file whose header or chunks
-/// contradict its length.
+/// The JSON of a file, and the chunk of bytes that a GLB file may have. Errors: a GLB file whose
+/// header or chunks contradict its length.
 pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     let Some(rest) = bytes.strip_prefix(MAGIC) else { return Ok((bytes, None)) };
     let (version, rest) = word(rest).ok_or("GLB header: it is cut off")?;

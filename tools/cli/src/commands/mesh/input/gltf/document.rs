@@ -294,8 +294,8 @@ impl Document {
     }
 }
 
-/// Reads the JSON. Errors: text that is not JSON, a document of another version, a value of the wrong type, an
-/// extension that would change triangles.
+/// Reads the JSON. Errors: text that is not JSON, a document of another version, a value of the
+/// wrong type, an extension that would change triangles.
 pub(super) fn parse(json: &[u8]) -> Result<Document, String> {
     let json = str::from_utf8(json).map_err(|error| {
         let lines = json[..error.valid_up_to()].split(|&byte| byte == b'\n').count();

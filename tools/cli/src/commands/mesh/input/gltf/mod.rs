@@ -1,8 +1,10 @@
-//! glTF and GLB files: the triangles of all meshes of a scene, in the pose that the file has at rest.
+//! glTF and GLB files: the triangles of all meshes of a scene, in the pose that the file has at
+//! rest.
 //!
 //! [`container`] splits GLB files, [`document`] reads the JSON, [`buffers`] fetches the bytes that
-//! it names, [`accessor`] checks and reads them, [`scene`] walks the nodes, [`pose`] moves vertices by morph targets,
-//! skins and nodes, [`primitive`] makes faces. Messages begin with the JSON path of the value at fault.
+//! it names, [`accessor`] checks and reads them, [`scene`] walks the nodes, [`pose`] moves vertices
+//! by morph targets, skins and nodes, [`primitive`] makes faces. Messages begin with the JSON path
+//! of the value at fault.
 
 mod accessor;
 mod buffers;
@@ -39,9 +41,9 @@ pub(crate) struct Scene {
     pub(crate) notes: Vec<String>,
 }
 
-/// Reads the default scene, or the first one, with morph targets, skins and nodes' transforms applied. Buffers may be
-/// files in `folder` or below it; `most` limits vertices and triangles. Errors: the first rule of glTF that is broken,
-/// with its JSON path.
+/// Reads the default scene, or the first one, with morph targets, skins and nodes' transforms
+/// applied. Buffers may be files in `folder` or below it; `most` limits vertices and triangles.
+/// Errors: the first rule of glTF that is broken, with its JSON path.
 pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>, most: usize) -> Result<Scene, String> {
     let (json, blob) = container::split(bytes)?;
     let document = document::parse(json)?;

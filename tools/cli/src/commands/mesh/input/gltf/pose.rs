@@ -1,7 +1,7 @@
 //! The pose of a mesh at rest: morph targets, then the skin's joints or the node's transform.
 //!
-//! glTF 2.0 Specification, sections 3.7.2.2 (morph targets) and 3.7.3 (skins). A vertex of a skin is moved by the
-//! weighted sum of its joints' matrices, and not by its node's transform.
+//! glTF 2.0 Specification, sections 3.7.2.2 (morph targets) and 3.7.3 (skins). A vertex of a skin
+//! is moved by the weighted sum of its joints' matrices, and not by its node's transform.
 
 use super::accessor::{Data, float};
 use super::document::{Attributes, ComponentType, ElementKind, Skin, broken};
@@ -31,7 +31,8 @@ pub(super) enum Matrices<'a> {
 }
 
 impl Pose {
-    /// The pose of a node's mesh. Errors: a skin with a rule that is broken, weights that are not finite.
+    /// The pose of a node's mesh. Errors: a skin with a rule that is broken, weights that are not
+    /// finite.
     pub(super) fn of(data: &Data<'_>, nodes: &Nodes, number: usize) -> Result<Self, String> {
         let document = data.document;
         let node = &document.nodes[number];
@@ -55,8 +56,9 @@ impl Pose {
         Ok(Self { transform, joints: joints.transpose()?, weights: weights.cloned() })
     }
 
-    /// Adds the morph targets' displacements of an attribute to its values. Errors: another number of weights than of
-    /// targets, a target of another type or length, with the path below the primitive.
+    /// Adds the morph targets' displacements of an attribute to its values. Errors: another number
+    /// of weights than of targets, a target of another type or length, with the path below the
+    /// primitive.
     pub(super) fn morph(
         &self,
         data: &Data<'_>,
@@ -86,8 +88,8 @@ impl Pose {
         Ok(())
     }
 
-    /// The matrices of a primitive's vertices. Errors: a joint that is out of range, with the path below the
-    /// primitive.
+    /// The matrices of a primitive's vertices. Errors: a joint that is out of range, with the path
+    /// below the primitive.
     pub(super) fn matrices(
         &self,
         data: &Data<'_>,
@@ -146,8 +148,8 @@ impl Matrices<'_> {
 
 /// A normal moved by a matrix, of any length; zero if the matrix flattens its face to a line.
 ///
-/// The matrix of cofactors is the inverse transpose times the determinant, and exists where that is 0 too: a face that
-/// is flattened to a plane gets the plane's normal.
+/// The matrix of cofactors is the inverse transpose times the determinant, and exists where that is
+/// 0 too: a face that is flattened to a plane gets the plane's normal.
 pub(super) fn moved_normal(matrix: Mat4, normal: Vec3) -> Vec3 {
     let linear = Mat3::from_mat4(matrix);
     let [x, y, z] = linear.to_cols_array_2d().map(Vec3::from_array);

@@ -38,8 +38,8 @@ pub(super) struct Skipped {
 }
 
 impl PlacedPrimitive<'_> {
-    /// Appends the triangles, unless vertices or faces then become more than `most`. Errors: a rule that is broken,
-    /// with the JSON path.
+    /// Appends the triangles, unless vertices or faces then become more than `most`. Errors: a rule
+    /// that is broken, with the JSON path.
     pub(super) fn append(
         &self,
         mesh: &mut PolygonMesh,
@@ -117,7 +117,8 @@ impl PlacedPrimitive<'_> {
         Ok(vectors)
     }
 
-    /// The face of a triangle whose vertices are numbered from `first` on: positions, normals, texture coordinates.
+    /// The face of a triangle whose vertices are numbered from `first` on: positions, normals,
+    /// texture coordinates.
     fn face(&self, [a, b, c]: [u32; 3], matrices: &Matrices<'_>, first: [usize; 3]) -> Face {
         let corners = if matrices.is_mirrored(a as usize) { [a, c, b] } else { [a, b, c] };
         let numbers = |first: usize| {
@@ -303,7 +304,8 @@ impl Triangles {
         }
     }
 
-    /// The places of a triangle's corners among the vertices. Every second triangle of a strip is turned round.
+    /// The places of a triangle's corners among the vertices. Every second triangle of a strip is
+    /// turned round.
     const fn corners(self, triangle: usize) -> [usize; 3] {
         let k = triangle;
         match self {

@@ -1,7 +1,7 @@
 //! The nodes of a scene, each with its transform to the scene.
 //!
-//! glTF 2.0 Specification, section 3.5.2: nodes form strict trees. A node has at most one parent, so
-//! no node is visited twice and the walk ends.
+//! glTF 2.0 Specification, section 3.5.2: nodes form strict trees. A node has at most one parent,
+//! so no node is visited twice and the walk ends.
 
 use super::document::{Document, Node, broken};
 use glam::{Mat4, Quat, Vec3};
@@ -16,8 +16,9 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    /// The nodes of the default scene, or of the first one, or all where there are no scenes. Errors: a scene or a node
-    /// that is out of range, a node with two parents, a transform that is none.
+    /// The nodes of the default scene, or of the first one, or all where there are no scenes.
+    /// Errors: a scene or a node that is out of range, a node with two parents, a transform that is
+    /// none.
     pub(super) fn of(document: &Document) -> Result<Self, String> {
         let parents = parents(document)?;
         let all_roots = || (0..parents.len()).filter(|&node| parents[node].is_none()).collect();
