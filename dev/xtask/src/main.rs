@@ -94,6 +94,7 @@ usage: cargo xtask <command>
           run `tess mesh` on the models in these folders, or on small ones of every kind that a script makes, and
           judge the outputs by other programs: pygltflib, scipy, Khronos' glTF validator
   public  name the public items of the published libraries that nothing outside uses
+  width   check that comments of Rust have at most 100 columns
   traceability
           check that docs/traceability.md has each section of docs/specification.md and that the evidence it names exists
   features [PACKAGE...]
@@ -153,7 +154,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["example", ref words @ ..] => examples::run(words),
         ["models"] => models::of_every_kind(),
         ["models", ref folders @ ..] => models::run(folders),
-        ["public" | "traceability"] => script::run(script::CHECKS, words),
+        ["public" | "traceability" | "width"] => script::run(script::CHECKS, words),
         ["features", ref names @ ..] => features::check(names),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),
         ["ports", ref names @ ..] => ports::run(names, Extent::Whole),
