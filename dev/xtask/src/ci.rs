@@ -4,8 +4,8 @@ use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
 use crate::{examples, features, fuzz, levels, models, publish, script, test};
 
-/// Formatting, traceability, unused public items, widths of comments, lints, documentation, features,
-/// the fuzz targets, other compilers and processors, packages, then every test.
+/// Formatting, checks of texts and records, lints, documentation, features, the fuzz targets, models,
+/// other compilers and processors, packages, then every test.
 pub(crate) fn run() -> Result<(), String> {
     if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
         return Err("continuous integration on x86-64 needs a processor with AVX2".into());
