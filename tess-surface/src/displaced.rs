@@ -3,7 +3,7 @@
 //! Neighbours may disagree about the normal and, on a seam of the image, about the texture
 //! coordinates. So a shared edge has the mean of both sides' normals as its direction, and the
 //! texture coordinates of one side; a corner has one direction and one pair of coordinates for
-//! all patches of a sheet ([`crate::sheets`]) that meet there (as in I. Castaño, *Tessellation of
+//! all patches of a sheet (`sheets.rs`) that meet there (as in I. Castaño, *Tessellation of
 //! Displaced Subdivision Surfaces in DX11*, Gamefest 2008). Shading follows J. F. Blinn,
 //! *Simulation of Wrinkled Surfaces*, SIGGRAPH 1978.
 
