@@ -244,7 +244,7 @@ impl<'a> StageBuilder<'a> {
     /// and its own fragment shaders: for a shadow map, a depth prepass, several cameras. Only
     /// `hull` uses the bind groups then, the render state is not used, and the engine draws with
     /// [`TessellationStage::draw`](super::TessellationStage::draw) or
-    /// [`TessellationStage::buffers`](super::TessellationStage::buffers). Points are
+    /// [`TessellationStage::indirect`](super::TessellationStage::indirect). Points are
     /// [`Points::Stored`].
     pub const fn without_pipeline(mut self) -> Self {
         self.makes_pipeline = false;
