@@ -179,7 +179,7 @@ MEASUREMENTS = {
     "single-avx2": simd("--cpu-level", "avx2", workloads=["single"]),
     "single-baseline": simd("--cpu-level", "baseline", workloads=["single"]),
     "simd-stream": simd(workloads=FRAMES, samples=5, working_set="stream"),
-    "simd-cache-order": simd("--order", "cache", workloads=["uniform", "terrain", "character", "worst"], samples=9),
+    "simd-cache-order": simd("--index-order", "cache", workloads=["uniform", "terrain", "character", "worst"], samples=9),
     "simd-threads": Measurement(
         "cpu",
         CPU,
@@ -231,7 +231,7 @@ MEASUREMENTS = {
     "stage": Measurement(
         "gpu",
         [*GPU, "tess-wgpu/examples"],
-        [["terrain", "--bench", "50", "--triangles", "1000000,10000000,50000000", "--points", "stored,pull,none"]],
+        [["tess-examples", "terrain", "--bench", "50", "--triangles", "1000000,10000000,50000000", "--points", "stored,pull,none"]],
         of_stage,
         ["points", "triangles", "prepare_us", "draw_us", "G_triangles/s"],
     ),
@@ -244,7 +244,7 @@ BUILDS = {
     "gpu": [
         "build --release -p tess-program",
         "build --release -p tess-benches --features gpu --bin gpu",
-        "build --release -p tess-wgpu --example terrain",
+        "build --release --manifest-path tess-wgpu/examples/Cargo.toml --target-dir target",
     ],
 }
 
@@ -314,7 +314,7 @@ def command_of(measurement):
     in_workspace = {
         "tess": "cargo run --release --",
         "gpu": "cargo run --release -p tess-benches --features gpu --bin gpu --",
-        "terrain": "cargo example --release terrain",
+        "tess-examples": "cargo example --release",
         "surface": "cargo bench -p tess-benches --bench surface",
     }
     command, *words = measurement.commands[0]
@@ -348,7 +348,7 @@ def main(words):
     for one in (whole, running):
         one.add_argument("set", choices=["cpu", "gpu"])
     running.add_argument("folder", help="receives NAME.json and NAME.txt")
-    running.add_argument("--programs", default=ROOT / "target/release", help="the folder of tess, gpu, terrain, surface")
+    running.add_argument("--programs", default=ROOT / "target/release", help="the folder of tess, gpu, tess-examples, surface")
     running.add_argument("--only", nargs="+", choices=sorted(MEASUREMENTS), help="these measurements of the set")
     taking = commands.add_parser("take", help="make records of what `run` left")
     taking.add_argument("folder")
