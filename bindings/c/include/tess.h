@@ -1098,7 +1098,7 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
  * `level` is `TESS_LEVEL_...`. All levels give the same bits; one that this machine lacks gives
  * `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
  * millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it grows, at
- * most 1.1 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with `tess_batch_free`.
+ * most 1.2 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with `tess_batch_free`.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1118,7 +1118,7 @@ TessStatus tess_batch_create(const struct TessConfig *config,
 void tess_batch_free(struct TessBatch *batch);
 
 /**
- * Takes all the memory that a batch may ever need, 1.1 MB per thread, so that no later call allocates.
+ * Takes all the memory that a batch may ever need, 1.2 MB per thread, so that no later call allocates.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1142,7 +1142,7 @@ TessStatus tess_batch_set_triangles(struct TessBatch *batch,
  * one; 0 gives `TESS_OUT_OF_RANGE`. The output does not depend on the number.
  *
  * A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the process share: a thread for
- * each processor, or as many as the environment variable `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.1 MB.
+ * each processor, or as many as the environment variable `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.2 MB.
  * The batch forgets what it learned of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and
  * changes nothing.
  *

@@ -49,7 +49,7 @@ pub struct TessBatch {
 /// `level` is `TESS_LEVEL_...`. All levels give the same bits; one that this machine lacks gives
 /// `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
 /// millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it
-/// grows, at most 1.1 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with
+/// grows, at most 1.2 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with
 /// `tess_batch_free`.
 ///
 /// # Safety
@@ -90,7 +90,7 @@ pub unsafe extern "C" fn tess_batch_free(batch: *mut TessBatch) {
     }
 }
 
-/// Takes all the memory that a batch may ever need, 1.1 MB per thread, so that no later call
+/// Takes all the memory that a batch may ever need, 1.2 MB per thread, so that no later call
 /// allocates.
 ///
 /// # Safety
@@ -137,7 +137,7 @@ pub unsafe extern "C" fn tess_batch_set_triangles(batch: *mut TessBatch, order: 
 ///
 /// A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the
 /// process share: a thread for each processor, or as many as the environment variable
-/// `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.1 MB. The batch forgets what it learned
+/// `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.2 MB. The batch forgets what it learned
 /// of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and changes
 /// nothing.
 ///

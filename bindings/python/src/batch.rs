@@ -18,7 +18,7 @@ use work::{ArrayRoom, BatchSizes, BatchWork, How};
 /// Tessellates batches in one configuration, on the CPU's vector units.
 ///
 /// Making the first one of a configuration takes about a millisecond, others a microsecond. Any
-/// number of threads may use it at a time; its knowledge of patches takes up to 1.1 MB for each of
+/// number of threads may use it at a time; its knowledge of patches takes up to 1.2 MB for each of
 /// them. The interpreter's lock is not held.
 ///
 /// Args: partitioning, output, split: As for :class:`Patch`. threads: The number of threads that
