@@ -19,11 +19,9 @@ fn filters_select_configurations() {
     let (whole, some) = (cases(""), cases("--output line --split center"));
     assert!(some.len() > 60 && some.len() < whole.len(), "{} of {}", some.len(), whole.len());
     assert!(some.iter().all(|row| row.starts_with("quad,integer,line,center,")), "{some:?}");
-    let systematic = |rows: &[String]| {
-        let chosen = |row: &&String| row.starts_with("quad,integer,line,center,");
-        rows[..rows.len() - 40].iter().filter(chosen).cloned().collect::<Vec<_>>()
-    };
-    assert_eq!(systematic(&whole), some[..some.len() - 40], "none is lost");
+    // A selection is a level of its own: it asks more of its configurations than a wider one does.
+    let chosen = whole.iter().filter(|row| row.starts_with("quad,integer,line,center,"));
+    assert!(chosen.count() < some.len(), "everything is asked of the one configuration");
     let header = tess(&format!("{all} --output line --split center")).stdout;
     assert!(
         header.lines().next().is_some_and(|h| h.ends_with("output=line split=center")),

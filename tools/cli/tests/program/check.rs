@@ -48,7 +48,7 @@ fn devices_that_keep_something() {
     let words = format!("check - --report {} --junit {}", file("r.jsonl"), file("r.xml"));
     let run = tess_with_input(&words, &(header.to_owned() + &records.collect::<String>()));
     run.exits(1);
-    assert_eq!(run.stderr, "tess: cases of level 1, version 1; the newest is 2\n");
+    assert_eq!(run.stderr, "tess: cases of level 1, version 1; this program makes version 3\n");
     assert_eq!(run.stdout.matches("\n  passes alone: ").count(), 5, "{}", run.stdout);
     let report = json(&folder.join("r.jsonl"));
     let said = (&report["period"], &report["first"]["passes_alone"]);
@@ -121,18 +121,24 @@ fn malformed_truncated_surplus_and_empty_files() {
         let from_stdin = tess_with_input("check -", &text);
         for (run, source) in [(from_file, path.display().to_string()), (from_stdin, "stdin".into())]
         {
-            run.exits(2).prints_nothing();
+            run.exits(2);
             let message = format!("tess: {source}{expected}");
             assert!(run.stderr.starts_with(&message), "{name}: {} is not {message}", run.stderr);
+            let no_verdict = "0 mismatches before the malformed record; there is no verdict\n";
+            let is_none = run.stdout.is_empty() || run.stdout.ends_with(no_verdict);
+            assert!(is_none, "{name}: {}", run.stdout);
         }
     }
 }
 
-/// A file that is truncated gives no verdict, even if what is there already differs.
+/// A file that is truncated gives no verdict; the differences before its end are shown.
 #[test]
 fn a_truncated_file_with_differences_is_malformed() {
     let text = excerpt("patches.csv", 1000).replace(",1", ",2");
-    tess_with_input("check -", &text[..text.len() - 200]).exits(2).prints_nothing();
+    let run = tess_with_input("check -", &text[..text.len() - 200]);
+    run.exits(2).prints("observed ");
+    let no_verdict = " mismatches before the malformed record; there is no verdict\n";
+    assert!(run.stdout.ends_with(no_verdict), "{}", run.stdout);
 }
 
 #[test]

@@ -78,7 +78,7 @@ fn files_are_added_up_and_reported() {
 fn completeness() {
     let folder = directory("completeness");
     let made = shell(
-        "$TESS gen --level 1 --domain tri --coverage tri.xml; printf 'middle # all\n*/quad' > no.txt",
+        "$TESS gen --level 1 --domain tri --coverage tri.xml; printf 'middle # all\n*/quad\n*/*/quad' > no.txt",
         &folder,
     );
     made.exits(0);
