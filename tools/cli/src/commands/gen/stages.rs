@@ -229,7 +229,7 @@ mod tests {
     type RowWriter = fn(&mut dyn Write, StageBlock, &BTreeSet<Vec<u32>>) -> io::Result<()>;
 
     fn all(block: StageBlock) -> BTreeSet<Vec<u32>> {
-        rows(block, Selection::level(GenLevel::One, 1).cases().step_by(7))
+        rows(block, Selection::level(GenLevel::One, 1).cases().step_by(3))
     }
 
     /// Split, parity and factor; then the six numbers. Detail 2.5 is odd, and has 4 points.
