@@ -270,8 +270,8 @@
 #define TESS_POINT_F32 1
 
 /**
- * Point format: as `TESS_POINT_F32`, but u and v in two arrays. `points` has `2 * point_capacity` floats: first u of
- * each point, then, from float number `point_capacity`, v of each point.
+ * Point format: as `TESS_POINT_F32`, but u and v in two arrays. `points` has `2 * point_capacity`
+ * floats: first u of each point, then, from float number `point_capacity`, v of each point.
  */
 #define TESS_POINT_F32_APART 2
 
@@ -283,8 +283,8 @@
 /**
  * Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`. With
  * `TESS_NUMBERING_PER_BATCH` it numbers 65536 points. The last of these indices, 65535, restarts
- * primitives in WebGL 2 and wherever primitive restart is on: keep `base_vertex` and the points of the
- * batch together to `TESS_POINTS_WITHOUT_RESTART_U16` there.
+ * primitives in WebGL 2 and wherever primitive restart is on: keep `base_vertex` and the points of
+ * the batch together to `TESS_POINTS_WITHOUT_RESTART_U16` there.
  */
 #define TESS_INDEX_U16 1
 
@@ -309,8 +309,8 @@
 #define TESS_MEMORY_ANY 0
 
 /**
- * Memory: every byte of the buffers was written before, by `calloc`, `memset`, an earlier call or the caller. This is
- * faster, because nothing is cleared before it is written.
+ * Memory: every byte of the buffers was written before, by `calloc`, `memset`, an earlier call or
+ * the caller. This is faster, because nothing is cleared before it is written.
  */
 #define TESS_MEMORY_INITIALISED 1
 
@@ -571,7 +571,8 @@ typedef struct TessPointOrigin {
 } TessPointOrigin;
 
 /**
- * The origin of a primitive (specification, sections 7, 8). Fields that its kind does not use are 0.
+ * The origin of a primitive (specification, sections 7, 8). Fields that its kind does not use
+ * are 0.
  */
 typedef struct TessPrimitiveOrigin {
   /**
@@ -637,8 +638,8 @@ typedef struct TessBatchCounts {
 } TessBatchCounts;
 
 /**
- * The part of a batch's output that belongs to one patch or one group. A culled patch has no points and no
- * indices.
+ * The part of a batch's output that belongs to one patch or one group. A culled patch has no
+ * points and no indices.
  */
 typedef struct TessRange {
   /**
@@ -683,7 +684,8 @@ typedef struct TessBatchOutput {
    */
   size_t index_capacity;
   /**
-   * Receives one range for each patch. Null, with a `range_capacity` of 0, if they are not wanted.
+   * Receives one range for each patch. Null, with a `range_capacity` of 0, if they are not
+   * wanted.
    */
   struct TessRange *ranges;
   /**
@@ -757,10 +759,10 @@ typedef struct TessMat4 {
 /**
  * A tessellator under test: it writes the points and indices of one patch and their counts.
  *
- * `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices; both and
- * `counts` are zero before the call, and `counts->primitives` is not looked at. `user` is what the function
- * that calls it was given. It answers 0, `TESS_DEVICE_UNSUPPORTED`, or any other number if it could not run,
- * which is a finding.
+ * `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices;
+ * both and `counts` are zero before the call, and `counts->primitives` is not looked at. `user` is
+ * what the function that calls it was given. It answers 0, `TESS_DEVICE_UNSUPPORTED`, or any other
+ * number if it could not run, which is a finding.
  */
 typedef int32_t (*TessDevice)(void *user,
                               const struct TessConfig *config,
@@ -871,7 +873,8 @@ typedef struct TessFuzzOptions {
 #define TESS_INTERNAL 12
 
 /**
- * A tessellator under test differs from the model (`tess_fuzz`), or breaks a rule (`tess_check_rules`).
+ * A tessellator under test differs from the model (`tess_fuzz`), or breaks a rule
+ * (`tess_check_rules`).
  */
 #define TESS_DIFFERENT 13
 
@@ -906,8 +909,8 @@ const char *tess_version_string(void);
 /**
  * Meaning of a status, in English, without a newline.
  *
- * Never null: an unknown number gives "unknown status". The text lives as long as the program and must
- * not be freed.
+ * Never null: an unknown number gives "unknown status". The text lives as long as the program and
+ * must not be freed.
  */
 const char *tess_status_message(TessStatus status);
 
@@ -939,10 +942,11 @@ TessStatus tess_count(const struct TessConfig *config,
 /**
  * Tessellates a patch into the caller's buffers.
  *
- * With `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only
- * `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With any
- * other status nothing is written. Buffers and `counts` must not overlap (`TESS_OVERLAP`). A buffer of capacity 0 may be null. `TESS_MAX_POINTS` and
- * `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
+ * With `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL`
+ * only `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With
+ * any other status nothing is written. Buffers and `counts` must not overlap (`TESS_OVERLAP`). A
+ * buffer of capacity 0 may be null. `TESS_MAX_POINTS` and `TESS_MAX_INDICES` are enough for any
+ * patch. Allocates nothing.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1072,8 +1076,9 @@ TessStatus tess_locate_primitive(const struct TessConfig *config,
                                  struct TessPrimitiveOrigin *origin);
 
 /**
- * Prepares the factors of one patch, as the HLSL functions `Process...TessFactors` do in Shader Model 5
- * (compiler FXC). DXC generates another form, which this library does not have (specification, section 9).
+ * Prepares the factors of one patch, as the HLSL functions `Process...TessFactors` do in Shader
+ * Model 5 (compiler FXC). DXC generates another form, which this library does not have
+ * (specification, section 9).
  *
  * `requested` holds the outer factors and, in the places of the inside factors, the inside
  * scales. `unrounded` and `rounded` receive `factor_count` factors each; the rounded ones are
@@ -1097,8 +1102,9 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
  *
  * `level` is `TESS_LEVEL_...`. All levels give the same bits; one that this machine lacks gives
  * `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
- * millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it grows, at
- * most 1.2 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with `tess_batch_free`.
+ * millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it
+ * grows, at most 1.2 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with
+ * `tess_batch_free`.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1118,7 +1124,8 @@ TessStatus tess_batch_create(const struct TessConfig *config,
 void tess_batch_free(struct TessBatch *batch);
 
 /**
- * Takes all the memory that a batch may ever need, 1.2 MB per thread, so that no later call allocates.
+ * Takes all the memory that a batch may ever need, 1.2 MB per thread, so that no later call
+ * allocates.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1126,35 +1133,36 @@ void tess_batch_free(struct TessBatch *batch);
 TessStatus tess_batch_reserve(struct TessBatch *batch);
 
 /**
- * Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch has the specification's.
+ * Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch has the
+ * specification's.
  *
- * `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two to four times as
- * long with it. The batch forgets what it learned of patches.
+ * `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two
+ * to four times as long with it. The batch forgets what it learned of patches.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
  */
-TessStatus tess_batch_set_triangles(struct TessBatch *batch,
-                                    uint32_t order);
+TessStatus tess_batch_set_triangles(struct TessBatch *batch, uint32_t order);
 
 /**
- * Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads` threads. A new batch has
- * one; 0 gives `TESS_OUT_OF_RANGE`. The output does not depend on the number.
+ * Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads`
+ * threads. A new batch has one; 0 gives `TESS_OUT_OF_RANGE`. The output does not depend on the
+ * number.
  *
- * A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the process share: a thread for
- * each processor, or as many as the environment variable `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.2 MB.
- * The batch forgets what it learned of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and
- * changes nothing.
+ * A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the
+ * process share: a thread for each processor, or as many as the environment variable
+ * `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.2 MB. The batch forgets what it learned
+ * of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and changes
+ * nothing.
  *
- * After `fork` the child may use batches that its parent made, with any number of threads: it starts threads of its own
- * with the first large batch. Where it cannot, it writes batches on the calling thread. No other thread may be in a
- * call on these batches when the process forks.
+ * After `fork` the child may use batches that its parent made, with any number of threads: it
+ * starts threads of its own with the first large batch. Where it cannot, it writes batches on the
+ * calling thread. No other thread may be in a call on these batches when the process forks.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
  */
-TessStatus tess_batch_set_threads(struct TessBatch *batch,
-                                  uint32_t threads);
+TessStatus tess_batch_set_threads(struct TessBatch *batch, uint32_t threads);
 
 /**
  * Gets the CPU level that a batch runs at, `TESS_LEVEL_...`.
@@ -1186,12 +1194,12 @@ TessStatus tess_batch_count(struct TessBatch *batch,
 /**
  * Tessellates a batch into the caller's buffers.
  *
- * The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has its
- * sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the sizes that are needed;
- * `tess_shortage` names the buffer. With any other status nothing is written. No ranges are written if
- * `ranges` is null and `range_capacity` 0. Buffers, factors and `counts` must not overlap
- * (`TESS_OVERLAP`). A call allocates where a patch has point counts that this batch has not met before;
- * after `tess_batch_reserve` none does.
+ * The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has
+ * its sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the sizes that are
+ * needed; `tess_shortage` names the buffer. With any other status nothing is written. No ranges
+ * are written if `ranges` is null and `range_capacity` 0. Buffers, factors and `counts` must not
+ * overlap (`TESS_OVERLAP`). A call allocates where a patch has point counts that this batch has
+ * not met before; after `tess_batch_reserve` none does.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1214,11 +1222,11 @@ TessStatus tess_batch_run(struct TessBatch *batch,
 /**
  * Gets the range of each group of patches in a batch's output.
  *
- * `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them; `starts` holds the
- * numbers of the patches at which `group_count` groups begin, in ascending order. A group ends where the
- * next one begins, the last one at the end of the batch. A start below the one before it, or past the end
- * of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written. `groups` must not overlap the other
- * arrays (`TESS_OVERLAP`).
+ * `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them; `starts`
+ * holds the numbers of the patches at which `group_count` groups begin, in ascending order. A
+ * group ends where the next one begins, the last one at the end of the batch. A start below the
+ * one before it, or past the end of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written.
+ * `groups` must not overlap the other arrays (`TESS_OVERLAP`).
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1235,21 +1243,22 @@ TessStatus tess_batch_groups(const struct TessRange *ranges,
                              struct TessRange *groups);
 
 /**
- * Tessellates one patch into the caller's buffers: `tess_batch_run` for callers that have one patch at a
- * time, such as drivers, emulators and test benches.
+ * Tessellates one patch into the caller's buffers: `tess_batch_run` for callers that have one
+ * patch at a time, such as drivers, emulators and test benches.
  *
- * `factors` holds the factors of one patch: 2, 4 or 6 floats. The ranges, numbering and `base_vertex` of
- * `output` are ignored; indices count from the patch's first point. With `TESS_OK` the output is
- * written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the
- * sizes that are needed; `tess_shortage` names the buffer. With any other status nothing is written. Up to 64 elements past the output may be overwritten in either
- * buffer, as far as it has room for them; a call with that much room is the fastest. Buffers, factors and
- * `counts` must not overlap (`TESS_OVERLAP`).
+ * `factors` holds the factors of one patch: 2, 4 or 6 floats. The ranges, numbering and
+ * `base_vertex` of `output` are ignored; indices count from the patch's first point. With
+ * `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only
+ * `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With any
+ * other status nothing is written. Up to 64 elements past the output may be overwritten in either
+ * buffer, as far as it has room for them; a call with that much room is the fastest. Buffers,
+ * factors and `counts` must not overlap (`TESS_OVERLAP`).
  *
- * A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of 2022 with
- * AVX-512). With `TESS_MEMORY_INITIALISED` and the same factors as the previous patch, it takes 19 ns and
- * 28 ns on a server of 2024. It is faster than `tess_batch_run` with one patch, which counts twice; for large
- * patches the two take equally long. A call allocates where a patch has point counts that this batch has not met before; after
- * `tess_batch_reserve` none does.
+ * A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of
+ * 2022 with AVX-512). With `TESS_MEMORY_INITIALISED` and the same factors as the previous patch,
+ * it takes 19 ns and 28 ns on a server of 2024. It is faster than `tess_batch_run` with one patch,
+ * which counts twice; for large patches the two take equally long. A call allocates where a patch
+ * has point counts that this batch has not met before; after `tess_batch_reserve` none does.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1269,8 +1278,9 @@ TessStatus tess_batch_patch(struct TessBatch *batch,
                             struct TessCounts *counts);
 
 /**
- * A factor for segments of `segment` pixels on the straight edge from `a` to `b`. `pixels_per_unit` is the number of
- * pixels that a length of 1 covers at distance 1: for a picture of height h and field of view f, h / (2 tan(f / 2)).
+ * A factor for segments of `segment` pixels on the straight edge from `a` to `b`.
+ * `pixels_per_unit` is the number of pixels that a length of 1 covers at distance 1: for a picture
+ * of height h and field of view f, h / (2 tan(f / 2)).
  */
 float tess_edge_by_screen_size(struct TessVec3 a,
                                struct TessVec3 b,
@@ -1279,8 +1289,8 @@ float tess_edge_by_screen_size(struct TessVec3 a,
                                float segment);
 
 /**
- * A factor for segments of `segment` pixels on the straight edge from `a` to `b`, under a camera without perspective: a
- * length of 1 covers `pixels_per_unit` pixels at any distance.
+ * A factor for segments of `segment` pixels on the straight edge from `a` to `b`, under a camera
+ * without perspective: a length of 1 covers `pixels_per_unit` pixels at any distance.
  */
 float tess_edge_by_length(struct TessVec3 a,
                           struct TessVec3 b,
@@ -1288,8 +1298,8 @@ float tess_edge_by_length(struct TessVec3 a,
                           float segment);
 
 /**
- * A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative or NaN, still does
- * if `most` is positive.
+ * A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative
+ * or NaN, still does if `most` is positive.
  */
 float tess_at_most(float factor, float most);
 
@@ -1299,12 +1309,10 @@ float tess_at_most(float factor, float most);
 float tess_edge_by_distance(struct TessVec3 a, struct TessVec3 b, struct TessVec3 eye, float scale);
 
 /**
- * A factor that keeps equal segments within `tolerance`, in units of the positions, of the point-normal edge between
- * two corners.
+ * A factor that keeps equal segments within `tolerance`, in units of the positions, of the
+ * point-normal edge between two corners.
  */
-float tess_edge_by_curvature(struct TessCorner a,
-                             struct TessCorner b,
-                             float tolerance);
+float tess_edge_by_curvature(struct TessCorner a, struct TessCorner b, float tolerance);
 
 /**
  * The inside factor of a triangle with these factors on its edges: their mean.
@@ -1312,24 +1320,23 @@ float tess_edge_by_curvature(struct TessCorner a,
 float tess_inside_triangle(float u0, float v0, float w0);
 
 /**
- * An inside factor of a quad with these factors on the two edges that run the same way: their mean. Inside factor U is
- * the mean of the edges V=0 and V=1, inside factor V the mean of the edges U=0 and U=1.
+ * An inside factor of a quad with these factors on the two edges that run the same way: their
+ * mean. Inside factor U is the mean of the edges V=0 and V=1, inside factor V the mean of the
+ * edges U=0 and U=1.
  */
-float tess_inside_quad(float one,
-                       float other);
+float tess_inside_quad(float one, float other);
 
 /**
- * Whether a ball is wholly outside one of the six planes of a projection with z from 0 to w, as in Direct3D, Vulkan,
- * Metal and WebGPU: 1 or 0. The ball must hold the whole patch, including its displacement. Give a patch that is
- * outside factors of 0.
+ * Whether a ball is wholly outside one of the six planes of a projection with z from 0 to w, as in
+ * Direct3D, Vulkan, Metal and WebGPU: 1 or 0. The ball must hold the whole patch, including its
+ * displacement. Give a patch that is outside factors of 0.
  */
-uint32_t tess_is_outside(struct TessMat4 clip_from_world,
-                         struct TessVec3 center,
-                         float radius);
+uint32_t tess_is_outside(struct TessMat4 clip_from_world, struct TessVec3 center, float radius);
 
 /**
- * Whether all of a surface faces away from the eye: 1 or 0. The ball holds the surface. Its normals are within an angle
- * of less than 90 degrees of the unit vector `axis`; `sine` is the sine of that angle.
+ * Whether all of a surface faces away from the eye: 1 or 0. The ball holds the surface. Its
+ * normals are within an angle of less than 90 degrees of the unit vector `axis`; `sine` is the
+ * sine of that angle.
  */
 uint32_t tess_faces_away(struct TessVec3 center,
                          float radius,
@@ -1340,17 +1347,19 @@ uint32_t tess_faces_away(struct TessVec3 center,
 /**
  * Compares a tessellator with the model on the patch that a fuzzer's bytes stand for.
  *
- * Any bytes are a patch of a configuration that the options ask for. Most patches are small, and boundaries
- * are frequent. Without options (null) the comparison is exact, and every configuration is asked for.
+ * Any bytes are a patch of a configuration that the options ask for. Most patches are small, and
+ * boundaries are frequent. Without options (null) the comparison is exact, and every configuration
+ * is asked for.
  *
  * - `TESS_OK`: equal.
- * - `TESS_LEFT_OUT`: the tessellator does not have the configuration; nothing was compared. Count these: a run
- *   in which every patch is left out shows nothing.
- * - `TESS_DIFFERENT`: a finding. `message` receives the case as a line for `tess patch --cases`, a command
- *   that shows the right output, and the first difference. The message ends with a zero byte and is cut
- *   off at `message_capacity` bytes; 1024 are enough.
+ * - `TESS_LEFT_OUT`: the tessellator does not have the configuration; nothing was compared. Count
+ *   these: a run in which every patch is left out shows nothing.
+ * - `TESS_DIFFERENT`: a finding. `message` receives the case as a line for `tess patch --cases`, a
+ *   command that shows the right output, and the first difference. The message ends with a zero
+ *   byte and is cut off at `message_capacity` bytes; 1024 are enough.
  *
- * `message` must not overlap `data` (`TESS_OVERLAP`; nothing was compared). This function allocates.
+ * `message` must not overlap `data` (`TESS_OVERLAP`; nothing was compared). This function
+ * allocates.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1368,19 +1377,22 @@ TessStatus tess_fuzz(const uint8_t *data,
                      size_t message_capacity);
 
 /**
- * Asks a tessellator for the patches of `tess gen --rules`, and judges its outputs by the rules of a standard.
+ * Asks a tessellator for the patches of `tess gen --rules`, and judges its outputs by the rules of
+ * a standard.
  *
- * `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come after the 12 671
- * systematic ones of the standard split order. For Direct3D 11 the model says where vertices are; for the other
- * standards it is not asked. Patches of configurations that the tessellator does not have are left out.
+ * `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come
+ * after the 12 671 systematic ones of the standard split order. For Direct3D 11 the model says
+ * where vertices are; for the other standards it is not asked. Patches of configurations that the
+ * tessellator does not have are left out.
  *
  * - `TESS_OK`: no rule is broken.
  * - `TESS_DIFFERENT`: a rule is broken, or the tessellator failed.
  * - `TESS_LEFT_OUT`: it has none of the configurations; nothing was judged.
  *
- * `report` receives the text that `tess check --rules` prints: each rule as held, broken or not exercised, with the
- * smallest patches that break it; or the patch at which the tessellator failed. It ends with a zero byte and is cut
- * off at `report_capacity` bytes; 16384 are enough. This function allocates.
+ * `report` receives the text that `tess check --rules` prints: each rule as held, broken or not
+ * exercised, with the smallest patches that break it; or the patch at which the tessellator
+ * failed. It ends with a zero byte and is cut off at `report_capacity` bytes; 16384 are enough.
+ * This function allocates.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:

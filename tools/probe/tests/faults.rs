@@ -188,7 +188,9 @@ fn flushed_denormals_are_explained_and_may_be_asked_for() {
     let flush = |captured: &mut Captured| captured.vertices.clear();
     let report = judged(DENORMAL, any(), flush);
     assert_eq!((report.different, report.rows[0].culling), (1, 1), "they differ: {report}");
-    assert_eq!((explained(&report), report.unexplained.patches), (vec![Way::Flush], 0), "{report}");
+    // A denormal is 0 as a half too, so this patch cannot tell the two apart.
+    let ways = vec![Way::Flush, Way::HalfFactors];
+    assert_eq!((explained(&report), report.unexplained.patches), (ways, 0), "{report}");
     let report = judged(DENORMAL, Strength { denormals: Denormals::Flush, ..any() }, flush);
     assert_eq!(report.different, 0, "with the freedom they are equal: {report}");
     let report = judged(LINE, any(), flush);
