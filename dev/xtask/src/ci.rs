@@ -2,9 +2,9 @@
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
-use crate::{examples, features, fuzz, levels, models, publish, script, test};
+use crate::{examples, features, fuzz, levels, publish, script, test};
 
-/// Formatting, checks of texts and records, lints, documentation, features, the fuzz targets, models,
+/// Formatting, checks of texts and records, lints, documentation, features, the fuzz targets,
 /// other compilers and processors, packages, then every test.
 pub(crate) fn run() -> Result<(), String> {
     if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
@@ -26,7 +26,6 @@ pub(crate) fn run() -> Result<(), String> {
     command::lock_versions(&command::workspace(), "fuzz")?;
     command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
     fuzz::run(&["3"])?;
-    models::of_every_kind()?;
     ports::run(&["msrv", "s390x", "wasm", "miri"], Extent::Brief)?;
     publish::dry_run()?;
     publish::deny_if_installed()?;

@@ -55,7 +55,7 @@ usage: cargo xtask <command>
   test all
           run every test: Python, the browser, OpenGL, a window, simulators, the explorer and benches too
   ci      what continuous integration runs: formatting, `traceability`, `public`, lints, documentation, `features`,
-          the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU, `models`,
+          the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
   setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
           Icarus Verilog, Python
