@@ -120,17 +120,21 @@ def width(path, text):
     return found
 
 
+def rust_files():
+    """The paths of all files of Rust that git knows."""
+    known = subprocess.run(["git", "ls-files", "--", "*.rs"], cwd=ROOT, check=True, capture_output=True, text=True)
+    return known.stdout.splitlines()
+
+
 def main(words):
     if words == ["traceability"]:
         count, faults = traceability(read("docs/specification.md"), read("docs/traceability.md"), read)
         print(f"{count} demands of the specification, each with what sees a violation")
     elif words == ["public"]:
-        known = subprocess.run(["git", "ls-files", "--", "*.rs"], cwd=ROOT, check=True, capture_output=True, text=True)
-        count, faults = public(LIBRARIES, {path: read(path) for path in known.stdout.splitlines()})
+        count, faults = public(LIBRARIES, {path: read(path) for path in rust_files()})
         print(f"{count} public items of the published libraries, each with a user outside their own crate's src")
     elif words == ["width"]:
-        known = subprocess.run(["git", "ls-files", "--", "*.rs"], cwd=ROOT, check=True, capture_output=True, text=True)
-        files = [path for path in known.stdout.splitlines() if not (ROOT / path).is_symlink()]
+        files = [path for path in rust_files() if not (ROOT / path).is_symlink()]
         count, faults = len(files), [fault for path in files for fault in width(path, read(path))]
         print(f"{count} files of Rust, whose comments have at most {WIDTH} columns")
     else:
