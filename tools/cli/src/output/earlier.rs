@@ -11,7 +11,7 @@
 //! that the command reads.
 
 use super::distinct::Role;
-use super::file::Destination;
+use super::file::{Destination, is_gone};
 use crate::failure::Failure;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
@@ -129,7 +129,6 @@ impl Named {
             return Ok(());
         }
         // Another run may remove the same file meanwhile.
-        let is_gone = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
         let fits =
             form.fits(&file).or_else(|error| if is_gone(&error) { Ok(true) } else { Err(error) });
         if !fits.map_err(|error| Failure::file("read", path, &error))? {

@@ -36,15 +36,21 @@ impl Destination {
             Ok(found) if is_descriptor || path == Path::new("/dev/stderr") || !found.is_file() => {
                 Ok(Self::Stream(path.to_owned()))
             }
-            Ok(_) => {
-                // A file that may not be written is not replaced either.
-                File::options().write(true).open(path)?;
-                follow(path).map(Self::File)
-            }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => follow(path).map(Self::File),
+            // A file that may not be written is not replaced either. Another run may remove it
+            // meanwhile.
+            Ok(_) => match File::options().write(true).open(path) {
+                Err(error) if !is_gone(&error) => Err(error),
+                _ => follow(path).map(Self::File),
+            },
+            Err(error) if is_gone(&error) => follow(path).map(Self::File),
             Err(error) => Err(error),
         }
     }
+}
+
+/// Whether a file was not there.
+pub(super) fn is_gone(error: &io::Error) -> bool {
+    error.kind() == io::ErrorKind::NotFound
 }
 
 /// The path that a chain of symbolic links ends at, whether anything is there or not.
