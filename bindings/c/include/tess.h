@@ -1298,6 +1298,14 @@ float tess_edge_by_length(struct TessVec3 a,
                           float segment);
 
 /**
+ * The factor of an edge beside two edges of half its length, a power of two in 2..=64, from the
+ * factor that a rule has for the whole edge; each half gets half as much. With these both sides
+ * have the same points under integer and power-of-two partitioning. Neighbours must compute both
+ * from the whole edge.
+ */
+float tess_edge_beside_halves(float factor);
+
+/**
  * A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative
  * or NaN, still does if `most` is positive.
  */

@@ -48,7 +48,7 @@ const MESSAGES: [&CStr; 16] = [
     c"an enumeration has an unknown value",
     c"the number of factors does not fit the domain",
     c"a buffer is too small (tess_shortage names it)",
-    c"there is no element of this number",
+    c"a number is out of range: 0, or past the last element",
     c"no factor has this context",
     c"two buffers overlap",
     c"a size is too large",

@@ -76,6 +76,16 @@ pub extern "C" fn tess_edge_by_length(
     factors::edge_by_length([a.into(), b.into()], pixels_per_unit, segment)
 }
 
+/// The factor of an edge beside two edges of half its length, a power of two in 2..=64, from the
+/// factor that a rule has for the whole edge; each half gets half as much. With these both sides
+/// have the same points under integer and power-of-two partitioning. Neighbours must compute both
+/// from the whole edge.
+#[unsafe(no_mangle)]
+pub extern "C" fn tess_edge_beside_halves(factor: f32) -> f32 {
+    let [whole, _] = factors::edge_beside_halves(factor);
+    whole
+}
+
 /// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative
 /// or NaN, still does if `most` is positive.
 #[unsafe(no_mangle)]

@@ -2,9 +2,9 @@
 
 use proptest::prelude::{any, prop_assert_eq, proptest};
 use tess_capi::surface::{
-    TessCorner, TessMat4, TessVec3, tess_at_most, tess_edge_by_curvature, tess_edge_by_distance,
-    tess_edge_by_length, tess_edge_by_screen_size, tess_faces_away, tess_inside_quad,
-    tess_inside_triangle, tess_is_outside,
+    TessCorner, TessMat4, TessVec3, tess_at_most, tess_edge_beside_halves, tess_edge_by_curvature,
+    tess_edge_by_distance, tess_edge_by_length, tess_edge_by_screen_size, tess_faces_away,
+    tess_inside_quad, tess_inside_triangle, tess_is_outside,
 };
 use tess_surface::glam::{Mat4, Vec3};
 use tess_surface::{PnCorner, culling, factors};
@@ -36,6 +36,9 @@ proptest! {
         prop_assert_eq!(tess_edge_by_length(a, b, scale, segment).to_bits(), length.to_bits());
         let most = factors::at_most(scale, segment);
         prop_assert_eq!(tess_at_most(scale, segment).to_bits(), most.to_bits());
+        let [whole, half] = factors::edge_beside_halves(scale / 12.0);
+        let asked = tess_edge_beside_halves(scale / 12.0);
+        prop_assert_eq!((asked.to_bits(), asked / 2.0), (whole.to_bits(), half));
         let (one, rone) = corner(ra.to_array(), other);
         let (two, rtwo) = corner(rb.to_array(), reye.normalize_or_zero().to_array());
         let curved = factors::edge_by_curvature([rone, rtwo], segment);
