@@ -1,14 +1,30 @@
 // Tries the package in pages that have nothing else: node try.mjs FOLDER CASES. The folder has the package below
-// node_modules and the README's page as index.html. Recorded cases must come out to the bit.
+// node_modules and the README's page as index.html. Recorded cases must come out to the bit, and factors as factors.json
+// beside this file has them.
 
 import { createRequire } from "node:module";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 
 const [folder, cases] = process.argv.slice(2);
 const packed = join(folder, "node_modules/tess-webgpu");
 const { chromium } = createRequire(join(process.env.EXPLORER_MODULES, "/"))("playwright-core");
 const PAGE = "http://localhost/";
+
+// Calls each factor rule with the recorded arguments, as bits; the number of calls.
+async function compareFactors() {
+  const factors = await import(pathToFileURL(join(packed, "factors.js")));
+  const numbers = (bits) => [...new Float32Array(new Uint32Array(bits).buffer)];
+  const calls = JSON.parse(readFileSync(new URL("factors.json", import.meta.url), "utf8"));
+  for (const [name, given, bits] of calls) {
+    const results = [factors[name](...given.map(numbers).map((list) => list.length === 1 ? list[0] : list))].flat();
+    const observed = [...new Uint32Array(new Float32Array(results).buffer)];
+    if (String(observed) !== String(bits)) throw new Error(`${name}(${given.map(numbers).join("; ")}): ${results}, not ${numbers(bits)}`);
+  }
+  if (calls.length < 100) throw new Error(`only ${calls.length} factors were compared`);
+  console.log(`test factors ... ok (${calls.length} calls)`);
+}
 
 // The recorded batches of each setup that the package has.
 function recorded() {
@@ -111,6 +127,7 @@ const drawing = [
 ];
 const open = (args) => chromium.launch({ executablePath: "/usr/bin/chromium", args });
 
+await compareFactors();
 const showing = await open(drawing);
 await openReadmePage(await showing.newPage());
 await showing.close();
@@ -121,7 +138,7 @@ await page.route(PAGE + "**", (route) => {
   return name === "" ? route.fulfill({ contentType: "text/html", body: "<!doctype html>" }) : route.fulfill({ path: join(packed, name) });
 });
 await page.goto(PAGE);
-let compared = 0, passed = 1;
+let compared = 0, passed = 2;
 for (const [setup, batch] of Object.entries(recorded())) {
   if (!folders.includes(setup)) throw new Error(`the package has no ${setup}`);
   const [domain, partitioning] = setup.split("-");

@@ -15,6 +15,7 @@ mod edges;
 mod errors;
 mod factors;
 mod flatness;
+mod javascript;
 mod models;
 mod normals;
 mod point_normal;

@@ -85,7 +85,7 @@ pub(super) fn pack(release: &Release) -> Result<(), String> {
 
 pub(super) fn pack_npm(release: &Release) -> Result<(), String> {
     let stage = release.stage("package")?;
-    for file in ["tess.js", "tess.d.ts"] {
+    for file in ["tess.js", "tess.d.ts", "factors.js", "factors.d.ts"] {
         copy_tracked(&format!("bindings/webgpu/{file}"), &stage.join(file))?;
     }
     let description = workspace().join("bindings/webgpu/package.json");
