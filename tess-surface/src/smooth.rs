@@ -19,6 +19,10 @@ use glam::{DVec3, Vec3};
 /// The cosine of the smallest angle between normals at which neighbours lie on each other.
 const FOLDED: f32 = -0.9999;
 
+/// The same for neighbours that have their corners in common with each other's neighbours, as both
+/// sides of a sheet whose faces are not flat. Those of a regular tetrahedron have -1/3.
+const FOLDED_ON_CORNERS: f32 = -0.5;
+
 /// The cosine of the largest angle between normals at which fans without a common edge are one
 /// sheet.
 const ONE_SHEET: f32 = 0.5;
@@ -58,21 +62,62 @@ pub(crate) fn smooth_normals(
     normals
 }
 
-/// The half-edges at seams, and those whose neighbour runs the same way: it is another sheet.
+/// The half-edges at seams, and those whose neighbour belongs to another sheet.
 fn unlike_neighbours<'a>(
     mesh: &'a PolygonMesh,
     vertices: &'a [u32],
     topology: &'a Topology,
 ) -> impl Iterator<Item = HalfEdge> + 'a {
-    let edges = MeshEdges { mesh, vertices };
     let halves = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
         (0..face.positions.as_slice().len()).map(move |edge| HalfEdge { patch, edge })
     });
-    let turned = halves.filter(move |&half| {
+    let unlike = halves.filter(move |&half| {
         let twin = topology.twin(half).filter(|&twin| half < twin);
-        twin.is_some_and(|twin| edges.is_forward(half) == edges.is_forward(twin))
+        twin.is_some_and(|twin| !is_one_sheet(mesh, vertices, topology, half, twin))
     });
-    topology.seams.iter().flatten().copied().chain(turned)
+    topology.seams.iter().flatten().copied().chain(unlike)
+}
+
+/// Whether neighbours run the same way round and do not lie on each other.
+///
+/// ```text
+///     d ------- c      The front has the faces abc and acd, the back bad and bdc. At the border ab
+///     |  \  /  |      abc and bad are neighbours, although d is not a corner of abc: it is one
+///     |   /\   |      of acd, the neighbour of abc.
+///     a ------- b
+/// ```
+fn is_one_sheet(
+    mesh: &PolygonMesh,
+    vertices: &[u32],
+    topology: &Topology,
+    half: HalfEdge,
+    twin: HalfEdge,
+) -> bool {
+    let edges = MeshEdges { mesh, vertices };
+    if edges.is_forward(half) == edges.is_forward(twin) {
+        return false;
+    }
+    let vertices_of = |patch: usize| {
+        let positions = mesh.faces[patch].positions.as_slice().iter();
+        positions.map(|&position| vertices[position as usize])
+    };
+    let all_within = |patch: usize, others: &[usize]| {
+        let is_there = |vertex| others.iter().any(|&other| vertices_of(other).any(|v| v == vertex));
+        vertices_of(patch).all(is_there)
+    };
+    let around = |half: HalfEdge| {
+        let others = (0..4).filter(move |&edge| edge != half.edge);
+        let twins =
+            others.filter_map(move |edge| topology.twin(HalfEdge { patch: half.patch, edge }));
+        twins.map(|twin| twin.patch).chain([half.patch]).collect::<Vec<_>>()
+    };
+    let cosine = edges.normal(half).dot(edges.normal(twin));
+    let is_folded = cosine < FOLDED
+        || all_within(twin.patch, &[half.patch])
+        || all_within(half.patch, &[twin.patch])
+        || cosine < FOLDED_ON_CORNERS
+            && (all_within(twin.patch, &around(half)) || all_within(half.patch, &around(twin)));
+    !is_folded
 }
 
 /// The vertex, the face and the number of each corner.
@@ -93,17 +138,13 @@ fn normals_of_sheets(
     is_mixed: &[bool],
     topology: &Topology,
 ) -> Vec<(u32, Vec3)> {
-    let edges = MeshEdges { mesh, vertices };
     let slots = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
         let positions = face.positions.as_slice().iter().enumerate();
         positions.map(move |(edge, &position)| {
             (vertices[position as usize], HalfEdge { patch, edge }.slot())
         })
     });
-    let joins = |half: HalfEdge, twin: HalfEdge| {
-        let is_folded = edges.normal(half).dot(edges.normal(twin)) < FOLDED;
-        !is_folded && edges.is_forward(half) != edges.is_forward(twin)
-    };
+    let joins = |half, twin| is_one_sheet(mesh, vertices, topology, half, twin);
     let beyond = |half| topology.twin(half).filter(|&twin| joins(half, twin)).into_iter();
     let mut normals = Vec::new();
     for place in mixed(slots, is_mixed).chunk_by(|a, b| a.0 == b.0) {

@@ -70,6 +70,50 @@ fn curved_sheets() {
     }
 }
 
+/// Faces that are not flat, cut along one diagonal in front and along the other one behind, or not
+/// at all in front: each side's normals are those of a sheet that has one side only.
+#[test]
+fn curved_sides_that_are_cut_differently() {
+    let hills = hills();
+    let quads: Vec<[u32; 4]> = hills
+        .faces
+        .iter()
+        .map(|face| *face.positions.as_slice().as_array().expect("a quad"))
+        .collect();
+    let cut = |turn: usize, reversed: bool| -> Vec<Vec<u32>> {
+        let halves = quads.iter().flat_map(|quad| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|corner| quad[(corner + turn) % 4]);
+            [vec![a, b, c], vec![a, c, d]]
+        });
+        halves.map(|face| if reversed { face.into_iter().rev().collect() } else { face }).collect()
+    };
+    let whole: Vec<Vec<u32>> = quads.iter().map(|quad| quad.to_vec()).collect();
+    // A quad and half of it are two sides however steep they are.
+    for (front, steepness) in [(whole, 1.0), (cut(0, false), 0.3)] {
+        let points: Vec<[f32; 3]> =
+            hills.positions.iter().map(|point| [point.x, point.y, steepness * point.z]).collect();
+        let model = |faces: &[Vec<u32>]| {
+            let faces: Vec<&[u32]> = faces.iter().map(Vec::as_slice).collect();
+            rounded(mesh(&points, &faces))
+        };
+        for turn in [0, 1] {
+            let back = cut(turn, true);
+            let both = model(&[&front[..], &back].concat());
+            let sides = [(model(&front), 0), (model(&back), front.len())];
+            for (side, first) in &sides {
+                for number in 0..side.len() {
+                    let found = samples(&both.patch(first + number)).map(|sample| sample.normal);
+                    let expected = samples(&side.patch(number)).map(|sample| sample.normal);
+                    for (found, expected) in found.iter().zip(expected) {
+                        let near = found.distance(expected) < 1e-3;
+                        assert!(near, "turn {turn}, face {number} of {first}: {found} {expected}");
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// The faces of one that has the wrong order are a sheet of their own.
 #[test]
 fn a_face_in_the_wrong_order() {
