@@ -32,7 +32,7 @@ at_each_level! {
         config: Config,
         batch: &Batch<'_>,
         kept: &mut [Packet; Chunk::PACKETS],
-    ) -> PartCounts = kernels::front_end::count_and_keep;
+    ) -> Option<PartCounts> = kernels::front_end::count_and_keep;
 }
 
 at_each_level! {

@@ -9,8 +9,8 @@ use std::process::Command;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// The most bytes that the page may load.
-const LARGEST: u64 = 1_560_000;
+/// The most bytes that the page may load; compressed they are a third.
+const LARGEST: u64 = 1_650_000;
 
 /// The version of the library that drives the browser.
 const PLAYWRIGHT: &str = "playwright-core@1.65.1";

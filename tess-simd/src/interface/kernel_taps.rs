@@ -171,7 +171,8 @@ impl KernelTap {
             Kernel::Process => levels::process(*level, config, &batch, kept),
             Kernel::Count => *part = levels::count(*level, config, &batch),
             Kernel::CountAndKeep => {
-                *part = levels::count_and_keep(*level, config, &batch, kept);
+                let counted = levels::count_and_keep(*level, config, &batch, kept);
+                *part = counted.unwrap_or_else(|| levels::count(*level, config, &batch));
                 // Of a batch that begins with a run it keeps one patch or none.
                 if part.run > 1 {
                     levels::process(*level, config, &batch, kept);

@@ -195,7 +195,9 @@ impl Tessellator {
         // Made by the first batch whatever its size, so that no later one has to.
         let packets = kept.get_or_insert_with(no_packets);
         if keep {
-            slices[0] = levels::count_and_keep(level, settings.config, &batch, packets);
+            let config = settings.config;
+            slices[0] = levels::count_and_keep(level, config, &batch, packets)
+                .unwrap_or_else(|| levels::count(level, config, &batch));
         } else {
             let share = CountShare { batch, slice: slicing.patches, counts: slices };
             workspaces.count(level, settings.config, share);

@@ -13,8 +13,14 @@ use tess_core::Config;
 pub(crate) fn process(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk::PACKETS]) {
     if batch.len() <= FEW {
         process_few(config, batch, batch.len(), &mut packets[0]);
-        return;
+    } else {
+        process_many(config, batch, packets);
     }
+}
+
+/// Takes up to a chunk of patches through the front end, a packet at a time.
+#[inline(always)]
+fn process_many(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk::PACKETS]) {
     let mut chunk = Chunk::EMPTY;
     chunk.load(batch);
     let (patches, domain) = (batch.len(), batch.domain());
@@ -54,30 +60,30 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
 
 /// [`process`], then the output sizes of these patches together.
 ///
-/// Of a batch of equal patches, one is kept. Another that begins with a run is counted, and nothing
-/// is kept.
+/// Of a batch of equal patches, one is kept. `None` for another that begins with a run, which
+/// [`count`] is for: nothing is kept.
 #[inline(always)]
 pub(crate) fn count_and_keep(
     config: Config,
     batch: &Batch<'_>,
     kept: &mut [Packet; Chunk::PACKETS],
-) -> PartCounts {
+) -> Option<PartCounts> {
     let (patches, run) = (batch.len(), batch.run(0));
-    if run == patches {
-        return process_few(config, batch, 1, &mut kept[0]).times(run);
+    let all_equal = run == patches;
+    if run >= Stretch::WORTH_REPEATING && !all_equal {
+        return None;
     }
-    if run >= Stretch::WORTH_REPEATING {
-        return count(config, batch);
+    let unlike = if all_equal { 1 } else { patches };
+    if unlike <= FEW {
+        let counts = process_few(config, batch, unlike, &mut kept[0]);
+        return Some(if all_equal { counts.times(run) } else { counts });
     }
-    if patches <= FEW {
-        return process_few(config, batch, patches, &mut kept[0]);
-    }
-    process(config, batch, kept);
+    process_many(config, batch, kept);
     let mut sums = Sums::default();
     for packet in kept.iter().take(patches.div_ceil(LANES)) {
         sums.add(&packet.counts);
     }
-    sums.total()
+    Some(sums.total())
 }
 
 /// As many patches are processed one by one: that takes less than a whole packet.
