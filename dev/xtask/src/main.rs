@@ -53,7 +53,7 @@ usage: cargo xtask <command>
           kit, the program and C; or only those of a package's folder (tess-core) or file (tess-core/tests/golden.rs),
           of which only those whose names have one of the words
   test all
-          run every test: Python, the browser, OpenGL, a window, simulators, the explorer and benches too
+          run every test: Python, models, the browser, OpenGL, a window, simulators, the explorer and benches too
   ci      what continuous integration runs: formatting, `traceability`, `public`, lints, documentation, `features`,
           the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`

@@ -19,13 +19,23 @@ const VALIDATOR: &str = "gltf-validator@2.0.0-dev.3.10";
 /// # Errors
 /// A file is not read, or an output is wrong; the judges cannot be installed.
 pub(crate) fn of_every_kind() -> Result<(), String> {
+    command::run(&mut judge_made(&command::program()?)?)
+}
+
+/// Makes small models of every kind, and gives the command that judges what this program `tess`
+/// makes of them.
+///
+/// # Errors
+/// The judges cannot be installed.
+pub(crate) fn judge_made(program: &Path) -> Result<Command, String> {
     let made = folder().join("made");
     if made.exists() {
         fs::remove_dir_all(&made).map_err(|error| in_file(&made, &error))?;
     }
-    let mut judge = judge()?;
+    let mut judge = judge(program)?;
     command::run(command::python().arg(scripts().join("make.py")).arg(&made))?;
-    command::run(judge.arg(&made).arg("--made"))
+    judge.arg(&made).arg("--made");
+    Ok(judge)
 }
 
 /// Judges the outputs for all models in these folders.
@@ -33,13 +43,12 @@ pub(crate) fn of_every_kind() -> Result<(), String> {
 /// # Errors
 /// An output is wrong; the judges cannot be installed.
 pub(crate) fn run(folders: &[&str]) -> Result<(), String> {
-    command::run(judge()?.args(folders))
+    command::run(judge(&command::program()?)?.args(folders))
 }
 
-/// The command that judges, without its folders.
-fn judge() -> Result<Command, String> {
+/// The command that judges what this program makes, without its folders.
+fn judge(program: &Path) -> Result<Command, String> {
     setup::provide(&[PYTHON, NODE])?;
-    let program = command::program()?;
     let environment = folder().join("venv");
     let (python, done) = (environment.join("bin/python"), environment.join("done"));
     if fs::read_to_string(&done).ok().as_deref() != Some(PACKAGES.join(" ").as_str()) {

@@ -2,7 +2,7 @@
 
 use crate::suite::{self, Extent, TestSelection};
 use crate::tally::{Job, TestReport};
-use crate::{command, dist, examples, explorer, levels, python, setup};
+use crate::{command, dist, examples, explorer, levels, models, python, setup};
 
 /// The rule where no browser can be had.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -27,9 +27,9 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
     report.beside_each_other(suite::jobs(extent, &TestSelection::of(arguments))?)?;
     if arguments.is_empty() {
         println!(
-            "\nNOT RUN: all recorded results on the GPU, every pass of the shaders beside its twin, shaders in \
-             other languages, OpenGL, a window, simulators, Python, the explorer, the programs that measure. \
-             `cargo xtask test all` runs them, and so does `cargo xtask ci`."
+            "\nNOT RUN: all recorded results on the GPU, every pass of the shaders beside its twin, shaders \
+             in other languages, OpenGL, a window, simulators, Python, models judged by other programs, \
+             the explorer, the programs that measure. `cargo xtask test all` runs them, and so does `cargo xtask ci`."
         );
     }
     finish(report)
@@ -44,6 +44,7 @@ pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     // Compiled once, so that nothing else of the suite builds the program with other features.
     let mut jobs = suite::jobs(Extent::All, &TestSelection::default())?;
     let program = command::built_program();
+    jobs.insert(0, Job::new(models::judge_made(&program)?));
     jobs.insert(0, Job::new(python::in_a_process(&program)?));
     jobs.insert(0, Job::new(examples::cargo("test")?));
     let lacking = explorer::lacking();

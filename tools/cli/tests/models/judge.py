@@ -241,6 +241,8 @@ def main():
     for reason, count in refused.most_common():
         print(f"refused {count}: {reason}")
     print(f"{len(files)} files: {len(files) - refused.total()} read, {refused.total()} refused, {wrong} with complaints")
+    verdict = "FAILED" if wrong else "ok"
+    print(f"test result: {verdict}. {len(files) - wrong} passed; {wrong} failed; 0 ignored")
     sys.exit(1 if wrong else 0)
 
 
