@@ -34,7 +34,7 @@ pub enum Error {
         /// The largest index needed.
         largest: u64,
         /// The largest index of the format.
-        format: u64,
+        limit: u64,
     },
     /// The batch has more than 2^32 - 1 points or indices. Split it.
     BatchTooLarge {
@@ -70,8 +70,8 @@ impl fmt::Display for Error {
                 };
                 write!(f, "the {what} buffer holds {got} elements, but {needed} are needed")
             }
-            Self::IndexTooLarge { largest, format } => {
-                write!(f, "the batch needs the index {largest}, but indices end at {format}")
+            Self::IndexTooLarge { largest, limit } => {
+                write!(f, "the batch needs the index {largest}, but indices end at {limit}")
             }
             Self::BatchTooLarge { points, indices } => {
                 write!(

@@ -164,7 +164,7 @@ impl<'a> Counted<'a> {
     fn check_indices<I: IndexFormat>(&self, numbering: Numbering) -> Result<(), Error> {
         match self.largest_index(numbering) {
             Some(largest) if largest > I::LARGEST => {
-                Err(Error::IndexTooLarge { largest, format: I::LARGEST })
+                Err(Error::IndexTooLarge { largest, limit: I::LARGEST })
             }
             _ => Ok(()),
         }

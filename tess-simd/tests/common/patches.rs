@@ -235,7 +235,7 @@ pub(crate) fn compare<P: OutputPoint + Bits, I: IndexFormat + Bits>(
     };
     let result = tessellator.tessellate(batch, numbering, &mut output);
     if end.saturating_sub(1) > I::LARGEST {
-        let error = Error::IndexTooLarge { largest: end - 1, format: I::LARGEST };
+        let error = Error::IndexTooLarge { largest: end - 1, limit: I::LARGEST };
         assert_eq!(result, Err(error), "{what}");
         assert_eq!(output.ranges().len(), 0, "{what}: nothing written");
         return;

@@ -215,7 +215,7 @@ pub(crate) fn numbering<I: IndexFormat>(
     };
     let largest = (u64::from(base_vertex) + points).saturating_sub(1);
     let too_large = (points > 0 && largest > I::LARGEST)
-        .then_some(Error::IndexTooLarge { largest, format: I::LARGEST });
+        .then_some(Error::IndexTooLarge { largest, limit: I::LARGEST });
     (Numbering::PerBatch { base_vertex }, Some(base_vertex), too_large)
 }
 

@@ -145,7 +145,7 @@ impl<'a, P: OutputPoint, I: IndexFormat> ArrayRoom<'a, P, I> {
     /// The room of the output. Errors: those of [`Counted::write`].
     fn of_sizes(self, sizes: BatchSizes) -> Result<Self, Error> {
         if let Some(largest) = sizes.largest_index.filter(|&largest| largest > I::LARGEST) {
-            return Err(Error::IndexTooLarge { largest, format: I::LARGEST });
+            return Err(Error::IndexTooLarge { largest, limit: I::LARGEST });
         }
         let BatchCounts { patches, points, indices } = sizes.counts;
         Ok(Self {
