@@ -22,7 +22,7 @@ pub(crate) fn run() -> Result<(), String> {
         cargo("doc --workspace --no-deps --all-features").env("RUSTDOCFLAGS", "-D warnings"),
     )?;
     examples::lint()?;
-    features::check(&[])?;
+    features::check_brief()?;
     command::lock_versions(&command::workspace(), "fuzz")?;
     command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
     fuzz::run(&["3"])?;

@@ -1,7 +1,8 @@
 //! Every published package compiles with none of its features, with each, and with all.
 
 use crate::command::{self, cargo};
-use crate::{packages, setup};
+use crate::packages::{self, Package};
+use crate::setup;
 
 /// Checks the published packages, or only those with these names. A user's first command may be
 /// `--no-default-features`, which nothing else of the suite compiles.
@@ -15,13 +16,27 @@ pub(crate) fn check(names: &[&str]) -> Result<(), String> {
     if let Some(name) = names.iter().find(|name| !is_published(name)) {
         return Err(format!("no published package is `{name}`"));
     }
+    let is_chosen = |package: &&Package| names.is_empty() || names.contains(&package.name.as_str());
+    check_each(published.iter().filter(is_chosen))
+}
+
+/// As [`check`], but of the program only that it compiles with none: each of its features brings
+/// another build of the GPU's libraries. Lints compile it with all.
+///
+/// # Errors
+/// As for [`check`].
+pub(crate) fn check_brief() -> Result<(), String> {
+    let published = packages::published()?;
+    check_each(published.iter().filter(|package| package.name != PROGRAM))?;
+    command::run(&mut cargo(&format!("check --no-default-features --package {PROGRAM}")))
+}
+
+const PROGRAM: &str = "tess-program";
+
+fn check_each<'a>(chosen: impl Iterator<Item = &'a Package>) -> Result<(), String> {
     setup::subcommand("hack")?;
     // The packages are named because `--no-private` would change manifests while it runs.
     let mut hack = cargo("hack check --each-feature");
-    for package in &published {
-        if names.is_empty() || names.contains(&package.name.as_str()) {
-            hack.args(["--package", &package.name]);
-        }
-    }
+    hack.args(chosen.flat_map(|package| ["--package", &package.name]));
     command::run(&mut hack)
 }
