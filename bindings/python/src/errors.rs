@@ -33,7 +33,7 @@ pub(crate) fn no_such_element(message: impl Display) -> PyErr {
 /// Why a check gave no verdict.
 pub(crate) fn check(error: CheckError) -> PyErr {
     match error {
-        CheckError::Vectors(error) => file_format(error),
+        CheckError::Vectors(error) | CheckError::Malformed { error, .. } => file_format(error),
         CheckError::NoListings(_) => argument(error),
         error => TessError::new_err(error.to_string()),
     }

@@ -88,7 +88,7 @@ pub(crate) fn process_factor<'py>(
 /// ``factor`` and ``parity`` are as for :func:`context`; ``p`` is below the context's ``points``.
 ///
 /// >>> import tess_model
-/// >>> tess_model.place(0x28000, "odd", 1)
+/// >>> tess_model.place(0x28000, "odd", 1)  # doctest: +NORMALIZE_WHITESPACE
 /// Placement(flip=False, position=1, blend=Blend(coarse=0, fine=21845, fraction=49152),
 /// half_location=16384, location=16384)
 #[pyfunction]

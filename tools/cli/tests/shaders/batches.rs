@@ -59,7 +59,7 @@ impl Batch {
         let pick =
             |choice: bool, yes: &'static str, no: &'static str| if choice { yes } else { no };
         format!(
-            "--domain {} --partitioning {} --output {} --split {} --points {} --index-type {} --numbering {} --order {}",
+            "--domain {} --partitioning {} --output {} --split {} --points {} --index-type {} --numbering {} --index-order {}",
             self.domain.name(),
             partitioning.name(),
             output.name(),

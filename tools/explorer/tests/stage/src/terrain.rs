@@ -124,11 +124,11 @@ async fn difference(
     let (_, [Some(point_buffer), Some(index_buffer)]) = stage.inside() else {
         return Ok(Some("the stage stores no points".to_owned()));
     };
-    let observed = gpu.read_async(point_buffer, 8 * points).await?;
+    let observed = gpu.read_async(&point_buffer, 8 * points).await?;
     let observed: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&observed);
     let observed = observed.into_iter().map(PackedPoint);
     let observed = observed.map(|packed| (packed.patch(), packed.point()));
-    let observed_indices = gpu.read_async(index_buffer, 12 * primitives).await?;
+    let observed_indices = gpu.read_async(&index_buffer, 12 * primitives).await?;
     let observed_indices: Vec<u32> = bytemuck::pod_collect_to_vec(&observed_indices);
     Ok(first_difference("point", &observed.collect::<Vec<_>>(), &expected_points)
         .or_else(|| first_difference("index", &observed_indices, &expected_indices)))
