@@ -56,19 +56,19 @@ fn tess_to_world(at: TessPlace, local: vec3<f32>) -> vec3<f32> {
 // that the camera does not see.
 fn tess_edge(at: TessPlace, a: vec3<f32>, b: vec3<f32>) -> f32 {
     let rule = tess_instances[at.instance].rule;
-    let pixels = tess_view.pixels_per_unit;
+    let pixels = tess_camera.pixels_per_unit;
     switch u32(rule.x) {
         case 1u: {
             return tess_clamp_factor(rule.y);
         }
         case 2u: {
-            if tess_view.is_orthographic != 0u {
+            if tess_camera.is_orthographic != 0u {
                 return tess_quotient(distance(a, b) * pixels, rule.y);
             }
-            return tess_edge_by_screen_size(a, b, tess_view.eye, pixels, rule.y);
+            return tess_edge_by_screen_size(a, b, tess_camera.eye, pixels, rule.y);
         }
         case 3u: {
-            return tess_edge_by_distance(a, b, tess_view.eye, rule.y);
+            return tess_edge_by_distance(a, b, tess_camera.eye, rule.y);
         }
         default: {
             return 0.0;
@@ -79,7 +79,7 @@ fn tess_edge(at: TessPlace, a: vec3<f32>, b: vec3<f32>) -> f32 {
 // Whether the camera sees nothing of a ball in world space, nor of a shadow of it.
 fn tess_is_unseen(center: vec3<f32>, radius: f32) -> bool {
     for (var i = 0u; i < 6u; i++) {
-        if tess_is_behind(tess_view.planes[i], center, radius) {
+        if tess_is_behind(tess_camera.planes[i], center, radius) {
             return true;
         }
     }

@@ -40,5 +40,5 @@ struct Vertex {
 }
 
 // Binding 0 is Bevy's `mesh`, for its fragment functions.
-@group(TESS_GROUP) @binding(1) var<uniform> tess_view: TessView;
+@group(TESS_GROUP) @binding(1) var<uniform> tess_camera: TessView;
 @group(TESS_GROUP) @binding(2) var<storage, read> tess_instances: array<TessInstance>;

@@ -16,7 +16,7 @@ const PROJECT: &str = include_str!("../shaders/project.wgsl");
 const PREPASS: &str = include_str!("../shaders/prepass.wesl");
 /// [`PROJECT`] where there is no pass of Bevy's.
 const PROJECT_OF_HULL: &str = "fn tess_project(world: vec3<f32>) -> vec4<f32> {
-    return tess_view.clip_from_world * vec4<f32>(world, 1.0);
+    return tess_camera.clip_from_world * vec4<f32>(world, 1.0);
 }";
 const FRAGMENT: &str = include_str!("../shaders/fragment.wesl");
 /// Bevy's items that fragment.wesl uses, in one line in front of the shape's first.
