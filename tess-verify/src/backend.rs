@@ -68,7 +68,7 @@ pub trait Backend: Send {
 }
 
 fn whole_patches_alone(name: &str) -> BackendError {
-    BackendError::new(format!("{name} gives whole patches alone, no stages"))
+    BackendError::new(format!("{name} only produces whole patches, not single stages"))
 }
 
 /// The answers to a batch, one per element and in order, or the reason why the implementation could
@@ -195,7 +195,7 @@ mod tests {
             Whole.contexts(SplitOrder::Ruler, Parity::Odd, &[]).expect_err("no stage").to_string(),
             Whole.locations(&[]).expect_err("no stage").to_string(),
         ];
-        assert_eq!(messages, ["whole gives whole patches alone, no stages"; 3]);
+        assert_eq!(messages, ["whole only produces whole patches, not single stages"; 3]);
     }
 
     #[test]

@@ -50,8 +50,7 @@ pub enum Tested {
     Answers,
 }
 
-/// A part of a file that was checked: a run of records, consecutive unless unexpected ones lie
-/// between them.
+/// A part of a file that was checked: consecutive records.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Checked<'a> {

@@ -421,7 +421,7 @@ fn known_differences_have_terms() {
         (&(right.clone() + &terms(other, "*")), "", 1, "k.txt:2: is unused"),
         (&(right.clone() + &terms(other, "*")), "--shard 1/2", 0, ""),
         (&(right.clone() + "rule cover | 1 | ada | 9999-12-31 | not judged here"), "", 0, ""),
-        (&(right.clone() + &case), "", 2, "k.txt:2: subject: stands in line 1 too"),
+        (&(right.clone() + &case), "", 2, "k.txt:2: subject: is also on line 1"),
     ] {
         fs::write(folder.join("k.txt"), known).expect("written");
         let run =

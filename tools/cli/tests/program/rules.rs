@@ -84,7 +84,12 @@ fn deviations_have_terms() {
         ("part.txt", &both, 0, ""),
         ("part.txt", &baseline, 1, ""),
         ("whole.txt", &both, 1, "2: is unused"),
-        ("whole.txt", &(baseline.clone() + line), 1, ": is unused, nothing differs so: rule cover"),
+        (
+            "whole.txt",
+            &(baseline.clone() + line),
+            1,
+            ": is unused: nothing differs this way: rule cover",
+        ),
         ("whole.txt", &baseline.replacen("| 1 |", "| 2 |", 1), 1, "1: expects `2`, not `1`: rule"),
         ("whole.txt", &baseline.replace("9999", "2020"), 1, "known.txt:1: expired on 2020-12-31"),
         ("whole.txt", &line.replace("cover", "covre"), 2, "known.txt:1: rule: "),
@@ -92,12 +97,7 @@ fn deviations_have_terms() {
         ("whole.txt", &line.replace("| 1 |", "| so |"), 2, "known.txt:1: expected: "),
         ("whole.txt", &line.replace("ada", ""), 2, "known.txt:1: terms: "),
         ("whole.txt", &"rule cover".to_owned(), 2, "known.txt:1: terms: "),
-        (
-            "whole.txt",
-            &format!("{line}\n\n{line}"),
-            2,
-            "known.txt:3: subject: stands in line 1 too",
-        ),
+        ("whole.txt", &format!("{line}\n\n{line}"), 2, "known.txt:3: subject: is also on line 1"),
     ] {
         let run = run(device, known);
         run.exits(code);
