@@ -101,5 +101,5 @@ fn point(text: &str) -> Result<DomainPoint, Box<dyn Error>> {
 
 fn coordinate(value: f32) -> Result<u32, Box<dyn Error>> {
     let number = fixed(value.to_bits());
-    number.ok_or_else(|| format!("{value} is no multiple of 2^-16 in 0..1").into())
+    number.ok_or_else(|| format!("{value} is not a multiple of 2^-16 in 0..1").into())
 }

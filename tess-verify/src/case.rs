@@ -167,7 +167,7 @@ pub(crate) fn parse_factors(domain: Domain, words: &[&str]) -> Result<PatchFacto
     PatchFactors::from_slice(domain, &values).ok_or_else(|| {
         let (name, count) = (domain.name(), domain.factors());
         let message = format!(
-            "{name} patches have {count} factors ({}), these are {}",
+            "{name} patches have {count} factors ({}), not {}",
             domain.factor_names().join(", "),
             values.len()
         );
@@ -226,7 +226,7 @@ mod tests {
         );
         assert_eq!(
             parse(QUAD.replace(" 42", "")),
-            "factors: quad patches have 6 factors (u0, v0, u1, v1, inside_u, inside_v), these are 5"
+            "factors: quad patches have 6 factors (u0, v0, u1, v1, inside_u, inside_v), not 5"
         );
         assert_eq!(
             parse(QUAD.replace("line", "lines")),

@@ -243,7 +243,7 @@ fn numbers_that_mean_something_else_are_refused() {
         ("coordinates hex 2 3", "", "`3` is one word too many"),
         ("coordinates hex 99999", "", "99999 is too many: a patch has at most 24576"),
         ("coordinates hex 24577", "", "24577 is too many: a patch has at most 24576"),
-        ("coordinates hex 24576", "", "24576 vertices are announced, these are 0"),
+        ("coordinates hex 24576", "", "24576 vertices are announced, but there are 0"),
         (
             "coordinates hex",
             &"00000 00000\n".repeat(24_577),
@@ -255,7 +255,7 @@ fn numbers_that_mean_something_else_are_refused() {
             "4 vertices are announced",
         ),
         ("coordinates hex 1", "00000 00000\n00000 00000\n", "a listing ends with `end`"),
-        ("coordinates hex", "00000 00000\n", "1 is no multiple of 3"),
+        ("coordinates hex", "00000 00000\n", "1 is not a multiple of 3"),
         ("points 1", "0 1\n", "`0 1` is not a point: u and v as 5 to 8 hex digits each"),
     ] {
         let error = error(&file(&format!("{TRI}\n{line}\n{rows}end\n")));
