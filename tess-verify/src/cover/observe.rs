@@ -212,8 +212,8 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    /// The bins that a case hits, in alphabetical order and each with its number of hits. Those that
-    /// `tests/thresholds.rs` covers are left out.
+    /// The bins that a case hits, in alphabetical order and each with its number of hits. Those
+    /// that `tests/thresholds.rs` covers are left out.
     fn bins(line: &str) -> Vec<String> {
         let case: Case = line.parse().expect("a case");
         let mut hits: BTreeMap<String, u32> = BTreeMap::new();
