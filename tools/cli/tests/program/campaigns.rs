@@ -153,7 +153,7 @@ fn places_of_reports_are_tried_first() {
     for (option, why) in [
         ("--report /nowhere/r.jsonl", "cannot write /nowhere/r.jsonl"),
         ("--junit /nowhere/r.xml", "cannot write /nowhere/r.xml"),
-        ("--report /dev/null", "--report /dev/null is no file"),
+        ("--report /dev/null", "--report /dev/null is not a regular file"),
         ("--report one --junit one", "are the same file"),
         ("--report one -o one", "are the same file"),
         ("--report new/", "cannot write new/: is a directory"),

@@ -188,7 +188,11 @@ fn unused_points_in_any_order() {
 fn endless_input() {
     let run = tess("check /dev/zero");
     run.exits(2).prints_nothing();
-    assert!(run.stderr.starts_with("tess: /dev/zero:1: line: longer than 4096"), "{}", run.stderr);
+    assert!(
+        run.stderr.starts_with("tess: /dev/zero:1: line: longer than the 4096"),
+        "{}",
+        run.stderr
+    );
     let patch = tess("patch tri --outer 1,1,1 --inner 1").stdout;
     let run = tess_with_input("check -", &patch.replacen("points 3", "points 99999999999", 1));
     run.exits(2).says("stdin:3: points: 99999999999 is too many");

@@ -10,12 +10,12 @@ fn other_than_coverage_files() {
     let setup = "mkfifo pipe; truncate -s 3G large.xml; printf '\\377' > bytes.xml; mkdir folder";
     shell(setup, &folder).exits(0);
     for (file, why) in [
-        ("/dev/zero", "is no regular file"),
-        ("pipe", "is no regular file"),
-        ("folder", "is no regular file"),
-        ("-", "is no regular file"),
-        ("large.xml", "large.xml: line 1: no coverage file"),
-        ("bytes.xml", "bytes.xml: line 1: no coverage file"),
+        ("/dev/zero", "is not a regular file"),
+        ("pipe", "is not a regular file"),
+        ("folder", "is not a regular file"),
+        ("-", "is not a regular file"),
+        ("large.xml", "large.xml: line 1: not a coverage file"),
+        ("bytes.xml", "bytes.xml: line 1: not a coverage file"),
         ("/nowhere/a.xml", "cannot write /nowhere/a.xml"),
     ] {
         let script = format!("ulimit -v 2000000; $TESS gen --level 3 --count 1 --coverage {file}");
@@ -107,7 +107,7 @@ fn bad_coverage_files_are_refused() {
     for (words, why) in [
         ("", "required"),
         ("c.xml", "cannot read c.xml"),
-        ("no.txt", "no.txt: line 1: no coverage file"),
+        ("no.txt", "no.txt: line 1: not a coverage file"),
         ("a.xml a.xml", "a.xml is given twice"),
         ("a.xml b.xml", "b.xml is given twice"),
         ("a.xml --exclude no.txt", "--exclude no.txt: line 1: no bin begins with `midle`"),

@@ -144,7 +144,7 @@ fn what_is_another_file_is_kept() {
             let run = tess_in(&folder, &format!("{command} {option} mine"));
             let left = fs::read_to_string(folder.join("mine")).expect("it is there");
             assert_eq!((run.code, left.as_str()), (Some(2), text), "{command}: {}", run.stderr);
-            let said = format!("{option} mine is there, and is no ");
+            let said = format!("{option} mine exists and is not a ");
             run.says(&said);
             assert_eq!(run.stdout, "", "{command} {option}");
         }

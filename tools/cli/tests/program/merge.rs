@@ -213,7 +213,7 @@ fn variables_that_are_no_text() {
         ["TEST_SHARD_INDEX", "TEST_TOTAL_SHARDS", "SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"]
     {
         let script = format!("export {variable}=$(printf '1\\377'); $TESS gen --level 3 --count 2");
-        shell(&script, &folder).exits(2).prints_nothing().says("which is no number");
+        shell(&script, &folder).exits(2).prints_nothing().says("which is not a number");
     }
 }
 
