@@ -148,7 +148,7 @@ fn observations_are_checked() {
         ("--point 3 --observed i0=1", "expected one of: valid, u, v, last"),
         ("--factor 6", "there is no factor 6: the patch has 6 factors, from 0"),
         ("--observed points", "expected SIGNAL=N"),
-        ("--observed points=0x1FFFFFFFF", "is no number of 32 bits"),
+        ("--observed points=0x1FFFFFFFF", "is not a 32-bit number"),
         ("--point 1 --factor 1", "cannot be used with"),
     ];
     for (element, message) in cases {
