@@ -4,11 +4,11 @@ use crate::command::{self, cargo};
 use crate::{packages, setup};
 
 /// Checks the published packages, or only those with these names. A user's first command may be
-/// `--no-default-features`, which nothing else of the suite compiles.
+/// `--no-default-features`, which no other part of the suite compiles.
 ///
 /// # Errors
-/// cargo-hack cannot be installed, a combination does not compile, or no published package has a
-/// name.
+/// cargo-hack cannot be installed, a combination does not compile, or a name is not that of a
+/// published package.
 pub(crate) fn check(names: &[&str]) -> Result<(), String> {
     let published = packages::published()?;
     let is_published = |name: &str| published.iter().any(|package| package.name == name);
@@ -16,7 +16,7 @@ pub(crate) fn check(names: &[&str]) -> Result<(), String> {
         return Err(format!("no published package is `{name}`"));
     }
     setup::subcommand("hack")?;
-    // The packages are named because `--no-private` would change manifests while it runs.
+    // The packages are listed, because `--no-private` would change manifests while it runs.
     let mut hack = cargo("hack check --each-feature");
     for package in &published {
         if names.is_empty() || names.contains(&package.name.as_str()) {

@@ -11,10 +11,9 @@
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
 //! ```
 //!
-//! A command is an arm of [`run`], a paragraph of [`USAGE`] and a function of its module that gives
-//! `Err(message)` for what went wrong. Programs that it needs are a `Need` of `setup/needs.rs`,
-//! which installs them or says how. Tests are counted by [`tally`], which fails a job that ran
-//! none.
+//! A command is an arm of [`run`], a paragraph of [`USAGE`], and a function of its module that
+//! returns `Err(message)` on failure. Programs that it needs are each a `Need` of `setup/needs.rs`,
+//! which installs them or tells how to. [`tally`] counts the tests, and fails a job that ran none.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program talks to its user")]
 
 mod ci;
@@ -142,7 +141,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs the command; `None` if there is no such command.
+/// Runs the command; `None` if it does not exist.
 fn run(words: &[&str]) -> Option<Result<(), String>> {
     let after_setup =
         |command: &dyn Fn() -> Result<(), String>| setup::run().and_then(|()| command());
@@ -190,7 +189,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
     })
 }
 
-/// Runs a command that needs the kit, in a process that has it.
+/// Runs a command that needs the kit, in a process that includes it.
 fn with_kit(words: &[&str]) -> Option<Result<(), String>> {
     #[cfg(feature = "kit")]
     return rtl::run(words);
