@@ -150,8 +150,9 @@ pub(super) struct Data<'a> {
 }
 
 impl Data<'_> {
-    /// The elements of an accessor with `N` components, each made of its bytes by `component`.
-    /// Errors: sparse indices that are out of range or do not increase, with the JSON path.
+    /// The elements of an accessor with `N` components, each converted from its bytes by
+    /// `component`. Errors: sparse indices that are out of range or do not increase, with the JSON
+    /// path.
     pub(super) fn read<T: Copy + Default, const N: usize>(
         &self,
         number: usize,
