@@ -1,4 +1,4 @@
-//! The examples run, and see what they are to show.
+//! Tests that the examples run and detect what they should show.
 
 #[path = "../examples/device.rs"]
 #[expect(dead_code, reason = "its `main` reads the command line")]
