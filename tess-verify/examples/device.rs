@@ -1,9 +1,9 @@
-//! Compares a device under test with the model: reads what was captured from it, in a format of its
-//! own, and says how near each patch is and what explains the others.
+//! Compares a device under test with the model: reads a capture in a format of its own, then shows
+//! how closely each patch agrees, and what explains those that do not.
 //!
-//! The capture has a line `draw DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...` for each patch, then
-//! what the device gave for it: `at U V` for each domain point, as the floats that a domain shader
-//! saw, and `prim I...` for each primitive.
+//! The capture has a line `draw DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...` for each patch. The
+//! device's output follows: `at U V` for each domain point, as the floats that a domain shader
+//! received, and `prim I...` for each primitive.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::error::Error;
@@ -24,10 +24,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// The findings of a capture.
 #[derive(Debug)]
 pub(crate) struct Verdicts {
-    /// Patches whose primitives are the model's in its order, and in any order.
+    /// The number of patches whose primitives are the model's in the model's order, and in any
+    /// order.
     pub(crate) in_order: usize,
     pub(crate) in_any_order: usize,
-    /// The comparison in any order, as this device numbers and orders in its own way.
+    /// The comparison in any order, because this device has its own numbering and order.
     pub(crate) report: Report,
     /// The explanations of each patch that differs.
     pub(crate) ways: Vec<Vec<Way>>,
@@ -65,7 +66,7 @@ pub(crate) fn judge(capture: &str) -> Result<Verdicts, Box<dyn Error>> {
     Ok(Verdicts { in_order, in_any_order, ways, report: check_device(patches, any) })
 }
 
-/// The patches of a capture: what was drawn, and what the device made of it.
+/// The patches of a capture: what was drawn, and the device's output.
 fn patches(capture: &str) -> Result<Vec<(Case, Tessellation)>, Box<dyn Error>> {
     let mut patches: Vec<(Case, Tessellation)> = Vec::new();
     for (number, line) in (1..).zip(capture.lines()) {
@@ -93,7 +94,7 @@ fn read_line(patches: &mut Vec<(Case, Tessellation)>, line: &str) -> Result<(), 
     Ok(())
 }
 
-/// A domain point from its coordinates as floats, which represent 16.16 numbers exactly.
+/// A domain point from its coordinates as floats, each of which is exactly a 16.16 number.
 fn point(text: &str) -> Result<DomainPoint, Box<dyn Error>> {
     let (u, v) = text.split_once(' ').ok_or("expected `at U V`")?;
     Ok(DomainPoint::from_bits(coordinate(u.parse()?)?, coordinate(v.parse()?)?))
@@ -101,5 +102,5 @@ fn point(text: &str) -> Result<DomainPoint, Box<dyn Error>> {
 
 fn coordinate(value: f32) -> Result<u32, Box<dyn Error>> {
     let number = fixed(value.to_bits());
-    number.ok_or_else(|| format!("{value} is no multiple of 2^-16 in 0..1").into())
+    number.ok_or_else(|| format!("{value} is not a multiple of 2^-16 in 0..1").into())
 }

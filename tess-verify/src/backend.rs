@@ -1,4 +1,4 @@
-//! The interface between a comparison and an implementation, stage by stage.
+//! The interface between a comparison and the implementation that it tests, stage by stage.
 
 use crate::case::Case;
 use std::error::Error;
@@ -9,27 +9,28 @@ use tess_core::{
 
 /// An implementation of the specification under test.
 ///
-/// Every method takes a batch, in any number, zero included, and answers in the same order. An
-/// implementation that gives whole patches alone needs no more than the first three methods: the
-/// others answer with an error, and a difference then points to the stage that its output shows.
+/// Every method takes a batch of any length, including zero, and returns one answer per element, in
+/// order. An implementation that only produces whole patches needs only the first three methods:
+/// the others return an error, and a difference then names the stage that the output points to.
 pub trait Backend: Send {
-    /// Its name, as `--backend` takes it: `core`, `simd` or `gpu`.
+    /// The name that `--backend` takes: `core`, `simd` or `gpu`.
     fn name(&self) -> &'static str;
 
-    /// Its device here: a CPU level or the name of an adapter.
+    /// The device it runs on here: a CPU level or the name of an adapter.
     fn device(&self) -> String;
 
-    /// Whole patches, all of one domain.
+    /// Tessellates whole patches, all of one domain.
     ///
     /// # Errors
-    /// [`BackendError`] if the implementation could not run; never for any factor.
+    /// [`BackendError`] if the implementation could not run; no factor value is an error.
     fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation>;
 
-    /// Factor processing (spec section 3) alone: for each value `x` the fixed-point u = 0 factor of
-    /// the triangle patch (x, 3, 3; 3), zero if it is culled, and the inside factor of (3, 3, 3;
-    /// x).
+    /// Runs only factor processing (spec section 3). For each value `x`, returns two fixed-point
+    /// factors: the u = 0 factor of the triangle patch (x, 3, 3; 3), or zero if that patch is
+    /// culled, and the inside factor of (3, 3, 3; x).
     ///
-    /// Where (x, 3, 3; x) is not culled, its factors are the same (`golden/factor.csv` has those).
+    /// Where (x, 3, 3; x) is not culled, it has the same two factors; `golden/factor.csv` records
+    /// those.
     ///
     /// # Errors
     /// As for [`Backend::tessellate`].
@@ -42,7 +43,7 @@ pub trait Backend: Send {
         Err(whole_patches_alone(self.name()))
     }
 
-    /// Contexts (spec section 4) of fixed-point factors in range.
+    /// The contexts (spec section 4) of fixed-point factors, all in range.
     ///
     /// # Errors
     /// As for [`Backend::tessellate`].
@@ -67,33 +68,32 @@ pub trait Backend: Send {
 }
 
 fn whole_patches_alone(name: &str) -> BackendError {
-    BackendError::new(format!("{name} gives whole patches alone, no stages"))
+    BackendError::new(format!("{name} only produces whole patches, not single stages"))
 }
 
-/// Answers of an implementation to a batch, one for each element, in their order; or why it could
+/// The answers to a batch, one per element and in order, or the reason why the implementation could
 /// not run.
 pub type Answers<T> = Result<Vec<T>, BackendError>;
 
-/// An implementation could not run: no adapter, no such CPU level, a device lost.
+/// The implementation could not run: no adapter, a CPU level that is missing, a lost device.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct BackendError {
-    /// The cause and what would help.
+    /// The cause and a remedy.
     pub message: String,
-    /// The error underneath, if there is one.
+    /// The underlying error, if there is one.
     pub source: Option<Box<dyn Error + Send + Sync>>,
 }
 
 impl BackendError {
-    /// An error with no other underneath, of a text or of what shows as one.
+    /// An error without an underlying one.
     #[must_use]
     #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
     pub fn new(message: impl ToString) -> Self {
         Self { message: message.to_string(), source: None }
     }
 
-    /// The answer of an implementation that does not have a configuration. A fuzz target leaves
-    /// such a case out:
+    /// The error of an implementation that lacks a configuration. A fuzz target skips such a case:
     ///
     /// ```
     /// use tess_verify::BackendError;
@@ -106,19 +106,19 @@ impl BackendError {
         Self { message: message.into(), source: Some(Box::new(Unsupported)) }
     }
 
-    /// Whether the implementation does not have the configuration: nothing was compared.
+    /// Whether the implementation lacks the configuration, so that nothing was compared.
     #[must_use]
     pub fn is_unsupported(&self) -> bool {
         self.source.as_deref().is_some_and(|source| source.is::<Unsupported>())
     }
 }
 
-/// Why a configuration could not run: there is none in the implementation.
+/// The source of an error that [`BackendError::unsupported`] makes.
 #[derive(Debug, thiserror::Error)]
 #[error("the configuration is not supported")]
 struct Unsupported;
 
-/// Refuses answers that are more or fewer than were asked for.
+/// Refuses a number of answers other than `asked`.
 pub(crate) fn all_answered<T>(
     backend: &dyn Backend,
     what: &str,
@@ -132,10 +132,10 @@ pub(crate) fn all_answered<T>(
     Err(BackendError::new(format!("{name} answered with {got} {what}, {asked} were asked for")))
 }
 
-/// Tessellates cases of any configurations, those of equal configuration in one batch.
+/// Tessellates cases of any configurations; cases of equal configuration go into one batch.
 ///
 /// # Errors
-/// As for [`Backend::tessellate`]; a number of answers that is not the number of patches.
+/// As for [`Backend::tessellate`], and if the number of answers is not the number of patches.
 pub(crate) fn tessellate(backend: &mut dyn Backend, cases: &[Case]) -> Answers<Tessellation> {
     let mut groups: Vec<((Config, Domain), Vec<usize>)> = Vec::new();
     for (i, case) in cases.iter().enumerate() {
@@ -195,7 +195,7 @@ mod tests {
             Whole.contexts(SplitOrder::Ruler, Parity::Odd, &[]).expect_err("no stage").to_string(),
             Whole.locations(&[]).expect_err("no stage").to_string(),
         ];
-        assert_eq!(messages, ["whole gives whole patches alone, no stages"; 3]);
+        assert_eq!(messages, ["whole only produces whole patches, not single stages"; 3]);
     }
 
     #[test]

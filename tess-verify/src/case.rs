@@ -6,10 +6,10 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, SplitOrder};
 
-/// A configuration and raw factors: everything that a tessellation depends on.
+/// A configuration and raw factors: all inputs of a tessellation.
 ///
-/// Its text is the first line of a listing, `case DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...`, each
-/// factor as the 8 hex digits of its binary32 bits, so that no factor is lost in print.
+/// Written as text, it is the first line of a listing, `case DOMAIN PARTITIONING OUTPUT SPLIT
+/// FACTOR...`. Each factor is the 8 hex digits of its binary32 bits, so printing loses nothing.
 ///
 /// ```
 /// use tess_verify::Case;
@@ -28,11 +28,11 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFacto
 pub struct Case {
     /// How the patch is tessellated.
     pub config: Config,
-    /// Its raw factors.
+    /// The raw factors.
     pub factors: PatchFactors,
 }
 
-/// Equal bits, so that a NaN equals itself and -0 is not 0.
+/// Compares bits: a NaN equals itself, and -0 differs from 0.
 impl PartialEq for Case {
     fn eq(&self, other: &Self) -> bool {
         self.config == other.config
@@ -68,7 +68,7 @@ impl Case {
         Patch::new(self.config, self.factors)
     }
 
-    /// The same with another factor at a position.
+    /// The same case with another factor at `position`.
     pub(crate) fn with_factor(&self, position: usize, factor: f32) -> Self {
         let mut at = 0..;
         let factors =
@@ -129,18 +129,19 @@ fn named<T: Named>(field: &'static str, name: &str) -> Result<T, CaseError> {
     T::from_name(name).map_err(|error| CaseError { field, message: error.to_string() })
 }
 
-/// A text is no case.
+/// A text that is not a case, or a name or factor in it that is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{field}: {message}")]
 #[non_exhaustive]
 pub struct CaseError {
-    /// The part that is wrong.
+    /// The part that is wrong, such as `domain`.
     pub field: &'static str,
-    /// How it is wrong and what would be right.
+    /// What is wrong with it, and what is expected.
     pub message: String,
 }
 
-/// A factor: decimal as Rust reads it (nan, inf, -0, 1e3), or `0x` and the bits of a binary32.
+/// Parses a factor: a decimal number as Rust reads it (nan, inf, -0, 1e3), or `0x` and the bits of
+/// a binary32.
 ///
 /// # Errors
 /// The text is neither.
@@ -157,16 +158,16 @@ pub fn factor(text: &str) -> Result<f32, String> {
     })
 }
 
-/// Factors from their hex bit patterns.
+/// Parses factors from their hex bit patterns.
 ///
 /// # Errors
-/// A pattern that is not 8 hex digits, or a number of factors that the domain does not have.
+/// A pattern that is not 8 hex digits, or a number of factors other than the domain's.
 pub(crate) fn parse_factors(domain: Domain, words: &[&str]) -> Result<PatchFactors, CaseError> {
     let values = parse_bits(words)?;
     PatchFactors::from_slice(domain, &values).ok_or_else(|| {
         let (name, count) = (domain.name(), domain.factors());
         let message = format!(
-            "{name} patches have {count} factors ({}), these are {}",
+            "{name} patches have {count} factors ({}), not {}",
             domain.factor_names().join(", "),
             values.len()
         );
@@ -174,7 +175,7 @@ pub(crate) fn parse_factors(domain: Domain, words: &[&str]) -> Result<PatchFacto
     })
 }
 
-/// Binary32 numbers from their hex bit patterns.
+/// Parses binary32 numbers from their hex bit patterns.
 ///
 /// # Errors
 /// A pattern that is not 8 hex digits.
@@ -192,7 +193,7 @@ pub(crate) fn parse_bits(words: &[&str]) -> Result<Vec<f32>, CaseError> {
     words.iter().map(parse).collect()
 }
 
-/// A number of exactly `digits` hex digits, at most 16.
+/// Parses a number of exactly `digits` hex digits; `digits` is at most 16.
 pub(crate) fn parse_hex(word: &str, digits: usize) -> Option<u64> {
     let digit = |byte: u8| char::from(byte).to_digit(16).map(u64::from);
     let number = || word.bytes().try_fold(0, |number, byte| Some(number << 4 | digit(byte)?));
@@ -225,7 +226,7 @@ mod tests {
         );
         assert_eq!(
             parse(QUAD.replace(" 42", "")),
-            "factors: quad patches have 6 factors (u0, v0, u1, v1, inside_u, inside_v), these are 5"
+            "factors: quad patches have 6 factors (u0, v0, u1, v1, inside_u, inside_v), not 5"
         );
         assert_eq!(
             parse(QUAD.replace("line", "lines")),

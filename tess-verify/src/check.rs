@@ -36,45 +36,47 @@ use std::io::BufRead;
 use std::sync::{Mutex, PoisonError};
 use tess_core::Tessellation;
 
-/// Which side of a comparison is tested; the other one is right.
+/// The side of a comparison that is under test; the other side counts as right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Tested {
     /// The backend: each of its results must equal the recorded one exactly.
     Backend,
-    /// The file: its listings are what a device gave, and each must equal the model's as closely as
-    /// the strength says. The backends are not asked.
+    /// The file: its listings are a device's output, and each must equal the model's as closely as
+    /// the strength demands. The backends are not called.
     Listings(Strength),
-    /// The file, but only that it answers what was asked; what it answers is not compared.
+    /// The file, but only whether its records answer the cases that were asked; their results are
+    /// not compared.
     Answers,
 }
 
-/// A part of a file that was checked: consecutive records, or nearly so.
+/// A part of a file that was checked: consecutive records.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Checked<'a> {
-    /// Number of the first record, from 1. The calls come in no order.
+    /// The number of the first record, from 1.
     pub first: u64,
-    /// The case of the record before the first.
+    /// The case of the record that precedes the first.
     pub before: Option<Case>,
     /// The records.
     pub records: &'a [Record],
-    /// For each, whether it is wrong for the case that it states. A record that is right for its
-    /// case but answers another one than was asked, or contradicts another record, counts in the
-    /// report alone.
+    /// For each record, whether it is wrong for the case that it states. Two kinds of fault count
+    /// only in the report: a record that is right for its case but answers a case other than the
+    /// one asked, and one that contradicts another record.
     pub different: &'a [bool],
 }
 
 /// Checks every record of a file.
 ///
-/// `tested` decides which side is right; nothing in the file does. Give one backend for each thread
-/// to use; the report does not depend on their number. `checked` is called from any thread, with
-/// the records that were checked since its last call; each comes once.
+/// `tested` decides which side is right; the file has no say in it. Pass one backend per thread;
+/// the report does not depend on their number. `checked` is called from any thread, in no
+/// particular order, with records that no earlier call had; each record is passed once.
 ///
 /// # Errors
-/// A file that is malformed, truncated or too long: the error has the report of the records before
-/// that, which is no verdict. [`Tested::Listings`] for a file that has none. A backend that could
-/// not run, or no backend at all.
+/// - The file is malformed, truncated or too long. The error holds the report of the records before
+///   that point; it is not a verdict.
+/// - [`Tested::Listings`] or [`Tested::Answers`], and the file does not hold listings.
+/// - A backend could not run, or `backends` is empty.
 pub fn check<R: BufRead + Send>(
     file: VectorFile<R>,
     backends: &mut [Box<dyn Backend>],
@@ -84,11 +86,13 @@ pub fn check<R: BufRead + Send>(
     check_asked(file, None, &Known::default(), backends, tested, checked)
 }
 
-/// [`check`], where a record that differs from what is right for its case is no mismatch if that is
-/// `known`, and the records must answer the cases that were `asked`, one for one and in this order:
-/// a record that answers another case is a difference, and so is a case without a record. The
-/// fewest differences count that explain what is there: the comparison is in step again behind
-/// them, if fewer than 4096 cases in a row have no record.
+/// Does what [`check`] does, with two additions.
+///
+/// - A record that is wrong for its case is not a mismatch if that difference is `known`.
+/// - The records must answer the `asked` cases one for one, in this order. A record that answers
+///   another case is a difference, and so is a case without a record. The smallest number of
+///   differences that explains the file is counted. The comparison is in step again after a gap of
+///   fewer than 4096 cases in a row without a record.
 ///
 /// # Errors
 /// The errors of [`check`] and of reading `asked`.
@@ -124,12 +128,12 @@ pub fn check_asked<R: BufRead + Send>(
     let report = sum(findings, results);
     match malformed {
         None => Ok(report?),
-        // It is reported as such, whatever a backend answered meanwhile.
+        // The file is reported as malformed, whatever a backend answered meanwhile.
         Some(error) => Err(CheckError::malformed(error, report.unwrap_or_default())),
     }
 }
 
-/// The report of what all workers found; `None` stands for one that panicked.
+/// The report of all workers' findings; `None` stands for a worker that panicked.
 fn sum(
     mut findings: Findings,
     results: Vec<Option<Result<Findings, BackendError>>>,
@@ -140,7 +144,7 @@ fn sum(
     Ok(findings.report())
 }
 
-/// Checks what a device answered for cases, in a strength: [`check`] without a file.
+/// Checks a device's answers for cases at a strength: [`check`] without a file.
 #[must_use]
 pub fn check_device(
     answers: impl IntoIterator<Item = (Case, Tessellation)>,
@@ -153,12 +157,12 @@ pub fn check_device(
     findings.report()
 }
 
-/// The first fault of a backend's output for one case, in a strength; `None` if there is none.
+/// The first fault of a backend's output for one case at a strength; `None` if there is none.
 ///
 /// This is the oracle of a fuzz target.
 ///
 /// # Errors
-/// The backend could not run, or did not answer with one patch.
+/// The backend could not run, or returned a number of patches other than one.
 pub fn check_case(
     backend: &mut dyn Backend,
     case: &Case,
@@ -169,7 +173,7 @@ pub fn check_case(
     Ok(report.differences.into_iter().next().map(|difference| difference.mismatch))
 }
 
-/// Settings of a comparison that all records share.
+/// The settings of a comparison, shared by all records.
 struct How {
     header: Header,
     tested: Tested,
@@ -180,9 +184,9 @@ struct Source<'a, R> {
     file: VectorFile<R>,
     expected: Option<Expected<'a>>,
     taken: u64,
-    /// The case of the record that was taken last.
+    /// The case of the record taken last.
     last: Option<Case>,
-    /// Set when no more records are to be taken: a backend failed, or the next one is malformed.
+    /// Set when no more records may be taken: a backend failed, or the next record is malformed.
     stopped: bool,
     malformed: Option<VectorError>,
 }
@@ -193,7 +197,7 @@ struct Work {
     /// Number of the first record, from 1.
     first: u64,
     before: Option<Case>,
-    /// For each record that answers another case than was asked, what is wrong about that.
+    /// For each record, its fault if it answers a case other than the one asked.
     astray: Vec<Option<Mismatch>>,
     records: Vec<Record>,
 }
@@ -214,7 +218,7 @@ impl<R: BufRead> Source<'_, R> {
         (!unit.records.is_empty()).then_some(unit)
     }
 
-    /// The next record, and how the case that it answers differs from the one that was asked.
+    /// The next record, and how its case differs from the one asked.
     fn next_record(
         &mut self,
         tested: Tested,
@@ -236,7 +240,7 @@ impl<R: BufRead> Source<'_, R> {
         Ok(Some((record, astray)))
     }
 
-    /// The cases that no record answers, and what is malformed, if the records end there.
+    /// The cases that no record answers, and the error if the records end at a malformed one.
     fn finish(self) -> Result<(Findings, Option<VectorError>), VectorError> {
         let Some(expected) = self.expected else {
             return Ok((Findings::default(), self.malformed));
@@ -249,7 +253,8 @@ impl<R: BufRead> Source<'_, R> {
     }
 }
 
-/// Single patches are handed over in batches; a row of the other kinds is a whole batch.
+/// Records per unit of work. Single patches are handed over in batches; a row of the other kinds is
+/// a batch by itself.
 const fn unit_size(kind: Kind) -> usize {
     match kind {
         Kind::Listings | Kind::Patches | Kind::Preparation => 256,
@@ -261,7 +266,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// One worker: takes units until there are none.
+/// The loop of one worker: takes units until none are left.
 fn run<R: BufRead>(
     how: &How,
     source: &Mutex<Source<'_, R>>,
@@ -284,8 +289,8 @@ fn run<R: BufRead>(
         for ((number, record), (astray, found)) in answers {
             let (line, is_astray) = (Some(record.line()), astray.is_some());
             let found = astray.map_or(found, |mismatch| Found::new(Some(mismatch), None));
-            // A record that answers another case is not shown again by itself: the case is what is
-            // wrong.
+            // A record that answers another case is not written out to be run again: only its case
+            // is wrong.
             let again = || {
                 if is_astray {
                     return (None, false);

@@ -50,8 +50,8 @@ impl Backend for CoreBackend {
     }
 }
 
-/// The u = 0 factor of the triangle patch (x, 3, 3; x), zero if it is culled, and the inside
-/// factor, if need be of (3, 3, 3; x).
+/// The u = 0 factor of the triangle patch (x, 3, 3; x), or zero if it is culled, and the inside
+/// factor: that of (3, 3, 3; x) if (x, 3, 3; x) is culled.
 fn outer_and_inside(partitioning: Partitioning, x: f32) -> [FixedFactor; 2] {
     let both = TriangleFactors { u0: x, v0: 3.0, w0: 3.0, inside: x };
     if let Some(factors) = processed(partitioning, both) {
@@ -62,7 +62,7 @@ fn outer_and_inside(partitioning: Partitioning, x: f32) -> [FixedFactor; 2] {
     [none, inside.map_or(none, |factors| factors.inside.fixed)]
 }
 
-/// The processed factors of a triangle patch, if it is not culled.
+/// The processed factors of a triangle patch; `None` if it is culled.
 fn processed(
     partitioning: Partitioning,
     factors: TriangleFactors,

@@ -1,8 +1,8 @@
-//! Functional coverage: which of the specification's cases a set of vectors hits.
+//! Functional coverage: which cases of the specification a set of vectors hits.
 //!
-//! The bins are described in `docs/verification.md`. All of them are declared beforehand, so what
-//! was not hit can be named; none of them can be out of reach, as level 1 hits every one. A device
-//! that lacks configurations cannot hit all of them: [`Exclusions`] names those.
+//! `docs/verification.md` describes the bins. They are all declared beforehand, so the report can
+//! name those that were not hit. Level 1 hits every bin, so none is unreachable. A device that
+//! lacks configurations cannot hit all of them; [`Exclusions`] names those that it cannot.
 
 mod bins;
 mod boundary;
@@ -24,8 +24,9 @@ pub struct Coverage {
     hits: BTreeMap<String, u64>,
 }
 
-/// The numbers, in the order of [`Coverage::bins`], of the bins that a case hits: each as often as
-/// it is hit. For benches whose own covergroups count, which are generated in that order.
+/// The bins that a case hits, as indices into [`Coverage::bins`]; a bin that is hit twice is listed
+/// twice. Test benches with covergroups of their own use this: the covergroups are generated in the
+/// same order.
 #[must_use]
 pub fn bins_hit(case: &Case) -> Vec<usize> {
     let mut numbers = Vec::new();
@@ -33,23 +34,23 @@ pub fn bins_hit(case: &Case) -> Vec<usize> {
     numbers
 }
 
-/// How many bins of a group were hit.
+/// How many bins of one group were hit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct BinGroup {
     /// Name of the group.
     pub name: String,
-    /// The stage of the specification that its bins tell of, such as `context`.
+    /// The stage of the specification that its bins cover, such as `context`.
     pub stage: &'static str,
-    /// Bins hit at least once, of those that are not excluded.
+    /// Bins that were hit at least once and are not excluded.
     pub hit: usize,
-    /// Bins there are.
+    /// All bins of the group, excluded ones included.
     pub bins: usize,
     /// Bins that are excluded.
     pub excluded: usize,
 }
 
-/// All bins, none of them hit.
+/// Every bin, with no hits.
 impl Default for Coverage {
     fn default() -> Self {
         Self { hits: bins::all().iter().map(|bin| (bin.clone(), 0)).collect() }
@@ -57,10 +58,10 @@ impl Default for Coverage {
 }
 
 impl Coverage {
-    /// Counts the bins that a case hits by itself.
+    /// Counts the bins that a case hits, without those of sequences.
     ///
     /// # Panics
-    /// In debug builds, if a case hits a bin that was not declared: a fault of this module.
+    /// In debug builds, if a case hits a bin that was not declared, which is a bug of this module.
     fn record(&mut self, case: &Case) {
         observe::observe(case, |bin| {
             let declared = self.add(&bin, 1);
@@ -68,9 +69,9 @@ impl Coverage {
         });
     }
 
-    /// Counts the bins that the patches of a stream hit, those of sequences too: each patch follows
-    /// the one before it, and the first follows `before`. Part of a stream, such as a shard, has
-    /// other sequences than the whole.
+    /// Counts the bins that the patches of a stream hit, including those of sequences: each patch
+    /// follows the one before it, and the first follows `before`. A part of a stream, such as a
+    /// shard, has other sequences than the whole stream.
     pub fn record_stream(&mut self, before: Option<Case>, cases: impl IntoIterator<Item = Case>) {
         let mut before = before.map(|case| observe::sequence_values_of(&case));
         for case in cases {
@@ -84,11 +85,11 @@ impl Coverage {
         }
     }
 
-    /// Counts the bins that one factor's context hits, for the bench of a stage that sees no patch:
-    /// the bins of the groups `context` and `exceptional`.
+    /// Counts the bins that one factor's context hits, those of the groups `context` and
+    /// `exceptional`. This is for the test bench of a stage that sees no patches.
     ///
     /// # Panics
-    /// In debug builds, if the context is none that a factor has.
+    /// In debug builds, if no factor has this context.
     pub fn record_context(&mut self, split: SplitOrder, context: &FactorContext) {
         observe::context(split, context, &mut |bin| {
             let declared = self.add(&bin, 1);
@@ -96,14 +97,14 @@ impl Coverage {
         });
     }
 
-    /// Adds to the hits of a bin, up to the largest `u64`; whether there is such a bin.
+    /// Adds to the hits of a bin, saturating at `u64::MAX`. Returns whether the bin exists.
     pub fn add(&mut self, bin: &str, more: u64) -> bool {
         let Some(hits) = self.hits.get_mut(bin) else { return false };
         *hits = hits.saturating_add(more);
         true
     }
 
-    /// Adds the hits of other vectors, such as another shard's.
+    /// Adds the hits of another set of vectors, such as another shard.
     pub fn merge(&mut self, other: &Self) {
         other.bins().for_each(|(bin, hits)| _ = self.add(bin, hits));
     }
@@ -128,8 +129,7 @@ impl Coverage {
         self.missed().filter(|bin| !exclusions.has(bin))
     }
 
-    /// The bins that are excluded and were hit all the same, in alphabetical order: wrong
-    /// exclusions.
+    /// The bins that are excluded but were hit, in alphabetical order: their exclusions are wrong.
     pub(crate) fn hit_though_excluded<'a>(
         &'a self,
         exclusions: &'a Exclusions,
@@ -143,7 +143,7 @@ impl Coverage {
         self.groups_without(&Exclusions::default())
     }
 
-    /// The groups, in alphabetical order, with the bins that are excluded.
+    /// The groups, in alphabetical order, with their excluded bins counted.
     #[must_use]
     pub(crate) fn groups_without(&self, exclusions: &Exclusions) -> Vec<BinGroup> {
         let mut groups: BTreeMap<&str, BinGroup> = BTreeMap::new();
@@ -183,7 +183,7 @@ mod tests {
             .expect("a case")
     }
 
-    /// The bins of a case, counted in three ways; once all are hit, no more are new.
+    /// The bins of one case are the same by name, by number and by file.
     #[test]
     fn a_case_hits_its_bins() {
         let mut coverage = Coverage::default();

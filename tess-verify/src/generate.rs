@@ -1,11 +1,11 @@
-//! Test vectors in three levels: same arguments, same cases, in the same order.
+//! Test vectors in levels: equal arguments give equal cases, in equal order.
 //!
 //! - Level 1 has every boundary once. It hits every coverage bin and is small enough to simulate.
 //! - Level 2 has every boundary in every position, and every pair of counts.
 //! - Level 3 is random.
-//! - `Rules` has families of patches that the rules of the standards compare.
+//! - `Rules` has families of related patches, for the rules of the standards to compare.
 //!
-//! Each level ends with random cases.
+//! Each of them ends with random cases, if any are asked for.
 
 #[cfg(feature = "arbitrary")]
 mod arbitrary;
@@ -32,41 +32,41 @@ use choices::Choices;
 use random::Draw;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
-/// How much is generated: `--level` of `tess gen`.
+/// How much to generate: `--level` of `tess gen`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GenLevel {
     /// Every boundary once.
     One,
-    /// Every boundary in every position, every pair of counts.
+    /// Every boundary in every position, and every pair of counts.
     Two,
-    /// Random.
+    /// Only random cases.
     Three,
     /// Families of related patches: `tess gen --rules`.
     Rules,
 }
 
-/// The version of the levels. It grows when a level or `Rules` gets other cases, so that a file
-/// says which it has; level 3 never changed.
+/// The version of the levels. It is incremented when a level or `Rules` gets other cases; a file
+/// records it. The cases of level 3 have never changed.
 pub const LEVEL_VERSION: u8 = 3;
 
-/// One of `of` disjoint parts that together are everything.
+/// One of `of` disjoint parts that together make up the whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// Number of this part, less than `of`.
     pub part: u64,
-    /// Number of parts, at least 1.
+    /// The number of parts, at least 1.
     pub of: u64,
 }
 
 impl Shard {
-    /// Everything in one part.
+    /// Everything, as a single part.
     pub const WHOLE: Self = Self { part: 0, of: 1 };
 
     /// Whether item `i` belongs to this part.
     ///
     /// # Panics
-    /// If there are no parts.
+    /// If `of` is 0.
     #[must_use]
     pub const fn has(&self, i: u64) -> bool {
         i % self.of == self.part
@@ -75,13 +75,13 @@ impl Shard {
     /// How many of `count` items belong to this part.
     ///
     /// # Panics
-    /// If there are no parts.
+    /// If `of` is 0.
     #[must_use]
     pub const fn items(&self, count: u64) -> u64 {
         count.saturating_sub(self.part).div_ceil(self.of)
     }
 
-    /// The number of this part's item `n` among all items; `None` beyond 2^64.
+    /// The number, among all items, of this part's item `n`; `None` if it is 2^64 or more.
     pub(crate) fn item(&self, n: u64) -> Option<u64> {
         n.checked_mul(self.of)?.checked_add(self.part)
     }
@@ -90,24 +90,24 @@ impl Shard {
 /// The cases to generate.
 #[derive(Clone, Copy, Debug)]
 pub struct Selection {
-    /// How much.
+    /// The level.
     pub level: GenLevel,
-    /// Seed of everything random.
+    /// The seed of all random cases.
     pub seed: u64,
     /// Number of random cases; `None` for the level's own number.
     pub random: Option<u64>,
-    /// One domain only.
+    /// Only this domain; `None` for all.
     pub domain: Option<Domain>,
-    /// One partitioning only.
+    /// Only this partitioning; `None` for all.
     pub partitioning: Option<Partitioning>,
-    /// One output primitive only.
+    /// Only this output primitive; `None` for all.
     pub output: Option<OutputPrimitive>,
-    /// One split order only.
+    /// Only this split order; `None` for all.
     pub split: Option<SplitOrder>,
 }
 
 impl Selection {
-    /// A level with its own number of random cases, of every domain and partitioning.
+    /// A level with its own number of random cases, in every domain and configuration.
     #[must_use]
     pub const fn level(level: GenLevel, seed: u64) -> Self {
         Self {
@@ -121,9 +121,10 @@ impl Selection {
         }
     }
 
-    /// A case in a configuration that is selected: one of another domain keeps its factors in turn.
+    /// Moves a case into a selected configuration. If its domain changes, the new domain's factors
+    /// take the values of the old ones in turn.
     ///
-    /// A fuzz target for a device that has some configurations gives it such cases.
+    /// A fuzz target for a device that supports only some configurations uses this.
     #[must_use]
     pub fn fit(&self, case: &Case) -> Case {
         let Config { partitioning, output, split } = case.config;
@@ -139,7 +140,7 @@ impl Selection {
         Case { config, factors }
     }
 
-    /// The cases, in order.
+    /// The selected cases, in order.
     pub fn cases(self) -> impl Iterator<Item = Case> {
         let systematic = match self.level {
             GenLevel::One => levels::one(&self.choices()),
@@ -147,7 +148,7 @@ impl Selection {
             GenLevel::Three => Vec::new(),
             GenLevel::Rules => related::systematic(),
         };
-        // Of levels 1 and 2 that is every case: they are made of what is selected.
+        // Levels 1 and 2 are built from the selection, so nothing of theirs is filtered out.
         let systematic = systematic.into_iter().filter(move |case| self.selects(case));
         let random: Box<dyn Iterator<Item = Case> + Send> = match self.level {
             GenLevel::Rules => Box::new(self.random_families()),
@@ -165,7 +166,7 @@ impl Selection {
         }
     }
 
-    /// How many random cases there are: as many as asked for, or the level's own number.
+    /// The number of random cases: as asked for, or the level's own number.
     #[must_use]
     pub const fn random_count(self) -> u64 {
         match (self.random, self.level) {
@@ -177,13 +178,13 @@ impl Selection {
         }
     }
 
-    /// Random families, of the selected cases as many as are asked for.
+    /// Cases of random families that are selected, as many as are asked for.
     fn random_families(self) -> impl Iterator<Item = Case> {
         let random = SplitMix64::new(self.seed);
         let count = usize::try_from(self.random_count()).unwrap_or(usize::MAX);
         let Choices { domains, partitionings, splits, .. } = self.choices();
         let families = related::random(random, domains, partitionings, splits);
-        // Every family has each output, so the filter leaves some of each.
+        // Every family has each output, so the filter never runs dry.
         families.filter(move |case| self.selects(case)).take(count)
     }
 
@@ -225,8 +226,8 @@ pub fn configurations() -> impl Iterator<Item = (Domain, Config)> {
     Domain::ALL.into_iter().flat_map(move |domain| configs.clone().map(move |c| (domain, c)))
 }
 
-/// The configurations of which each part is one of these, in the same order; an empty list stands
-/// for all.
+/// The configurations whose parts are all in these lists, in the same order; an empty list allows
+/// all values.
 pub fn configurations_among<'a>(
     domains: &'a [Domain],
     partitionings: &'a [Partitioning],
@@ -248,8 +249,8 @@ pub(crate) fn pick<T: Copy>(random: &mut impl Draw, from: &[T]) -> T {
     from[random.below(u32::try_from(from.len()).unwrap_or(u32::MAX)) as usize]
 }
 
-/// The binary32 with this 15.16 value, exact for values below 2^24; larger ones are rounded to
-/// nearest even.
+/// The binary32 of a 15.16 number. It is exact below 2^24; larger numbers are rounded to nearest,
+/// ties to even.
 #[expect(
     clippy::cast_precision_loss,
     clippy::float_arithmetic,

@@ -4,7 +4,7 @@ use crate::quote::quoted;
 use tess_core::prepare::{QuadAxes, Reduction};
 use tess_core::{Domain, OutputPrimitive, Parity, Partitioning, Patch, ProcessedPatch, SplitOrder};
 
-/// A choice whose values have names.
+/// A choice whose values have names, such as a domain.
 pub trait Named: Copy + PartialEq + 'static {
     /// The name of the choice, such as `domain`.
     const WHAT: &'static str;
@@ -17,10 +17,10 @@ pub trait Named: Copy + PartialEq + 'static {
         Self::NAMES.iter().find(|(_, value)| *value == self).map_or("", |(name, _)| name)
     }
 
-    /// The value of a name.
+    /// The value that a name stands for.
     ///
     /// # Errors
-    /// [`UnknownNameError`], which lists the names there are.
+    /// [`UnknownNameError`], which lists the known names.
     fn from_name(name: &str) -> Result<Self, UnknownNameError> {
         let found = Self::NAMES.iter().find(|(known, _)| *known == name);
         found.map(|(_, value)| *value).ok_or_else(|| UnknownNameError {
@@ -31,20 +31,20 @@ pub trait Named: Copy + PartialEq + 'static {
     }
 }
 
-/// A name that stands for nothing.
+/// A name that no value has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("unknown {what} {}, expected one of: {}", quoted(name), known.join(", "))]
 #[non_exhaustive]
 pub struct UnknownNameError {
     /// The name of the choice.
     pub what: &'static str,
-    /// The name.
+    /// The unknown name.
     pub name: String,
-    /// The names there are.
+    /// The known names.
     pub known: Vec<&'static str>,
 }
 
-/// The way that a patch takes: `culled`, `minimum` or `regular`.
+/// The path that a patch takes: `culled`, `minimum` or `regular`.
 pub(crate) const fn way_of(patch: &Patch) -> &'static str {
     match patch.processed() {
         ProcessedPatch::Culled => "culled",
@@ -53,7 +53,7 @@ pub(crate) const fn way_of(patch: &Patch) -> &'static str {
     }
 }
 
-/// An enum whose values stand each beside its name, or the names of one that is defined elsewhere.
+/// Defines an enum with a name for each value, or gives names to one that is defined elsewhere.
 macro_rules! named {
     ($(#[$of_type:meta])* $visible:vis enum $type:ident: $what:literal {
         $($(#[$of_value:meta])* $value:ident = $name:literal,)*

@@ -1,9 +1,9 @@
-//! Foreign text in messages, bounded and without anything that a terminal would obey.
+//! Foreign text in messages: shortened, and without control characters that a terminal would obey.
 
-/// The most characters of foreign text that a message repeats.
+/// The largest number of characters of foreign text that a message repeats.
 const MOST: usize = 60;
 
-/// `text` between backquotes: what is not printable is escaped, and what is long is cut.
+/// `text` between backquotes, with unprintable characters escaped and a long text cut.
 pub(crate) fn quoted(text: &str) -> String {
     let shown: String = text.chars().take(MOST).flat_map(char::escape_debug).collect();
     match text.chars().nth(MOST) {

@@ -1,9 +1,9 @@
-//! The demands of each standard on a tessellator's output, checked without a driver.
+//! What each standard demands of a tessellator's output, checked without a driver.
 //!
-//! A device may differ from the model and be right. A rule is what one standard says of the output
-//! alone, such as "an outer edge's vertices depend on its own level and spacing". Some rules judge
-//! one patch, others compare patches that have a level in common; `tess gen --rules` makes patches
-//! that exercise all of them.
+//! A device may differ from the model and still be right. A rule is a statement of one standard
+//! about output, such as "an outer edge's vertices depend only on its own level and spacing". Some
+//! rules judge one patch, others compare patches that have a level in common; `tess gen --rules`
+//! generates patches that exercise all of them.
 //!
 //! ```text
 //!  (case, output) ──► Answer: vertices by place ──► rules of one patch   (answer.rs, mesh.rs, edge.rs)
@@ -12,14 +12,14 @@
 //!                          Tally for each rule ◄─────────┘  ──► held | broken | not exercised
 //! ```
 //!
-//! Vertices are told apart by their coordinates, as a shader sees them, never by their numbers.
+//! Vertices are identified by their coordinates, as a shader sees them, never by index.
 //!
 //! ```
 //! use tess_verify::Case;
 //! use tess_verify::rules::{Checker, Rule, Specification, Verdict};
 //!
 //! let mut checker = Checker::new(Specification::Vulkan);
-//! // 3.00000024 is above 3, so Vulkan asks for 5 segments. The model rounds to 16 fraction bits first.
+//! // 3.00000024 is above 3, so Vulkan asks for 5 segments. The model first rounds to 16 fraction bits.
 //! let case: Case = "case isoline fractional_odd line ruler 3f800000 40400001".parse()?;
 //! checker.add(&case, &case.patch().tessellate());
 //!
@@ -32,11 +32,11 @@
 //! # Ok::<(), tess_verify::CaseError>(())
 //! ```
 //!
-//! - A patch whose indices name no points, or whose points are outside the domain, is judged only
-//!   by [`Rule::Range`].
-//! - Lengths that a standard calls equal may differ by 16/65536, as coordinates are rounded;
-//!   everything else is compared bit for bit.
-//! - Where a standard allows two results, a patch that shows either does not count as judged.
+//! - A patch with an index that names no point, or a point outside the domain, is judged only by
+//!   [`Rule::Range`].
+//! - Coordinates are rounded, so a vertex may be 16/65536 away from the place that equal lengths
+//!   give it, and a length may be off by twice that. Everything else is compared bit for bit.
+//! - Where a standard allows two results, the rule does not judge the patch.
 
 mod answer;
 mod edge;
@@ -70,14 +70,14 @@ pub struct Checker {
     memory: Memory,
 }
 
-/// Patches that a backend is asked for at once.
+/// Patches per call of a backend.
 const BATCH: usize = 256;
 
-/// Judges a backend's outputs for cases. `done` is called with the number of patches after each
-/// batch.
+/// Judges a backend's outputs for cases. After each batch, `done` is called with the number of
+/// patches so far.
 ///
 /// # Errors
-/// The backend could not run, or did not answer with a patch for each case.
+/// The backend could not run, or the number of its answers is not the number of cases.
 pub fn check_rules(
     backend: &mut dyn Backend,
     cases: impl IntoIterator<Item = Case>,
@@ -97,15 +97,15 @@ pub fn check_rules(
     }
 }
 
-/// The judgement of a rule on one patch; `None` if it could show no fault.
+/// A rule's judgement of one patch; `None` if the patch could not show a fault.
 type Judged = Option<Result<(), String>>;
 
-/// The judgement of a rule on a patch, or on a patch and one before it: the earlier case, and what
-/// is wrong.
+/// A rule's judgement of one patch, or of a patch and an earlier one: the earlier case, and the
+/// result with its fault.
 type Judgement = (Option<Case>, Result<(), String>);
 
 impl Checker {
-    /// Rules that have judged nothing yet.
+    /// A checker that has judged nothing yet.
     #[must_use]
     pub fn new(specification: Specification) -> Self {
         let tally = |rule| Some(Tally::new(rule, specification.source(rule)?));
@@ -113,9 +113,9 @@ impl Checker {
         Self { specification, patches: 0, tallies, memory: Memory::default() }
     }
 
-    /// Judges an output, alone and beside those before it.
+    /// Judges an output by itself and against earlier ones.
     ///
-    /// The output of a capture by coordinates may have a point for each vertex.
+    /// The output of a capture by coordinates may have one point per vertex.
     pub fn add(&mut self, case: &Case, output: &Tessellation) {
         self.patches += 1;
         let answer = match Answer::new(case, output) {

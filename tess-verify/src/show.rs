@@ -1,5 +1,5 @@
-//! One patch for people: every stage of it ([`Explanation`]), a picture ([`draw`]), and the signals
-//! of a circuit beside the model's ([`compare_signals`]).
+//! One patch for people: every stage of it ([`Explanation`]), a picture ([`draw`]), and a
+//! comparison of a circuit's signals with the model's ([`compare_signals`]).
 
 mod circuit;
 mod drawing;

@@ -1,8 +1,8 @@
 //! Vector files: recorded or expected results, read record by record.
 //!
 //! `golden/README.md` describes the format. The reader is strict: a file that is truncated, longer
-//! than its header says, empty, or of an unknown kind or version is an error that names file,
-//! line and field, so that nothing passes because it was not there.
+//! than its header announces, empty, or of an unknown kind or version is an error that names the
+//! file, the line and the field. Nothing passes because it was missing.
 
 mod cases;
 mod coordinate;
@@ -40,7 +40,7 @@ use lines::Lines;
 use row::Row;
 use std::io::BufRead;
 
-/// A vector file that is being read: an iterator over its records that ends after the first error.
+/// A vector file being read: an iterator over its records that ends after the first error.
 ///
 /// ```
 /// use tess_verify::vectors::VectorFile;
@@ -59,13 +59,13 @@ pub struct VectorFile<R> {
     lines: Lines<R>,
     header: Header,
     records: u64,
-    /// Whether the line that marks the end was read.
+    /// Whether the line that marks the end has been read.
     marked: bool,
     ended: bool,
     emptiness: Emptiness,
 }
 
-/// Whether a file may have no record.
+/// Whether a file may have no records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Emptiness {
     Refused,
@@ -73,10 +73,11 @@ enum Emptiness {
 }
 
 impl<R: BufRead> VectorFile<R> {
-    /// Reads the header, and the column names of a CSV kind. `name` is what errors call the file.
+    /// Reads the header, and the column names if the kind is CSV. `name` is the file's name in
+    /// errors.
     ///
     /// # Errors
-    /// An empty file, or a header or column names of another format.
+    /// The file is empty, or its header or column names are not of this format.
     pub fn new(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
         Self::open(name.as_ref(), reader, Emptiness::Refused)
     }
@@ -106,7 +107,7 @@ impl<R: BufRead> VectorFile<R> {
         &self.header
     }
 
-    /// An error in a record that was read.
+    /// An error in a record that has been read.
     pub(crate) fn error_at(&self, line: u64, field: &'static str, message: &str) -> VectorError {
         VectorError { line, ..self.lines.error(field, message) }
     }

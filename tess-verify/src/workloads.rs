@@ -1,6 +1,6 @@
-//! The named workloads that benches and reports time, as data.
+//! The named workloads of benches and reports, as data.
 //!
-//! Every machine times the same patches; a bench compares [`Workload::digest`] before it times
+//! Every machine times the same patches: a bench compares [`Workload::digest`] before it times
 //! anything.
 
 mod scenes;
@@ -15,7 +15,7 @@ use std::ops::Range;
 use tess_core::Order;
 use tess_core::{Config, Counts, Patch, PatchFactors};
 
-/// Patches of one domain and configuration, with the name that `tess bench --workload` takes.
+/// Patches of one domain and configuration, under the name that `tess bench --workload` takes.
 #[derive(Clone, Debug)]
 pub struct Workload {
     /// Name, such as `uniform-16` or `seed-table/isolines`.
@@ -24,43 +24,43 @@ pub struct Workload {
     pub config: Config,
     /// The patches, all of one domain.
     pub patches: Vec<PatchFactors>,
-    /// The numbers of the patches at which groups begin, ascending from 0; empty if the patches are
-    /// not grouped.
+    /// The index of the first patch of each group, ascending from 0; empty if the patches are not
+    /// grouped.
     pub groups: Vec<u32>,
-    /// How a consumer hands them over.
+    /// How a consumer passes the patches to the tessellator.
     pub calls: Calls,
 }
 
-/// How many patches a call to the tessellator has.
+/// The patches in one call to the tessellator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Calls {
-    /// As many as suit what is measured.
+    /// As many as the measurement calls for.
     Batch,
-    /// One patch at a time, as interfaces without batches do.
+    /// One patch per call, as in an interface without batches.
     SinglePatch,
-    /// One group at a time, as a renderer does that draws mesh by mesh.
+    /// One group per call, as in a renderer that draws mesh by mesh.
     Group,
-    /// All groups in one call, whose result says where each group's output lies.
+    /// All groups in one call, whose result gives the position of each group's output.
     AllGroups,
 }
 
-/// Width of the indices in a consumer's buffer.
+/// The width of indices in a consumer's buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IndexWidth {
-    /// 16 bits: enough for any one patch.
+    /// 16 bits, enough for any single patch.
     U16,
     /// 32 bits.
     U32,
 }
 
-/// The size of a workload or of a part of it.
+/// The size of a workload or of a part of one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Totals {
     /// Patches.
     pub patches: u64,
     /// Domain points.
     pub points: u64,
-    /// Primitives: triangles, or segments on isolines.
+    /// Primitives: triangles, or segments of isolines.
     pub primitives: u64,
     /// Indices.
     pub indices: u64,
@@ -85,11 +85,11 @@ impl Totals {
     }
 }
 
-/// Bytes of output that a batch of the working set `cache` has at least.
+/// The smallest output, in bytes, of a batch of the working set `cache`.
 const CACHE_BATCH_BYTES: u64 = 1 << 20;
-/// Patches that a batch of the working set `cache` has at least.
+/// The smallest number of patches in a batch of the working set `cache`.
 const CACHE_BATCH_PATCHES: usize = 8;
-/// Bytes of output of the working set `stream`.
+/// The output, in bytes, of the working set `stream`.
 const STREAM_BYTES: u64 = 1 << 30;
 
 impl Workload {
@@ -105,8 +105,8 @@ impl Workload {
         workloads
     }
 
-    /// The workloads that a name stands for: the one of that name, or all of a family such as
-    /// `uniform` or `seed-table` or `single`; none for an unknown name.
+    /// The workload of this name, or all workloads of a family such as `uniform`, `seed-table` or
+    /// `single`; empty for an unknown name.
     #[must_use]
     pub fn named(name: &str) -> Vec<Self> {
         let all = Self::all();
@@ -135,7 +135,7 @@ impl Workload {
         starts.zip(ends).map(|(start, end)| start..end)
     }
 
-    /// Output sizes of each patch, from the model.
+    /// The output sizes of each patch, from the model.
     pub fn counts(&self) -> impl Iterator<Item = Counts> {
         self.patches.iter().map(|&factors| Patch::new(self.config, factors).counts())
     }
@@ -148,8 +148,8 @@ impl Workload {
         totals
     }
 
-    /// The digest that a correct implementation's output has, its triangles in this order, chained
-    /// over all patches as [`Fnv1a::patch`] does.
+    /// The digest of a correct implementation's output with triangles in this order, chained over
+    /// all patches as [`Fnv1a::patch`] does.
     #[must_use]
     pub fn digest(&self, order: Order) -> u64 {
         let mut digest = Fnv1a::default();
@@ -159,11 +159,11 @@ impl Workload {
         digest.finish()
     }
 
-    /// The working set `cache`: consecutive batches that cover all patches, each of about 1 MiB of
-    /// output and of at least 8 patches; the patches of one call each if the workload says what
-    /// that is.
+    /// The working set `cache`: consecutive batches that cover all patches. Each is one call, if
+    /// [`Workload::calls`] fixes its patches; otherwise each has about 1 MiB of output and at least
+    /// 8 patches.
     ///
-    /// A remainder that would make a batch of its own too small joins the batch before it.
+    /// A remainder too small for a batch of its own joins the batch before it.
     #[must_use]
     pub fn cache_batches(&self, index_type: IndexWidth) -> Vec<Range<usize>> {
         match self.calls {
@@ -174,7 +174,7 @@ impl Workload {
         }
     }
 
-    /// Consecutive batches of about 1 MiB.
+    /// Consecutive batches of about 1 MiB of output.
     fn mebibytes(&self, index_type: IndexWidth) -> Vec<Range<usize>> {
         let is_full = |range: &Range<usize>, totals: &Totals| {
             range.len() >= CACHE_BATCH_PATCHES && totals.bytes(index_type) >= CACHE_BATCH_BYTES

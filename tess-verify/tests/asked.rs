@@ -1,4 +1,5 @@
-//! Answers beside what was asked: each dropped, repeated or foreign answer is one difference.
+//! Tests of answers compared with the cases that were asked: each dropped, repeated or foreign
+//! answer is one difference.
 
 use std::time::Instant;
 use tess_core::Tessellation;
@@ -7,10 +8,10 @@ use tess_verify::generate::{GenLevel, Selection, SplitMix64};
 use tess_verify::vectors::{Listing, VectorFile};
 use tess_verify::{Backend, Case, CoreBackend};
 
-/// With so many cases in a row without a record, the comparison is out of step.
+/// After this many cases in a row without a record, the comparison has lost its place.
 const WINDOW: usize = 4096;
 
-/// Distinct small cases.
+/// Small cases, all different.
 fn cases(count: usize) -> Vec<Case> {
     let case = |k| {
         let line = format!("case isoline integer point ruler 3f800000 {:08x}", 0x3F80_0000 + k);
@@ -19,7 +20,7 @@ fn cases(count: usize) -> Vec<Case> {
     (0..count).map(case).collect()
 }
 
-/// Checks right answers for some cases against what was asked.
+/// Checks correct answers to some cases against the cases that were asked.
 fn check(asked: &[Case], answered: &[Case]) -> Report {
     let listing = |case: &Case| Listing::of_model(*case).to_string();
     let listings: String = answered.iter().map(listing).collect();
@@ -32,7 +33,7 @@ fn check(asked: &[Case], answered: &[Case]) -> Report {
         .expect("a verdict")
 }
 
-/// The first lines of the differences.
+/// The first line of each difference.
 fn shown(report: &Report) -> Vec<String> {
     let lines = report.differences.iter().map(ToString::to_string);
     lines.map(|text| text.lines().next().unwrap_or_default().to_owned()).collect()
@@ -92,7 +93,7 @@ fn two_exchanged_answers_are_two_differences() {
     assert_eq!(report.mismatches, 2, "{:?}", shown(&report));
 }
 
-/// One wrong answer does not make the right ones behind it wrong.
+/// One wrong answer does not make the correct ones after it wrong.
 #[test]
 fn one_coincidence_is_no_place_to_go_on_from() {
     let asked = cases(1000);
@@ -107,7 +108,7 @@ fn one_coincidence_is_no_place_to_go_on_from() {
     assert_eq!((report.cases, report.mismatches), (1000, 3), "{:?}", shown(&report));
 }
 
-/// How many of one list must be put in, left out or replaced to make another, entry by entry.
+/// How many entries of one list must be inserted, removed or replaced to turn it into another.
 fn distance(answered: &[Case], asked: &[Case]) -> u64 {
     let mut row: Vec<u64> = (0..).take(asked.len() + 1).collect();
     for (number, answer) in (1..).zip(answered) {
@@ -121,7 +122,7 @@ fn distance(answered: &[Case], asked: &[Case]) -> u64 {
     row[asked.len()]
 }
 
-/// Edits at random: no explanation has fewer differences, and each edit counts at most twice.
+/// Random edits: no explanation has fewer differences, and each edit counts as at most two.
 #[test]
 fn the_shortest_explanation_is_given() {
     let asked = cases(300);
@@ -151,8 +152,8 @@ fn the_shortest_explanation_is_given() {
     }
 }
 
-/// Answers out of step in several places, each farther from the next than is looked through, and as
-/// far as that.
+/// Answers lose their place several times. The distance from one such place to the next is larger
+/// than the comparison looks ahead, or equal to it.
 #[test]
 fn long_files_come_into_step_again() {
     let asked = cases(5 * WINDOW);
@@ -168,14 +169,15 @@ fn long_files_come_into_step_again() {
     answered.splice(100..100, asked[2 * WINDOW..][..3000].iter().copied());
     assert_eq!(check(&asked, &answered).mismatches, 3000, "most of a window is too many");
 
-    // The answers behind the gap are the last that are looked through, fewer than it is wide.
+    // The answers after the gap are the last ones that the comparison looks at, and they are fewer
+    // than the gap is wide.
     let mut answered = asked.clone();
     answered[0] = asked[5000];
     answered.drain(WINDOW - 6..WINDOW + 44);
     assert_eq!(check(&asked, &answered).mismatches, 51, "a gap at the end of a window");
 }
 
-/// Answers that share nothing with what was asked take no longer than three times the time of right
+/// Answers that share nothing with the cases asked take at most three times as long as correct
 /// ones.
 #[test]
 fn foreign_answers_take_the_time_of_right_ones() {
@@ -202,7 +204,7 @@ fn more_missing_answers_than_are_looked_through() {
     assert_eq!(report.mismatches, WINDOW as u64 - 1, "in step behind the window: {report}");
 }
 
-/// A device is compared in spite of what is missing: a wrong answer behind it is found.
+/// Missing answers do not end the comparison of a device: a wrong answer after one is found.
 #[test]
 fn a_wrong_answer_behind_a_missing_one() {
     let selection = Selection { random: Some(50), ..Selection::level(GenLevel::Three, 5) };

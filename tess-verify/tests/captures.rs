@@ -1,5 +1,5 @@
-//! Captures: vertices by coordinates, files without a count, what was asked, outputs that are
-//! turned round as a whole.
+//! Tests of captures: vertices by coordinates, files without a count, the cases that were asked,
+//! and outputs that are mirrored or turned as a whole.
 
 use std::fmt::Write;
 use tess_core::fixed_point::ONE;
@@ -35,12 +35,13 @@ fn run_tested(text: &str, tested: Tested) -> Result<Report, CheckError> {
     check(file, &mut [Box::new(CoreBackend)], tested, &|_| ())
 }
 
-/// The mistake that turns outputs round and explains every difference.
+/// The mistake that explains every difference, if there is one. What the specification leaves to a
+/// device is not a mistake.
 fn turn(report: &Report) -> Option<Way> {
     report.ways().into_iter().find(|way| !way.is_allowed())
 }
 
-/// A file of records that marks its end.
+/// A file of these records, with a mark at its end.
 fn file(records: &str) -> String {
     format!("{HEADER}{records}# end\n")
 }
@@ -53,7 +54,7 @@ fn error(text: &str) -> String {
     run(text, ANY).expect_err("refused").to_string()
 }
 
-/// The places of an output's vertices.
+/// The coordinates of an output's vertices.
 fn places(output: &Tessellation) -> Vec<[u32; 2]> {
     vertices(output).flatten().map(|p| [p.u.to_bits(), p.v.to_bits()]).collect()
 }
@@ -68,7 +69,7 @@ fn record(line: &str, notation: &str, show: impl Fn(u32) -> String) -> String {
     text + "end\n"
 }
 
-/// A record as it is read.
+/// A record as it is read back.
 fn coordinates(record: &str) -> Coordinates {
     let text = file(record);
     let record = VectorFile::new("capture", text.as_bytes()).expect("a header").next();
@@ -89,7 +90,7 @@ fn number_bits(number: u32) -> u32 {
     tess_core::fixed_point::coordinate_to_f32(DomainPoint::from_bits(number, 0).u).to_bits()
 }
 
-/// A record reads back as it is written, with third coordinates or without.
+/// A record is written as it was read, with third coordinates or without.
 #[test]
 fn records_are_written_as_they_are_read() {
     let right = record(TRI, "hex", hex);
@@ -104,7 +105,7 @@ fn records_are_written_as_they_are_read() {
     }
 }
 
-/// A capture that is right tells of a backend: one changed coordinate is one difference.
+/// A correct capture tests a backend: one changed coordinate is one difference.
 #[test]
 fn captures_test_a_backend() {
     let check_backend =
@@ -159,7 +160,7 @@ fn another_order_and_a_moved_vertex_are_seen() {
     assert_eq!(verdict(&lost, ANY).mismatches, 1, "a lost primitive");
 }
 
-/// A list with three vertices a triangle, of the largest patch: 24576 points.
+/// A list with three vertices per triangle, for the largest patch: 24576 points.
 #[test]
 fn listings_without_an_index_buffer() {
     let line = QUAD.replace("40400000", "42800000");
@@ -171,7 +172,8 @@ fn listings_without_an_index_buffer() {
     assert_eq!(verdict(&listing.to_string(), ANY).mismatches, 0, "the same triangles");
 }
 
-/// A wrong third coordinate cannot be left out.
+/// Either all vertices of a record have a third coordinate or none has, so a wrong one cannot be
+/// left out.
 #[test]
 fn third_coordinates_stand_everywhere_or_nowhere() {
     for rows in ["0 1 0\n0 0\n1 0 0\n", "0 1\n0 0\n1 0 0\n"] {
@@ -180,8 +182,8 @@ fn third_coordinates_stand_everywhere_or_nowhere() {
     }
 }
 
-/// Points get the model's numbers: the model's sequence is its listing, and what differs stands
-/// out.
+/// Points get the model's numbers: the model's sequence becomes its listing, and anything that
+/// differs is visible.
 #[test]
 fn coordinates_with_the_models_numbers() {
     let listing = |text: &str| coordinates(text).numbered();
@@ -243,7 +245,7 @@ fn numbers_that_mean_something_else_are_refused() {
         ("coordinates hex 2 3", "", "`3` is one word too many"),
         ("coordinates hex 99999", "", "99999 is too many: a patch has at most 24576"),
         ("coordinates hex 24577", "", "24577 is too many: a patch has at most 24576"),
-        ("coordinates hex 24576", "", "24576 vertices are announced, these are 0"),
+        ("coordinates hex 24576", "", "24576 vertices are announced, but there are 0"),
         (
             "coordinates hex",
             &"00000 00000\n".repeat(24_577),
@@ -255,7 +257,7 @@ fn numbers_that_mean_something_else_are_refused() {
             "4 vertices are announced",
         ),
         ("coordinates hex 1", "00000 00000\n00000 00000\n", "a listing ends with `end`"),
-        ("coordinates hex", "00000 00000\n", "1 is no multiple of 3"),
+        ("coordinates hex", "00000 00000\n", "1 is not a multiple of 3"),
         ("points 1", "0 1\n", "`0 1` is not a point: u and v as 5 to 8 hex digits each"),
     ] {
         let error = error(&file(&format!("{TRI}\n{line}\n{rows}end\n")));
@@ -288,7 +290,7 @@ fn a_file_without_a_count_marks_its_end() {
     assert!(error.contains("case: a case is"), "the mark comes too early: {error}");
 }
 
-/// The report on records, and for each whether it is wrong for the case that it states.
+/// The report on records, and for each record whether it is wrong for the case that it states.
 fn asked(asked: &str, records: &str) -> Result<(Report, Vec<bool>), CheckError> {
     let text = file(records);
     let file = VectorFile::new("capture", text.as_bytes())?;
@@ -326,8 +328,8 @@ fn what_was_asked_must_be_answered() {
     assert!(error("case tri\n").starts_with("asked:1: case: a case is"), "{}", error("case tri\n"));
 }
 
-/// An answer with more indices than a patch can have does not hide what differs before it, in step
-/// or out of it.
+/// An answer with more indices than a patch can have does not hide the differences before it,
+/// whether answers are in step or not.
 #[test]
 fn what_differs_before_a_malformed_answer_is_reported() {
     let [tri, quad] = [TRI, QUAD].map(|line| record(line, "hex", hex));
@@ -386,7 +388,8 @@ fn one_mistake_that_explains_everything_is_named() {
     let report = turned(ANY, reversed);
     assert!(report.mismatches > 30, "{report}");
     assert_eq!(turn(&report), Some(Way::Reversed));
-    // Points keep their numbers, and triangles their vertices: a mirrored picture, in order.
+    // Points keep their numbers and triangles their vertices, so the picture is mirrored and its
+    // order is kept.
     for strength in [EXACT, SEQUENCE, ANY] {
         let transposed = |case: &Case| with_points(case, |[u, v]| [v, u]);
         let report = turned(strength, transposed);

@@ -1,4 +1,5 @@
-//! Listings of a device under test: which differences are seen, and which stage they point to.
+//! Tests of listings of a device under test: which differences are detected, and to which stage
+//! they point.
 
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::check::{
@@ -15,12 +16,12 @@ fn case(line: &str) -> Case {
     line.parse().unwrap_or_else(|error| panic!("{line}: {error}"))
 }
 
-/// Checks what a device says of `case`.
+/// Checks a device's output for `case`.
 fn observe(case: Case, output: Tessellation, strength: Strength) -> Report {
     observe_all("device", &[(case, output)], strength, 1)
 }
 
-/// Checks what a device of this name says of cases, on some threads.
+/// Checks the outputs of a device of this name on some threads.
 fn observe_all(
     source: &str,
     outputs: &[(Case, Tessellation)],
@@ -39,7 +40,7 @@ fn observe_all(
     check(file, &mut backends, Tested::Listings(strength), &|_| ()).expect("a verdict")
 }
 
-/// The stage that a wrong output points to.
+/// The stage to which a wrong output points.
 fn stage(line: &str, output: Tessellation) -> SpecStage {
     let report = observe(case(line), output, Strength::default());
     assert_eq!((report.cases, report.mismatches), (1, 1), "the difference is seen");
@@ -56,8 +57,8 @@ fn a_right_device_passes() {
     assert_eq!((report.cases, report.mismatches), (1, 0), "{report:?}");
 }
 
-/// A device that fails at every hundredth patch, whichever thread checks it; and one that fails
-/// once more.
+/// A device that fails on every hundredth patch, whichever thread checks it, and a device that
+/// fails once more often.
 #[test]
 fn differences_at_regular_distances_have_a_period() {
     let mut outputs = vec![(case(TRIANGLE), right(TRIANGLE)); 1000];
@@ -123,7 +124,8 @@ fn strength_applies_to_devices() {
     assert_eq!(observe(case(&tie), up, lenient).mismatches, 0, "the other neighbour");
 }
 
-/// The model's sequence by coordinates: any numbering of points, no other order of primitives.
+/// The model's sequence by coordinates: points may be numbered in any way, but primitives keep
+/// their order.
 #[test]
 fn sequences_are_compared_by_coordinates() {
     let sequence = Strength { order: ListOrder::Sequence, ..Strength::default() };
@@ -148,7 +150,7 @@ fn sequences_are_compared_by_coordinates() {
     assert!(nowhere.to_string().contains("no point"), "{nowhere}");
 }
 
-/// A device that has points alone is told of a wrong point, not of the indices that it lacks.
+/// A device that has only points is told about a wrong point, not about the indices that it lacks.
 #[test]
 fn points_alone() {
     let strength = Strength { elements: Elements::Points, ..Strength::default() };
@@ -172,13 +174,13 @@ const ANY: Strength = Strength {
     denormals: Denormals::Keep,
 };
 
-/// A report's only difference, in words.
+/// The text of a report's only difference.
 fn shown(report: &Report) -> String {
     assert_eq!(report.mismatches, 1, "{report:?}");
     report.differences[0].mismatch.to_string()
 }
 
-/// The name of a device decides nothing: its listings are what was observed.
+/// The name of a device has no effect: its listings are what is observed.
 #[test]
 fn devices_of_any_name_are_what_is_tested() {
     let mut wrong = right(TRIANGLE);
@@ -192,7 +194,7 @@ fn devices_of_any_name_are_what_is_tested() {
     }
 }
 
-/// Only listings are what a device gives.
+/// Only listings can be the output of a device.
 #[test]
 fn other_kinds_cannot_be_tested() {
     let text = "# tess-vectors 1 kind=factors count=1 source=device\n\
@@ -202,7 +204,8 @@ fn other_kinds_cannot_be_tested() {
     assert!(matches!(result, Err(CheckError::NoListings(_))), "{result:?}");
 }
 
-/// Points that no primitive uses count too: in any order, the places are a set.
+/// Points that no primitive uses count as well: in any order, the places are a set in which each
+/// occurs once.
 #[test]
 fn points_that_no_primitive_uses() {
     let with = |change: fn(&mut Vec<DomainPoint>)| {
@@ -239,7 +242,7 @@ fn coinciding_points_may_be_merged() {
     assert_eq!(observe(case(line), merged, ANY).mismatches, 1, "a place less");
 }
 
-/// The stage is found with the strength that found the difference.
+/// The stage is found with the same strength of comparison as the difference.
 #[test]
 fn stages_in_any_order() {
     let reversed = |output: &Tessellation| {
@@ -263,7 +266,7 @@ fn stages_in_any_order() {
     }
 }
 
-/// With `--points`, wrong indices explain nothing.
+/// With `--points`, wrong indices do not explain a difference.
 #[test]
 fn stages_of_points_alone() {
     let mut truncated = right(&TRIANGLE.replace("40733333", "40733300"));
@@ -274,11 +277,11 @@ fn stages_of_points_alone() {
 }
 
 const WITHIN_06_ULP: Strength = Strength { conversion: Conversion::Within06Ulp, ..ANY };
-/// An edge of 3 + 2^-17: its fixed-point number is 0x30000 or 0x30001.
+/// An edge factor of 3 + 2^-17: its fixed-point number is 0x30000 or 0x30001.
 const TIE: &str = "case quad fractional_odd triangle_cw ruler \
                    40400020 40200000 40a00000 40500000 40900000 40d00000";
 
-/// Two patches that share an edge cannot convert its factor in two ways.
+/// Two patches that share an edge cannot convert its factor in different ways.
 #[test]
 fn a_value_has_one_conversion_through_the_file() {
     let [low, high] = [right(TIE), right(&TIE.replace("40400020", "40400040"))];
@@ -308,7 +311,8 @@ fn a_value_has_one_conversion_through_the_file() {
     }
 }
 
-/// The first record that shows a value's number decides, whichever number that is.
+/// The first record whose output shows how a value was converted decides, whichever number it
+/// shows.
 #[test]
 fn the_first_record_decides_which_conversion() {
     let [low, high] = [right(TIE), right(&TIE.replace("40400020", "40400040"))];
@@ -324,10 +328,11 @@ fn the_first_record_decides_which_conversion() {
     }
 }
 
-/// A record whose output is the same with either number says nothing of the value.
+/// A record whose output is the same with either number tells nothing about the value's conversion.
 #[test]
 fn a_value_that_does_not_show_is_not_decided() {
-    // The two split orders move other points, so that their locations round at other values.
+    // The two split orders move different points, so that their locations round differently at
+    // different values.
     let shows = "case isoline fractional_even point ruler 3f800000 VALUE";
     let at = |line: &str, fixed: u32| {
         let bits = DomainPoint::from_bits(fixed, 0).to_f32()[0].to_bits();
@@ -360,8 +365,9 @@ fn a_value_that_does_not_show_is_not_decided() {
     }
 }
 
-/// One factor off by a unit in the last place or by one, in each position and each way, and a patch
-/// that is culled, point to the factors; the other split order points to the context.
+/// A factor that is wrong by a unit in the last place or by one, in each position and each
+/// direction, and a patch that is culled point to the factors; the other split order points to the
+/// context.
 #[test]
 fn the_stage_of_a_wrong_factor() {
     let quad =
@@ -390,7 +396,7 @@ fn the_stage_of_a_wrong_factor() {
     }
 }
 
-/// Nor can two edges of one patch.
+/// Two edges of one patch cannot convert one value in different ways either.
 #[test]
 fn a_value_has_one_conversion_in_a_patch() {
     let both = TIE.replace("40a00000", "40400020");
@@ -400,8 +406,8 @@ fn a_value_has_one_conversion_in_a_patch() {
     assert_eq!(observe(case(&both), all, WITHIN_06_ULP).mismatches, 0, "one way");
 }
 
-/// In any order too: the first difference is the moved point, not one of those that the other
-/// conversion moves.
+/// The same holds in any order: the first difference is the moved point, not one of the points that
+/// the other conversion moves.
 #[test]
 fn differences_beside_a_legal_conversion_in_any_order() {
     let bits = |fixed| DomainPoint::from_bits(fixed, 0).to_f32()[0].to_bits();
@@ -409,7 +415,7 @@ fn differences_beside_a_legal_conversion_in_any_order() {
     let low = (0xA_0001..0xB_0000)
         .find(|&low| {
             let [one, other] = [low, low + 1].map(|fixed| right(&at(bits(fixed))).points);
-            // Points before the last tell the two conversions apart.
+            // Points before the last one distinguish the two conversions.
             one.iter().zip(&other).filter(|(one, other)| one != other).count() > 2
         })
         .expect("a value that shows");
@@ -424,7 +430,7 @@ fn differences_beside_a_legal_conversion_in_any_order() {
     }
 }
 
-/// Faults are told by comparison with the conversion that the device uses.
+/// Faults are found by comparison with the conversion that the device uses.
 #[test]
 fn differences_beside_a_legal_conversion() {
     let mut wrong = right(&TIE.replace("40400020", "40400040"));

@@ -1,4 +1,4 @@
-//! The examples run, and see what they are to show.
+//! Tests that the examples run and detect what they should show.
 
 #[path = "../examples/device.rs"]
 #[expect(dead_code, reason = "its `main` reads the command line")]
@@ -37,5 +37,5 @@ fn a_capture_that_is_none_is_refused() {
     assert_eq!(error("# nothing"), "the capture has no patches");
     assert_eq!(error("at 0 0"), "line 1: expected `draw`, then `at` and `prim`");
     let inexact = CAPTURE.replacen("at 0.5 0\n", "at 0.1 0\n", 1);
-    assert!(error(&inexact).ends_with("0.1 is no multiple of 2^-16 in 0..1"), "{inexact}");
+    assert!(error(&inexact).ends_with("0.1 is not a multiple of 2^-16 in 0..1"), "{inexact}");
 }

@@ -1,5 +1,5 @@
-//! Reports of many differences: what explains all of them, where the model's elements come from,
-//! and how many there are of each kind.
+//! Tests of reports with many differences: what explains all of them, where the model's elements
+//! come from, and how many differences there are of each kind.
 
 use tess_core::{Domain, DomainPoint, Tessellation};
 use tess_verify::Case;
@@ -14,7 +14,7 @@ const ANY: Strength = Strength {
     denormals: Denormals::Keep,
 };
 const CULLED: &str = "case tri integer triangle_cw ruler 00000001 40400000 40400000 40400000";
-/// A factor of 3 + 2^-17: 0x30000 to the nearest, ties to even, or 0x30001.
+/// A factor of 3 + 2^-17: converted to 0x30000 by rounding to nearest, ties to even, or to 0x30001.
 const TIE: &str = "case tri fractional_odd line center 40a00000 40400020 40200000 40900000";
 
 fn case(line: &str) -> Case {
@@ -26,7 +26,7 @@ fn flushed() -> (Case, Tessellation) {
     (case(CULLED), Tessellation::default())
 }
 
-/// A device that rounds a tie up: the model's result for the next number.
+/// A device that rounds a tie up: its result is the model's for the next number.
 fn rounded_up() -> (Case, Tessellation) {
     let other = case(&TIE.replace("40400020", "40400040"));
     (case(TIE), other.patch().tessellate())
@@ -56,7 +56,7 @@ fn a_freedom_that_explains_all() {
     assert_eq!(check_device([], ANY).ways(), [], "nothing to explain");
 }
 
-/// A device whose triangles come from the last to the first.
+/// A device that emits its triangles from the last to the first.
 fn reversed(line: &str) -> (Case, Tessellation) {
     let case = case(line);
     let mut output = case.patch().tessellate();
@@ -103,7 +103,7 @@ fn elements_in_any_order_come_from_somewhere() {
     assert!(found.contains("12"), "an element of the device: {found}");
 }
 
-/// In the exact order elements have numbers, which the model's have too.
+/// In the exact order, elements have numbers, which are those of the model's elements.
 #[test]
 fn elements_come_from_their_numbers() {
     let line = "case tri integer triangle_cw ruler 40400000 40400000 40400000 40400000";

@@ -1,4 +1,4 @@
-//! The example that fuzzes a device finds a planted fault, and nothing without one.
+//! Tests that the example that fuzzes a device finds a planted fault, and nothing without one.
 
 #[path = "../examples/fuzz/main.rs"]
 #[expect(dead_code, reason = "its `main` reads the command line")]

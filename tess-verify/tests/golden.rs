@@ -1,4 +1,4 @@
-//! The model reproduces every recorded result of `golden/`, bit for bit.
+//! Tests that the model reproduces every recorded result of `golden/`, bit for bit.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -8,7 +8,7 @@ use tess_verify::check::{Mismatch, SecondFormulation, Tested, check};
 use tess_verify::vectors::{Kind, VectorFile};
 use tess_verify::{Backend, Case, CoreBackend};
 
-/// Every vector file there is.
+/// All vector files that exist.
 const FILES: [(&str, Kind, u64); 8] = [
     ("cases.txt", Kind::Listings, 51),
     ("patches.csv", Kind::Patches, 4000),
@@ -24,7 +24,7 @@ fn folder() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../golden"))
 }
 
-/// Checks the file of this name against its line in [`FILES`].
+/// Checks the file of this name against its entry in [`FILES`].
 fn check_file(name: &str) {
     let (_, kind, count) = FILES.into_iter().find(|(file, ..)| *file == name).expect("listed");
     let reader = BufReader::new(File::open(folder().join(name)).expect("the file is there"));
@@ -44,7 +44,7 @@ fn check_file(name: &str) {
     assert_eq!(report.cases, count, "{name}: all cases were checked");
 }
 
-/// Where the model's formulations part, which leads on from a digest.
+/// Where the model's two formulations differ, which helps to continue from a digest that differs.
 fn between_formulations(case: Option<Case>) -> String {
     let Some(case) = case else { return String::new() };
     let mut other = SecondFormulation;
@@ -63,7 +63,7 @@ fn the_folder_holds_these_files_alone() {
         .map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned())
         .collect();
     let files = FILES.iter().map(|(name, ..)| *name);
-    // What devices gave, which `tools/probe` checks.
+    // The outputs of devices, which `tools/probe` checks.
     let expected = files.chain(["README.md", "devices"]).map(str::to_owned);
     assert_eq!(found, expected.collect(), "entries of golden/");
 }

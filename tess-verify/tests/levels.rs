@@ -1,4 +1,4 @@
-//! The generated levels: what they hit, and that they are reproducible.
+//! Tests of the generated levels: what they hit, and that they are reproducible.
 
 use std::collections::HashSet;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
@@ -32,8 +32,8 @@ fn digest(cases: impl IntoIterator<Item = Case>) -> String {
     format!("{:016x}", digest.finish())
 }
 
-/// Whoever names a level, a seed and a number means the same case on every machine and in every
-/// release that does not say otherwise.
+/// A level, a seed and a number mean the same case on every machine, and in every release that does
+/// not state otherwise.
 #[test]
 fn cases_are_the_recorded_ones() {
     let some = |level, seed| Selection { random: Some(2000), ..Selection::level(level, seed) };
@@ -54,7 +54,7 @@ fn cases_are_the_recorded_ones() {
     assert_eq!(digests, recorded.map(|(name, _, expected)| (name, expected.to_owned())));
 }
 
-/// A case of another domain keeps its factors in turn; what is not selected stays.
+/// A case of another domain repeats its factors in turn; what is not selected is kept.
 #[test]
 fn cases_fit_a_selection() {
     let case: Case = "case isoline integer line ruler 40400000 40a00000".parse().expect("a case");
@@ -87,8 +87,8 @@ fn level_1_hits_every_bin() {
     assert!(missed.is_empty(), "{} bins missed: {missed:#?}", missed.len());
 }
 
-/// Each factor alone makes a patch that is no minimum patch: a device that decides it by the others
-/// is seen.
+/// Each factor by itself makes a patch that is not a minimum patch, so a device that ignores it in
+/// this decision is detected.
 #[test]
 fn level_1_has_patches_beside_minimum_ones() {
     let cases = level(GenLevel::One);
@@ -113,7 +113,7 @@ fn level_1_has_patches_beside_minimum_ones() {
     }
 }
 
-/// Random patches reach every bin too, but for some of the transitions; and they stay small.
+/// Random patches reach every bin as well, except some of the transitions, and they stay small.
 #[test]
 fn random_patches_reach_what_there_is() {
     let (mut coverage, mut points, mut cases) = (Coverage::default(), 0, 0);
@@ -126,8 +126,8 @@ fn random_patches_reach_what_there_is() {
             cases += 1;
         }
     }
-    // Only the list of thresholds lies exactly beside each, and has inside factors of nearly the
-    // same size.
+    // Only the list of thresholds has cases exactly next to each threshold, and inside factors of
+    // nearly the same size.
     let rare = ["boundary/", "rings/", "sequence/"];
     let missed = coverage.missed().filter(|bin| !rare.iter().any(|group| bin.starts_with(group)));
     let (transitions, others): (Vec<_>, Vec<_>) =
@@ -138,8 +138,8 @@ fn random_patches_reach_what_there_is() {
     assert!((20..120).contains(&mean), "{mean} points in the mean");
 }
 
-/// The state behind a patch may change the next one: each pair of neighbours in a stream hits its
-/// bin, and no other.
+/// State left by a patch may change the next one: each pair of neighbours in a stream hits its bin,
+/// and no other.
 #[test]
 fn sequences_are_pairs_of_neighbours() {
     let [tri, culled, line] = [
@@ -230,8 +230,8 @@ fn shards_are_disjoint_and_complete() {
     assert_eq!(Shard { part: 9, of: 20 }.items(9), 0, "no item for this part");
 }
 
-/// Cases, points and indices of levels 1 and 2, which docs/verification.md has: level 1 is small
-/// enough to simulate.
+/// The numbers of cases, points and indices of levels 1 and 2, which docs/verification.md states:
+/// level 1 is small enough to simulate.
 #[test]
 fn levels_have_the_documented_sizes() {
     let size = |cases: Vec<Case>| {

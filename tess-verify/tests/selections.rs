@@ -1,6 +1,6 @@
-//! Level 1 of any selection: it hits every bin that the selection's patches can hit, so that a
-//! device is asked as much as its configurations allow, and it sees devices whose mistakes only
-//! some of its cases show.
+//! Tests of level 1 for any selection: it hits every bin that the selection's patches can hit, so
+//! that a device is tested as far as its configurations allow, and it detects devices whose
+//! mistakes only some of its cases show.
 
 use std::collections::BTreeSet;
 use tess_core::{
@@ -11,14 +11,14 @@ use tess_verify::cover::{Coverage, Exclusions};
 use tess_verify::generate::{GenLevel, Selection, configurations_among};
 use tess_verify::{Case, Named};
 
-/// One value of a part of a configuration, or all.
+/// Each value of a part of a configuration, and none, which means all.
 fn or_all<T: Copy>(all: &[T]) -> Vec<Option<T>> {
     all.iter().copied().map(Some).chain([None]).collect()
 }
 
-/// Selections of level 1, without the random cases at its end: every one without an output, as
-/// outputs differ in their own bins only; each output alone; and each single configuration, outputs
-/// in turn.
+/// Selections of level 1, without the random cases at its end: every selection without an output,
+/// as outputs differ in their own bins only; each output by itself; and each single configuration,
+/// with the outputs taken in turn.
 fn selections() -> Vec<Selection> {
     let level = Selection { random: Some(0), ..Selection::level(GenLevel::One, 1) };
     let each_output =
@@ -39,7 +39,7 @@ fn selections() -> Vec<Selection> {
     all
 }
 
-/// The options of `tess gen` that give a selection.
+/// The options of `tess gen` for a selection.
 fn options(selection: &Selection) -> String {
     let Selection { domain, partitioning, output, split, .. } = selection;
     let names = [
@@ -52,7 +52,8 @@ fn options(selection: &Selection) -> String {
     format!("tess gen --level 1{}", given.collect::<String>())
 }
 
-/// The bins that a selection's patches can hit and its level 1 does not, and how many there are.
+/// The bins that a selection's patches can hit but its level 1 does not, and how many bins they can
+/// hit.
 fn holes(selection: &Selection) -> (Vec<String>, usize) {
     let Selection { domain, partitioning, output, split, .. } = *selection;
     let mut coverage = Coverage::default();
@@ -104,7 +105,7 @@ fn transitions(case: &Case) -> BTreeSet<(u32, u32, &'static str)> {
     }
 }
 
-/// The differences of a device that turns one triangle where a patch has a transition.
+/// The number of differences of a device that turns one triangle wherever a patch has a transition.
 fn differences(selection: &Selection, wrong: (u32, u32, &str)) -> u64 {
     let shows = |case: &Case| transitions(case).contains(&wrong);
     let answers = selection.cases().filter(shows).map(|case| {
@@ -115,9 +116,9 @@ fn differences(selection: &Selection, wrong: (u32, u32, &str)) -> u64 {
     check_device(answers, Strength::default()).mismatches
 }
 
-/// Masks of a device that were wrong where half of an odd outer count (19, 23, 27 or 31 segments
-/// and a middle one) met 64 inside, and 11 segments against 10: no case of one split order showed
-/// them.
+/// A device had wrong masks where outer edges of 38, 46, 54 or 62 points (half of which is 19, 23,
+/// 27 or 31) met an inside of 64 segments, and where 11 segments met 10: no case of one split order
+/// showed them.
 #[test]
 fn level_1_sees_a_wrong_transition_of_one_split_order() {
     for outer in [12, 38, 46, 54, 62] {
@@ -141,7 +142,7 @@ fn level_1_sees_a_wrong_transition_of_one_split_order() {
     }
 }
 
-/// A part of a configuration that a device keeps from the patch before.
+/// A part of a configuration that a device keeps from the previous patch.
 type Kept = (&'static str, fn(&Case, Config) -> Case);
 
 const KEPT: [Kept; 3] = [

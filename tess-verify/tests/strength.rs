@@ -1,4 +1,4 @@
-//! Each strength of comparison: what it accepts, and what it must not.
+//! Tests of each strength of comparison: what it accepts, and what it must not accept.
 
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::Case;
@@ -19,7 +19,7 @@ fn any_order() -> Strength {
     Strength { order: ListOrder::Any, ..Strength::default() }
 }
 
-/// The same mesh with its points reversed, its triangles reversed and each turned.
+/// The same mesh with its points reversed, its triangles reversed and each triangle turned.
 fn shuffled(tessellation: &Tessellation) -> Tessellation {
     let last = u32::try_from(tessellation.points.len()).expect("small") - 1;
     let mut points = tessellation.points.clone();
@@ -85,7 +85,7 @@ fn points_alone() {
     assert!(!strength.accepts(&case, &other), "a point's place does");
 }
 
-/// Without indices, and in the model's order.
+/// Without indices, in the model's order.
 #[test]
 fn points_alone_in_order() {
     let case = case(QUAD);
@@ -102,7 +102,7 @@ fn points_alone_in_order() {
     }
 }
 
-/// A sequence ends where the model's ends.
+/// A sequence must have as many primitives as the model's.
 #[test]
 fn a_sequence_has_its_length() {
     let case = case(QUAD);
@@ -116,7 +116,7 @@ fn a_sequence_has_its_length() {
     assert!(!strength.accepts(&case, &shorter), "a triangle less");
 }
 
-/// The factor 3 + 2^-17 lies halfway between 0x30000 and 0x30001.
+/// The factor 3 + 2^-17 is halfway between 0x30000 and 0x30001.
 #[test]
 fn both_neighbours_of_a_tie_are_legal_where_asked() {
     let tie = case(&QUAD.replace("40600000", "40400020"));
@@ -133,7 +133,7 @@ fn both_neighbours_of_a_tie_are_legal_where_asked() {
     assert!(lenient.accepts(&nearer_the_upper, &output(&lower)), "0.547 of a unit away");
 }
 
-/// Of two values that lie between numbers, either may take the neighbour without the other.
+/// If two values lie between numbers, either may be converted to the neighbour without the other.
 #[test]
 fn each_value_has_a_neighbour_of_its_own() {
     let with = |u0: &str, v0: &str| case(&QUAD.replace("40600000", u0).replace("40200000", v0));
@@ -151,8 +151,8 @@ fn each_value_has_a_neighbour_of_its_own() {
     }
 }
 
-/// Whatever the model's sequence accepts, any order accepts: points that the model lacks, points of
-/// a culled patch, and points that no primitive uses are wrong in both.
+/// Everything that is accepted as the model's sequence is accepted in any order: points that the
+/// model lacks, points of a culled patch, and points that no primitive uses are wrong in both.
 #[test]
 fn a_sequence_is_never_weaker_than_any_order() {
     let sequence = Strength { order: ListOrder::Sequence, ..Strength::default() };
@@ -178,7 +178,7 @@ fn a_sequence_is_never_weaker_than_any_order() {
     }
 }
 
-/// Where points are the primitives, one that is drawn twice is wrong in any order.
+/// Where points are the primitives, a point that is drawn twice is wrong in any order.
 #[test]
 fn a_point_is_drawn_once() {
     let case = case(&QUAD.replace("triangle_cw", "point"));
@@ -190,7 +190,7 @@ fn a_point_is_drawn_once() {
     assert!(!any_order().accepts(&case, &again), "point 5 in place of point 6");
 }
 
-/// In each outer position and in no inner one.
+/// In each outer position and no inner one.
 #[test]
 fn denormals_are_flushed_in_every_outer_position() {
     let flush = Strength { denormals: Denormals::Flush, ..Strength::default() };
@@ -205,7 +205,7 @@ fn denormals_are_flushed_in_every_outer_position() {
     }
 }
 
-/// The case that a culled patch answers has its inside factors as they were.
+/// The case that a culled patch answers keeps its inside factors.
 #[test]
 fn outer_denormals_alone_become_zero() {
     let given = QUAD.replace("40600000", "00000001").replace("40d00000", "00000001");
@@ -223,8 +223,8 @@ fn denormals_may_be_flushed_where_asked() {
     assert!(flush.accepts(&case, &output(&case)), "kept");
 }
 
-/// From 1 to 2 a binary32 has 128 steps to a unit of 2^-16: 52 of them are 0.406 units, 51
-/// are 0.398.
+/// From 1 to 2 a binary32 has 128 steps per unit of 2^-16: 52 of them are 0.406 units, 51 are 0.398
+/// units.
 #[test]
 fn both_neighbours_are_legal_from_four_tenths_on() {
     let with = |bits: u32| case(&QUAD.replace("40600000", &format!("{bits:08x}")));

@@ -1,5 +1,6 @@
-//! The list of thresholds: each case lies exactly beside its comparison, level 1 has it, and the
-//! neighbouring threshold changes its answer, which `dev/xtask/faults/thresholds.faults` plants.
+//! Tests of the list of thresholds: each case lies exactly next to its comparison, level 1 contains
+//! it, and a neighbouring threshold, as `dev/xtask/faults/thresholds.faults` plants it, changes its
+//! answer.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use tess_core::{Domain, Partitioning, Tessellation};
@@ -19,7 +20,7 @@ fn cases_lie_exactly_beside_their_thresholds() {
     }
 }
 
-/// Every comparison that coverage knows has cases on both its sides.
+/// Every comparison that coverage knows has cases on both of its sides.
 #[test]
 fn every_side_has_cases() {
     let sides: BTreeSet<_> =
@@ -37,7 +38,7 @@ fn level_1_has_the_cases() {
     }
 }
 
-/// Digests of the outputs by comparison.
+/// Digests of the outputs, by comparison.
 const ANSWERS: [(&str, &str); 14] = [
     ("clamp_high", "b4fd3782aeba0a21"),
     ("clamp_low", "0f4f5479772e3872"),
@@ -68,8 +69,8 @@ fn answers_are_the_recorded_ones() {
     assert_eq!(answers.collect::<Vec<_>>(), expected);
 }
 
-/// The output of a device that makes no picture frame unless a factor is above `highest`, where it
-/// is another than the model's: where an inside factor would be raised, it has no inside.
+/// The output of a device that makes picture frames only if a factor is above `highest`, where this
+/// differs from the model's output: where an inside factor should be raised, it has no inside.
 fn late(case: &Case, highest: u32) -> Option<Tessellation> {
     const LOWEST: u32 = 0x3F80_0041;
     let is_late = case.domain() != Domain::Isoline
@@ -84,7 +85,7 @@ fn late(case: &Case, highest: u32) -> Option<Tessellation> {
     })
 }
 
-/// A pattern late, and at 1.25: only the thresholds show either.
+/// A picture frame one pattern late, and at 1.25: only the thresholds show either.
 #[test]
 fn level_1_sees_late_picture_frames() {
     let only: HashSet<_> = thresholds().into_iter().map(|(_, case)| case).collect();

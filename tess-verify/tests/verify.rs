@@ -1,4 +1,5 @@
-//! Verification of backends: it compares what it says, in any number of shards and threads.
+//! Tests of the verification of backends: it compares what it states, in any number of shards and
+//! threads.
 
 use tess_core::{Config, PatchFactors, Tessellation};
 use tess_verify::check::{Known, SecondFormulation, Subject, SubjectRow, Tested, check, verify};
@@ -25,7 +26,7 @@ fn both_formulations_agree_on_any_number_of_threads() {
     }
 }
 
-/// The units of a shard are counted from 1 to all of them.
+/// The units of a shard are counted from 1 up to the last one.
 #[test]
 fn progress_ends_with_the_last_unit() {
     for subject in [Subject::Transitions, Subject::Interiors] {
@@ -49,7 +50,7 @@ fn factors_agree_with_binary64() {
     assert_eq!((row.compared, row.first.as_deref()), (4 << 20, None), "four units");
 }
 
-/// The model, but that one of so many patches in a row has a point too many.
+/// The model, except that one out of every `every` patches has a point too many.
 struct Stateful {
     every: u64,
     asked: u64,
@@ -76,8 +77,8 @@ impl Backend for Stateful {
     }
 }
 
-/// A patch that differs is asked for again: right by itself if every thousandth fails, wrong if
-/// each does.
+/// A patch that differs is asked again: it is correct by itself if every thousandth patch fails,
+/// and wrong if every patch does.
 #[test]
 fn what_came_before_is_told_from_the_patch() {
     for (every, passes_alone) in [(1000, true), (1, false)] {
@@ -106,7 +107,7 @@ fn no_backend_is_an_error() {
     }
 }
 
-/// However many patches are asked for, a unit is made when it is its turn, and not before.
+/// However many patches are asked for, a unit is generated when its turn comes, not before.
 #[test]
 fn as_many_random_patches_as_there_are_numbers() {
     let subject = Subject::Random { patches: u64::MAX, seed: 1 };
@@ -115,7 +116,8 @@ fn as_many_random_patches_as_there_are_numbers() {
     assert_eq!((row.compared, row.first.as_deref()), (2 * 4096, None), "two units");
 }
 
-/// An implementation says what it does not have, and a caller can tell that from a failure.
+/// An implementation reports what it does not support, and a caller can distinguish that from a
+/// failure.
 #[test]
 fn what_is_unsupported_is_told_from_failures() {
     assert!(BackendError::unsupported("no isolines").is_unsupported(), "there is none");

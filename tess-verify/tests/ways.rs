@@ -1,5 +1,5 @@
-//! Each mistake that a report names: planted in the model's output, seen, and named only where it
-//! explains every difference.
+//! Tests of each mistake that a report names: it is planted in the model's output, detected, and
+//! named only where it explains every difference.
 
 use tess_core::fixed_point::ONE;
 use tess_core::{
@@ -17,7 +17,7 @@ fn model(case: &Case) -> Tessellation {
     case.patch().tessellate()
 }
 
-/// The model's output with every point moved, and its vertices in the same order.
+/// The model's output with every point moved and its vertices in the same order.
 fn moved(case: &Case, to: fn([u32; 2]) -> [u32; 2]) -> Tessellation {
     let Tessellation { points, indices } = model(case);
     let place = |point: DomainPoint| {
@@ -27,7 +27,7 @@ fn moved(case: &Case, to: fn([u32; 2]) -> [u32; 2]) -> Tessellation {
     Tessellation { points: points.into_iter().map(place).collect(), indices }
 }
 
-/// The same, with triangles that turn as they should.
+/// The same, with triangles that turn in the right direction.
 fn moved_and_turned(case: &Case, to: fn([u32; 2]) -> [u32; 2]) -> Tessellation {
     let output = match case.config.output {
         OutputPrimitive::TriangleCw => OutputPrimitive::TriangleCcw,
@@ -53,7 +53,7 @@ const fn w_for_v([u, v]: [u32; 2]) -> [u32; 2] {
     [u, (ONE - u).wrapping_sub(v)]
 }
 
-/// What a device with this mistake on some domain answers elsewhere: the model's output.
+/// The answer of a device with this mistake on one domain; elsewhere, the model's output.
 fn on(domain: Domain, case: &Case, answer: impl Fn(&Case) -> Tessellation) -> Tessellation {
     if case.domain() == domain { answer(case) } else { model(case) }
 }
@@ -74,8 +74,8 @@ fn inside_factors(case: &Case) -> Tessellation {
     with_factors(case, PatchFactors::Quad(exchanged))
 }
 
-/// The nearest number with a significand of 11 bits, ties to even: binary16, as long as it is
-/// normal there.
+/// The nearest number with a significand of 11 bits, ties to even: binary16, as long as the number
+/// is normal in it.
 fn half(factor: f32) -> f32 {
     let bits = factor.to_bits();
     let tie = 0xFFF + (bits >> 13 & 1);
@@ -97,8 +97,8 @@ const DEVICES: [(Way, Device); 12] = [
     (Way::HalfFactors, |case| with_factors(case, case.factors.map(half))),
 ];
 
-/// Small random patches of every configuration with factors in range, of which binary16 has no
-/// subnormals.
+/// Small random patches of every configuration with factors in range, none of which is subnormal in
+/// binary16.
 fn cases() -> Vec<Case> {
     let mut random = SplitMix64::new(1);
     let patch = |(domain, config)| {
@@ -144,7 +144,7 @@ fn a_mistake_that_does_not_explain_everything_is_not_named() {
     }
 }
 
-/// Ties to even, and what is too small or too large for binary16.
+/// Ties to even, and numbers too small or too large for binary16.
 #[test]
 fn binary16_has_its_own_ends() {
     let answer = |line: &str, taken: &str| {

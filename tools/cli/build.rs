@@ -1,9 +1,9 @@
-//! Tells the program the commit that it is built from, for its reports.
+//! Passes the program the commit from which it is built, for its reports.
 
 use std::path::Path;
 use std::process::Command;
 
-/// The folders of this repository that the program is built from, beside this one.
+/// The folders of this repository from which the program is built; `.` is this one.
 const SOURCES: [&str; 8] = [
     ".",
     "../probe",
@@ -21,7 +21,7 @@ fn main() {
     println!("cargo::rustc-env=TESS_COMMIT={}", commit.as_deref().unwrap_or("unknown"));
 }
 
-/// The commit that a published package names.
+/// The commit recorded in a published package.
 fn packaged() -> Option<String> {
     println!("cargo::rerun-if-changed=build.rs");
     let info = std::fs::read_to_string(".cargo_vcs_info.json").ok()?;
@@ -29,7 +29,7 @@ fn packaged() -> Option<String> {
     Some(after.split('"').nth(1)?.to_owned())
 }
 
-/// The commit of the clone, with `+changes` if a file that the program is built from differs from
+/// The commit of the clone, with `+changes` if a file from which the program is built differs from
 /// it.
 fn checked_out() -> Option<String> {
     if !SOURCES.iter().all(|folder| Path::new(folder).is_dir()) {
@@ -49,7 +49,7 @@ fn checked_out() -> Option<String> {
     Some(if changes.is_empty() { commit } else { commit + "+changes" })
 }
 
-/// The answer of git, without the newline at the end; `None` if there is no git or no clone.
+/// The output of git, without the newline at the end; `None` if there is no git or no clone.
 fn git(words: &[&str]) -> Option<String> {
     let answer = Command::new("git").args(words).output().ok()?;
     let text = String::from_utf8(answer.stdout).ok()?;

@@ -1,11 +1,11 @@
-//! The steps of continuous integration, in the order of what fails fastest.
+//! The steps of continuous integration, ordered by how fast they fail.
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
 use crate::{examples, features, fuzz, levels, publish, script, test};
 
-/// Formatting, checks of texts and records, lints, documentation, features, the fuzz targets,
-/// other compilers and processors, packages, then every test.
+/// Runs formatting, checks of texts and records, lints, documentation, features, the fuzz targets,
+/// other compilers and processors, packages, and finally every test.
 pub(crate) fn run() -> Result<(), String> {
     if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
         return Err("continuous integration on x86-64 needs a processor with AVX2".into());

@@ -1,4 +1,4 @@
-//! Running programs in the workspace, saying first what is run.
+//! Runs programs in the workspace; each one is printed before it runs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,23 +10,23 @@ pub(crate) fn workspace() -> PathBuf {
     own.ancestors().nth(2).unwrap_or(own).to_path_buf()
 }
 
-/// Where the workspace's builds go.
+/// The folder of the workspace's builds.
 pub(crate) fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| workspace().join("target"), PathBuf::from)
 }
 
-/// Builds the program `tess`, and says where it is.
+/// Builds the program `tess`, and returns its path.
 pub(crate) fn program() -> Result<PathBuf, String> {
     run(&mut cargo("build --package tess-program"))?;
     Ok(built_program())
 }
 
-/// Where builds of the program `tess` and of its tests put it.
+/// The path at which builds of the program `tess` and of its tests put it.
 pub(crate) fn built_program() -> PathBuf {
     target().join("debug").join(format!("tess{}", std::env::consts::EXE_SUFFIX))
 }
 
-/// Cargo's own folder, with the sources of dependencies.
+/// Cargo's own folder, which has the sources of dependencies.
 ///
 /// # Errors
 /// There is no home directory.
@@ -36,8 +36,8 @@ pub(crate) fn cargo_home() -> Result<PathBuf, String> {
     home.ok_or_else(|| "neither CARGO_HOME nor a home directory".into())
 }
 
-/// Flags of the compiler behind `first`, separated as cargo wants them, that take this machine's
-/// folders out of messages of panics, so that what is built has the same bytes everywhere.
+/// Compiler flags, separated as cargo expects them: `first`, and those that remove this machine's
+/// folders from panic messages, so that builds have the same bytes everywhere.
 ///
 /// # Errors
 /// There is no home directory.
@@ -68,8 +68,8 @@ pub(crate) fn cargo(arguments: &str) -> Command {
     command
 }
 
-/// Gives a separate workspace the versions of the lock file at `root`; cargo adds to its copy what
-/// is missing there, and removes the rest.
+/// Gives a separate workspace the versions of the lock file at `root`. Cargo adds missing entries
+/// to its copy, and removes superfluous ones.
 ///
 /// # Errors
 /// The file cannot be copied.
@@ -82,10 +82,11 @@ pub(crate) fn lock_versions(root: &Path, separate: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// This program with other arguments, so that other tests can run meanwhile.
+/// This program with other arguments, in a process of its own, so that other tests can run at the
+/// same time.
 ///
 /// # Errors
-/// This program has no path.
+/// This program's path is unknown.
 pub(crate) fn this(arguments: &[&str]) -> Result<Command, String> {
     let own = std::env::current_exe().map_err(|error| format!("this program: {error}"))?;
     let mut command = Command::new(own);
@@ -109,7 +110,7 @@ pub(crate) fn shown(command: &Command) -> String {
     line
 }
 
-/// Runs a command to its end; anything but success is an error.
+/// Runs a command to its end. Anything but success is an error.
 pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     println!("\n$ {}", shown(command));
     let status =
@@ -117,12 +118,12 @@ pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("`{}` ended with {status}", shown(command))) }
 }
 
-/// Runs a command and gives what it prints on its standard output.
+/// Runs a command, and returns its standard output.
 pub(crate) fn output(command: &mut Command) -> Result<String, String> {
     said(command.stderr(Stdio::inherit()))
 }
 
-/// As [`output()`], without a word of what it says on its standard error.
+/// Does what [`output()`] does, but discards the standard error.
 pub(crate) fn quiet_output(command: &mut Command) -> Result<String, String> {
     said(command.stderr(Stdio::null()))
 }

@@ -1,5 +1,5 @@
-//! Packs what a release has into `target/dist`, to the same bytes each time, and tries each archive
-//! by itself.
+//! Packs the archives of a release into `target/dist`, with the same bytes each time, and tries
+//! each archive by itself.
 
 mod bill;
 mod c;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// The version of every package but `tess-wgpu`.
+/// The version of every package except `tess-wgpu`.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 type Pack = fn(&Release) -> Result<(), String>;
@@ -33,12 +33,12 @@ const PARTS: &[(&str, Pack)] = &[
     ("crates", crates),
 ];
 
-/// Packs these parts, or all; with `--try` first among them, packs twice, compares, and uses what
-/// was packed.
+/// Packs these parts of a release, or all of them. With `--try` first, packs twice, compares the
+/// archives, and uses them.
 ///
 /// # Errors
-/// There is no such part, a program is missing or fails, two packings differ, or an archive does
-/// not serve.
+/// A part does not exist, a program is missing or fails, two packings differ, or an archive does
+/// not work. not serve.
 pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     let (tries, names) = match words {
         ["--try", names @ ..] => (true, names),
@@ -69,7 +69,7 @@ fn pack(parts: &[&(&str, Pack)], folder: &str) -> Result<Release, String> {
     Ok(release)
 }
 
-/// Uses a part where nothing else of the project is.
+/// Uses a part in a place where nothing else of the project exists.
 fn try_it(release: &Release, part: &str) -> Result<(), String> {
     setup::for_comparisons()?;
     let modules = if part == "npm" { Some(explorer::modules()?) } else { None };
@@ -83,7 +83,7 @@ fn try_it(release: &Release, part: &str) -> Result<(), String> {
     fs::remove_dir_all(&folder).map_err(|error| in_file(&folder, &error))
 }
 
-/// Refuses two packings whose sums differ; each line is one file's.
+/// Refuses two packings whose sums differ. Each line is the sum of one file.
 fn same(first: &str, second: &str) -> Result<(), String> {
     let differs = |line: &&str| !second.lines().any(|other| other == *line);
     match first.lines().find(differs) {
@@ -92,7 +92,7 @@ fn same(first: &str, second: &str) -> Result<(), String> {
     }
 }
 
-/// The crates as a registry gets them.
+/// Packs the crates as a registry receives them.
 fn crates(release: &Release) -> Result<(), String> {
     for file in publish::pack()? {
         release.take(&file)?;
@@ -101,15 +101,15 @@ fn crates(release: &Release) -> Result<(), String> {
     bill::write(release, &bill::Of { name: "crates", manifest: "Cargo.toml", packages: &packages })
 }
 
-/// The Python package, built and as sources.
+/// Packs the Python package, as a wheel and as sources.
 fn wheel(release: &Release) -> Result<(), String> {
     let (name, manifest) = ("python", "bindings/python/Cargo.toml");
     bill::write(release, &bill::Of { name, manifest, packages: &["tess-python".to_owned()] })?;
     python::release(&release.epoch, &release.out.join(bill::file(name)), |file| release.take(file))
 }
 
-/// `tess_uvm` with its covergroups, the DPI-C interface and the circuit of its example, in folders
-/// as its file lists expect them.
+/// Packs `tess_uvm` with its covergroups, the DPI-C interface and the circuit of its example, in
+/// the folders that its file lists expect.
 fn covergroups(release: &Release) -> Result<(), String> {
     let stage = release.stage(&format!("tess-uvm-{VERSION}"))?;
     let files =
@@ -132,7 +132,7 @@ fn tess() -> Result<Command, String> {
 /// `tess`.
 ///
 /// # Errors
-/// This program has no path.
+/// This program's path is unknown.
 pub(crate) fn for_browsers(program: &Path) -> Result<Command, String> {
     let mut command = command::this(&["dist", "--try", "npm"])?;
     command.env("TESS_PROGRAM", program);
@@ -151,7 +151,7 @@ fn add_licences(folder: &Path) -> Result<(), String> {
 mod tests {
     use super::*;
 
-    /// The cheapest archive, twice, and a difference that must be seen.
+    /// Packs the cheapest archive twice; a planted difference must be detected.
     #[test]
     fn archives_have_the_same_bytes() {
         let sums = |name: &str, text: &str, age: u64| {

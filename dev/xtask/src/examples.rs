@@ -1,28 +1,28 @@
-//! The examples of `tess-wgpu`, a workspace of its own, which has a window system.
+//! The examples of `tess-wgpu`, a separate workspace with a window system.
 
 use crate::command::{self, workspace};
 use std::process::Command;
 
-/// Runs an example: options of `cargo run`, its name, its own options.
+/// Runs an example; the words are options of `cargo run`, its name, and its own options.
 ///
 /// # Errors
-/// It does not compile, or fails.
+/// It does not compile, or it fails.
 pub(crate) fn run(words: &[&str]) -> Result<(), String> {
-    // Paths are those of whoever calls.
+    // Paths are relative to the caller's folder.
     command::run(cargo("run")?.args(words).current_dir("."))
 }
 
-/// Formatting and lints.
+/// Checks formatting and lints.
 ///
 /// # Errors
-/// One is not kept.
+/// A check fails.
 pub(crate) fn lint() -> Result<(), String> {
     command::run(&mut cargo("fmt --check")?)?;
     command::run(cargo("clippy --all-targets")?.args(["--", "-D", "warnings"]))
 }
 
-/// `cargo` with these words on their workspace, beside the builds of the others and with their
-/// versions.
+/// `cargo` with these words in the examples' workspace, which has a target folder of its own and
+/// the versions of the main workspace.
 ///
 /// # Errors
 /// The versions cannot be copied.

@@ -1,4 +1,4 @@
-//! The explorer: builds its page, serves it, tests it in a browser.
+//! The explorer: builds its page, serves it, and tests it in a browser.
 
 use crate::command::{self, cargo, in_file, target, workspace};
 use crate::setup::{self, NODE, Need, has_program};
@@ -9,13 +9,13 @@ use std::process::Command;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// The most bytes that the page may load; compressed they are a third.
+/// The largest number of bytes that the page may load; compressed it is a third of that.
 const LARGEST: u64 = 1_650_000;
 
 /// The version of the library that drives the browser.
 const PLAYWRIGHT: &str = "playwright-core@1.65.1";
 
-/// Needs of the browser tests beyond what the build installs.
+/// What the browser tests need in addition to what the build installs.
 const BROWSER: &[Need] = &[
     NODE,
     Need {
@@ -28,7 +28,7 @@ const BROWSER: &[Need] = &[
 /// Builds the page.
 ///
 /// # Errors
-/// A step that fails, or a page that is too large to load quickly.
+/// A step fails, or the page is too large to load quickly.
 pub(crate) fn build() -> Result<(), String> {
     setup::target(TARGET)?;
     let mut library = cargo("build --package tess-explorer --profile wasm --target");
@@ -54,7 +54,7 @@ pub(crate) fn build() -> Result<(), String> {
     Ok(())
 }
 
-/// Writes the JavaScript module of a WebAssembly file of the target folder.
+/// Writes the JavaScript module for a WebAssembly file of the target folder.
 fn bind(file: &str, folder: &Path) -> Result<(), String> {
     command::lock_versions(&workspace(), "tools/explorer/bindgen")?;
     let mut bindgen = cargo("run --quiet --manifest-path");
@@ -63,13 +63,13 @@ fn bind(file: &str, folder: &Path) -> Result<(), String> {
     command::run(bindgen.arg(target().join(TARGET).join(file)).arg(folder))
 }
 
-/// Builds the page and serves it until the command is stopped.
+/// Builds the page, and serves it until the command is stopped.
 ///
 /// # Errors
-/// As for [`build`]; port 8370 is taken.
+/// As for [`build`], or port 8370 is in use.
 pub(crate) fn serve() -> Result<(), String> {
     build()?;
-    // The same address each time, so that links stay valid.
+    // The address is always the same, so that links stay valid.
     let mut server = command::python();
     server.args(["-m", "http.server", "--bind", "127.0.0.1", "8370", "--directory"]);
     command::run(server.arg(page()))
@@ -83,16 +83,16 @@ pub(crate) fn test() -> Result<(), String> {
     tally::run([tests(&program()?)?])
 }
 
-/// The need that the tests lack and this system cannot install; `None` if they can run.
+/// What the tests lack and this system cannot install; `None` if they can run.
 pub(crate) fn lacking() -> Option<String> {
     setup::provide(BROWSER).err()
 }
 
-/// Makes everything ready, and gives the command that runs the tests, which compare with this
+/// Prepares everything, and returns the command that runs the tests, which compare with this
 /// program `tess`.
 ///
 /// # Errors
-/// As for [`test()`], but for the tests.
+/// As for [`test()`], except for failing tests.
 pub(crate) fn tests(program: &Path) -> Result<Command, String> {
     let mut format = cargo("fmt --check --manifest-path");
     command::run(format.arg(source().join("bindgen/Cargo.toml")))?;
@@ -106,7 +106,7 @@ pub(crate) fn tests(program: &Path) -> Result<Command, String> {
     Ok(node)
 }
 
-/// Provides a browser, and gives the folder with the library that drives it.
+/// Provides a browser, and returns the folder with the library that drives it.
 ///
 /// # Errors
 /// One of them cannot be installed.
@@ -120,7 +120,7 @@ pub(crate) fn modules() -> Result<PathBuf, String> {
     Ok(modules)
 }
 
-/// `npm install` into a folder, without a description of a package.
+/// `npm install` into a folder, without a package description.
 pub(crate) fn npm(folder: &Path) -> Command {
     let mut npm = Command::new("npm");
     npm.args(["install", "--no-save", "--no-package-lock", "--no-audit", "--no-fund"]);
@@ -128,7 +128,8 @@ pub(crate) fn npm(folder: &Path) -> Command {
     npm
 }
 
-/// Builds the tessellation stage for the browser tests, which is no part of the page; where it is.
+/// Builds the tessellation stage for the browser tests, which is not a part of the page; returns
+/// its folder.
 fn stage(folder: &Path) -> Result<PathBuf, String> {
     command::run(cargo("build --package tess-explorer-stage --target").arg(TARGET))?;
     let stage = folder.join("stage");
@@ -136,8 +137,7 @@ fn stage(folder: &Path) -> Result<PathBuf, String> {
     Ok(stage)
 }
 
-/// The program `tess` that files and texts are compared with: `TESS_PROGRAM`, or one that is built
-/// now.
+/// The program `tess` for comparisons of files and texts: that of `TESS_PROGRAM`, or a new build.
 ///
 /// # Errors
 /// It does not compile.
@@ -163,7 +163,7 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
 mod tests {
     use super::*;
 
-    /// The page stays plain text of moderate length, and asks no other server for anything.
+    /// The page is plain text of moderate length, and requests nothing from other servers.
     #[test]
     fn the_page_is_plain_and_complete() {
         for file in files(&workspace().join("tools/explorer/web")).expect("files") {

@@ -5,11 +5,11 @@ use crate::packages::{self, Package};
 use crate::setup;
 
 /// Checks the published packages, or only those with these names. A user's first command may be
-/// `--no-default-features`, which nothing else of the suite compiles.
+/// `--no-default-features`, which no other part of the suite compiles.
 ///
 /// # Errors
-/// cargo-hack cannot be installed, a combination does not compile, or no published package has a
-/// name.
+/// cargo-hack cannot be installed, a combination does not compile, or a name is not that of a
+/// published package.
 pub(crate) fn check(names: &[&str]) -> Result<(), String> {
     let published = packages::published()?;
     let is_published = |name: &str| published.iter().any(|package| package.name == name);
@@ -35,7 +35,7 @@ const PROGRAM: &str = "tess-program";
 
 fn check_each<'a>(chosen: impl Iterator<Item = &'a Package>) -> Result<(), String> {
     setup::subcommand("hack")?;
-    // The packages are named because `--no-private` would change manifests while it runs.
+    // The packages are listed, because `--no-private` would change manifests while it runs.
     let mut hack = cargo("hack check --each-feature");
     hack.args(chosen.flat_map(|package| ["--package", &package.name]));
     command::run(&mut hack)

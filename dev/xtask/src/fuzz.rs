@@ -1,12 +1,12 @@
-//! Builds every fuzz target and runs each for a while.
+//! Builds every fuzz target, and runs each for a while.
 
 use crate::command::{self, workspace};
 use crate::setup;
 use std::process::Command;
 
-/// Builds every target under the address sanitizer and runs each for this many seconds; that of the
-/// GPU, whose build alone takes minutes, too with `--gpu`. Without a nightly compiler, which
-/// sanitizers need, this fails.
+/// Builds every target with the address sanitizer, and runs each for this many seconds. The GPU's
+/// target, whose build takes minutes, is included only with `--gpu`. Sanitizers need a nightly
+/// compiler; without one this fails.
 pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
     setup::toolchain("nightly", &[])?;
     setup::subcommand("fuzz")?;

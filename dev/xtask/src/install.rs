@@ -1,5 +1,5 @@
-//! Installs the C library as C and C++ programs expect one: headers, static and shared library, and
-//! what pkg-config and CMake look for.
+//! Installs the C library in the form that C and C++ programs expect: headers, the static and the
+//! shared library, and the files that pkg-config and CMake look for.
 //!
 //! | system | archive | shared library | beside it |
 //! | --- | --- | --- | --- |
@@ -14,30 +14,29 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// System libraries that a Rust static library needs.
+/// The system libraries that a Rust static library needs.
 const SYSTEM_LIBRARIES: &str = "-lpthread -ldl -lm";
 
-/// Has the linker of this system leave out the functions of an archive that a program does not
-/// call.
+/// Makes this system's linker leave out those functions of an archive that a program does not call.
 const WITHOUT_UNUSED: &str =
     if cfg!(target_os = "macos") { "-Wl,-dead_strip" } else { "-Wl,--gc-sections" };
 
-/// Has cargo list what it built on its standard output.
+/// Makes cargo list its build products on its standard output.
 const MESSAGES: &str = "--message-format=json-render-diagnostics";
 
-/// The version of the package, `MAJOR.MINOR.PATCH`: all packages of the workspace have one.
+/// The version of the package, `MAJOR.MINOR.PATCH`, which all packages of the workspace share.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Builds the C library for `target`, or for this machine, and installs it below `prefix`. Files
-/// that are there are replaced.
+/// Builds the C library for `target`, or for this machine, and installs it below `prefix`. Existing
+/// files are replaced.
 ///
 /// # Errors
-/// The system is none of the table above, the build fails, or a file cannot be written.
+/// The system is not in the table above, the build fails, or a file cannot be written.
 pub(crate) fn run(prefix: &str, target: Option<&str>) -> Result<(), String> {
     run_with(&mut cargo("rustc --release -p tess-capi --lib"), prefix, target)
 }
 
-/// The same with this build.
+/// Does what [`run`] does, with this build.
 ///
 /// # Errors
 /// As for [`run`].
@@ -67,7 +66,7 @@ pub(crate) fn run_with(
     Ok(())
 }
 
-/// A system by the names that its libraries have.
+/// A system, by the names of its libraries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum System {
     Linux,
@@ -89,7 +88,7 @@ impl System {
         }
     }
 
-    /// How the linker is told the name by which programs find the shared library.
+    /// The linker flag that sets the name by which programs find the shared library.
     fn name_of_library(self) -> Option<String> {
         match self {
             Self::Linux => Some(format!("-Clink-arg=-Wl,-soname,{}", soname())),
@@ -107,7 +106,7 @@ impl System {
     }
 }
 
-/// The name by which programs find the shared library: another one for each version that may break
+/// The name by which programs find the shared library. It changes with each version that may break
 /// them.
 pub(crate) fn soname() -> String {
     let numbers: Vec<&str> = VERSION.split('.').collect();
@@ -124,7 +123,7 @@ struct Built {
     shared: PathBuf,
 }
 
-/// Runs a build that has the library in it, with [`MESSAGES`].
+/// Runs a build that includes the library, with [`MESSAGES`].
 fn build(command: &mut Command, system: System) -> Result<Built, String> {
     println!("\n$ {}", command::shown(command));
     let messages = command::output(command)?;
@@ -143,7 +142,7 @@ fn build(command: &mut Command, system: System) -> Result<Built, String> {
     Ok(Built { archive: with(".a")?, shared: with(system.shared())? })
 }
 
-/// The files of the library that one of cargo's messages names.
+/// The files of the library in one of cargo's messages.
 pub(crate) fn artifacts(line: &str) -> Option<Vec<PathBuf>> {
     let message: serde_json::Value = serde_json::from_str(line).ok()?;
     let is_library =
@@ -152,14 +151,14 @@ pub(crate) fn artifacts(line: &str) -> Option<Vec<PathBuf>> {
     Some(files.iter().filter_map(|file| file.as_str().map(PathBuf::from)).collect())
 }
 
-/// Where the files go.
+/// The destination of the files.
 struct Files {
     prefix: PathBuf,
     system: System,
 }
 
 impl Files {
-    /// The file `name` of the installation, in a folder that is there.
+    /// The path of the file `name` in the installation; its folder is created.
     fn at(&self, name: &str) -> Result<PathBuf, String> {
         let path = self.prefix.join(name);
         let folder = path.parent().unwrap_or(&self.prefix);
@@ -208,9 +207,9 @@ impl Files {
         }
     }
 
-    /// The archive without symbols for debuggers, which are most of its bytes and those of Rust's
-    /// library; the linker takes what a program calls. Windows keeps them: `strip` of mingw-w64
-    /// refuses the archive's members without sections.
+    /// Installs the archive without symbols for debuggers, which make up most of its bytes and of
+    /// those of Rust's library; the linker takes only what a program calls. On Windows the symbols
+    /// are kept, because `strip` of mingw-w64 refuses members without sections.
     fn archive(&self, built: &Path) -> Result<(), String> {
         let archive = self.at("lib/libtess.a")?;
         replace(built, &archive)?;
@@ -228,7 +227,7 @@ impl Files {
         }
     }
 
-    /// Makes `name` stand for the library `full` beside it.
+    /// Makes `name` a link to the library `full` next to it.
     fn link(&self, full: &str, name: &str) -> Result<(), String> {
         let link = self.at(&format!("lib/{name}"))?;
         remove(&link)?;
@@ -240,8 +239,8 @@ impl Files {
     }
 }
 
-/// The file `tess.pc` for pkg-config. Paths are relative to the file, so that the installation may
-/// move.
+/// The file `tess.pc` for pkg-config. Its paths are relative to the file, so the installation may
+/// be moved.
 fn description() -> String {
     format!(
         "prefix=${{pcfiledir}}/../..\n\
@@ -257,8 +256,8 @@ fn description() -> String {
     )
 }
 
-/// Copies a file to where another may be, which a running program may use. An equal one stays, with
-/// its time.
+/// Copies a file to a path that may hold another file, which a running program may use. An equal
+/// file is left as it is, with its time.
 fn replace(from: &Path, to: &Path) -> Result<(), String> {
     let new = fs::read(from).map_err(|error| in_file(from, &error))?;
     if fs::read(to).is_ok_and(|old| old == new) {

@@ -1,5 +1,5 @@
-//! Integrations into engines, workspaces of their own: builds, tests and runs them, and compares
-//! their pictures.
+//! Integrations into engines, which are separate workspaces: builds, tests and runs them, and
+//! compares their pictures.
 
 use crate::command::{self, in_file, workspace};
 use crate::setup;
@@ -8,17 +8,18 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A pixel differs if a channel does by more than this: the GPU and the CPU round heights, normals
-/// and light in ways of their own.
+/// A pixel differs if one of its channels differs by more than this. The GPU and the CPU round
+/// heights, normals and light differently.
 const CHANNEL: u8 = 4;
-/// So many pixels of a thousand may differ: on the edges of triangles it may be one or the other.
+/// The number of pixels in a thousand that may differ: on the edges of triangles either result may
+/// occur.
 const PER_THOUSAND: usize = 1;
 
 /// Checks the plugin for Bevy.
 ///
 /// # Errors
-/// A step that fails, pictures of the GPU and of the CPU that differ, a crack, or a comparison that
-/// does not see a planted fault.
+/// A step fails, the pictures of the GPU and the CPU differ, there is a crack, or the comparison
+/// does not detect a planted fault.
 pub(crate) fn run() -> Result<(), String> {
     let bevy = Integration::open("integrations/bevy")?;
     bevy.cargo("fmt --all --check")?;
@@ -45,7 +46,7 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
-/// A workspace of an integration, and the toolchain that it asks for.
+/// The workspace of an integration, and the toolchain that it requires.
 struct Integration {
     folder: PathBuf,
     channel: String,
@@ -86,7 +87,7 @@ impl Integration {
     }
 }
 
-/// The channels of a picture, four a pixel.
+/// The channels of a picture, four per pixel.
 struct Picture(Vec<u8>);
 
 impl Picture {
@@ -108,7 +109,8 @@ impl Picture {
         self.0.as_chunks().0
     }
 
-    /// Pixels with something of the magenta that the example has behind a terrain from above.
+    /// The number of pixels with any of the magenta that the example shows behind a terrain seen
+    /// from above.
     fn holes(&self) -> usize {
         let is_magenta =
             |&&[red, green, blue, _]: &&[u8; 4]| red.min(blue) > green.saturating_add(40);
@@ -116,7 +118,7 @@ impl Picture {
     }
 }
 
-/// Counts and prints the pixels that differ; an error if there are too many.
+/// Counts and prints the differing pixels; an error if there are too many.
 fn differing(a: &Picture, b: &Picture, what: &str) -> Result<(), String> {
     let [a, b] = [a.pixels(), b.pixels()];
     if a.len() != b.len() || a.is_empty() {

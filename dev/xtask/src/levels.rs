@@ -1,12 +1,12 @@
 //! The CPU levels of `tess-simd` that this machine must be tested at.
 
-/// A list of levels for the tests: they fail if one of them is not compared.
+/// The variable with the levels that tests must compare; they fail if one is not compared.
 pub(crate) const VARIABLE: &str = "TESS_REQUIRE_LEVELS";
 
-/// Every level, as `tess-simd` names it.
+/// Every level, by its name in `tess-simd`.
 const ALL: [&str; 3] = ["baseline", "avx2", "avx512"];
 
-/// The levels that this processor has, found without asking `tess-simd`, which might be wrong.
+/// The levels of this processor, detected without `tess-simd`, which might be wrong.
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn required() -> Vec<&'static str> {
     macro_rules! has {
@@ -26,12 +26,13 @@ pub(crate) fn required() -> Vec<&'static str> {
     vec!["baseline"]
 }
 
-/// The levels that the tests cannot compare on this processor, in one sentence.
+/// A sentence about the levels that tests cannot compare on this processor; `None` if there are
+/// none.
 pub(crate) fn not_compared() -> Option<String> {
     sentence(&required())
 }
 
-/// The sentence where these levels are there.
+/// The sentence if only these levels exist.
 fn sentence(there: &[&str]) -> Option<String> {
     let missing: Vec<_> = ALL.into_iter().filter(|name| !there.contains(name)).collect();
     let names = missing.join(" and ");

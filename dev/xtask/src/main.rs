@@ -11,10 +11,9 @@
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
 //! ```
 //!
-//! A command is an arm of [`run`], a paragraph of [`USAGE`] and a function of its module that gives
-//! `Err(message)` for what went wrong. Programs that it needs are a `Need` of `setup/needs.rs`,
-//! which installs them or says how. Tests are counted by [`tally`], which fails a job that ran
-//! none.
+//! A command is an arm of [`run`], a paragraph of [`USAGE`], and a function of its module that
+//! returns `Err(message)` on failure. Programs that it needs are each a `Need` of `setup/needs.rs`,
+//! which installs them or tells how to. [`tally`] counts the tests, and fails a job that ran none.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program talks to its user")]
 
 mod ci;
@@ -49,15 +48,16 @@ const USAGE: &str = "\
 usage: cargo xtask <command>
 
   test [PATH... [WORD...]]
-          set up what the tests need, then run those of the model, the CPU, the GPU on Vulkan, surfaces, the
-          kit, the program and C; or only those of a package's folder (tess-core) or file (tess-core/tests/golden.rs),
-          of which only those whose names have one of the words
+          set up what the tests need, then run the tests of the model, the CPU, the GPU on Vulkan, surfaces, the
+          kit, the program and C; or only the tests of a package's folder (tess-core) or file
+          (tess-core/tests/golden.rs), and of these only the ones whose names contain one of the words
   test all
-          run every test: Python, models, the browser, OpenGL, a window, simulators, the explorer and benches too
+          run every test, also those of Python, models, the browser, OpenGL, a window, simulators, the explorer and
+          benches
   ci      what continuous integration runs: formatting, `traceability`, `public`, lints, documentation, `features`,
           the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
-  setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
+  setup   only set up: drivers for Vulkan and OpenGL, C, C++ and shader compilers, Verilator,
           Icarus Verilog, Python
   example NAME [OPTION...]
           run an example of tess-wgpu; so does `cargo example`
@@ -66,20 +66,20 @@ usage: cargo xtask <command>
           types and run its tests, which compare it with `tess` or with PROGRAM; `test all` includes it.
           PYTHON names another interpreter
   explorer [--serve | --test]
-          build the explorer's page in target/explorer; serve it on this machine and say where; or
-          test it in Chromium. `test all` includes it where Node.js and Chromium are to be had
+          build the explorer's page in target/explorer; serve it on this machine and print the address; or
+          test it in Chromium. `test all` includes it where Node.js and Chromium are available
   integrations
           build the plugin for Bevy, run its tests and its example, and compare the pictures of its two
-          ways to tessellate; `ci` leaves it out, as Bevy takes long to build
+          ways to tessellate; `ci` leaves it out, as Bevy takes a long time to build
   rtl     check the circuit's ports, lint it and compare it with the model in Verilator: level 1, random patches under
           back-pressure, single stages; plant its faults; print clocks for the workloads of `tess bench` and isolines
   rtl --plant FOLDER [NUMBER]
-          write the design to FOLDER with every fault of rtl/dv/circuit.faults behind a simulation's `+fault=NUMBER`, or
-          with one; print their numbers
+          write the design to FOLDER with every fault of rtl/dv/circuit.faults, which a simulation selects with
+          `+fault=NUMBER`, or with one fault; print their numbers
   rtl --names
-          write anew the lists of sources for Bender and FuseSoC
+          write the lists of sources for Bender and FuseSoC again
   rtl --long | --prove | --synth | --place
-          compare level 2, 10 million random patches and every input of single stages, which takes hours and goes on
+          compare level 2, 10 million random patches and every input of single stages, which takes hours and continues
           where it stopped; prove handshakes and placement, and compare the netlist as gates; print the circuit's cost;
           print the clock that it reaches and the time that each port leaves
   install --prefix FOLDER [--target TARGET]
@@ -93,12 +93,12 @@ usage: cargo xtask <command>
   models [FOLDER...]
           run `tess mesh` on the models in these folders, or on small ones of every kind that a script makes, and
           judge the outputs by other programs: pygltflib, scipy, Khronos' glTF validator
-  public  name the public items of the published libraries that nothing outside uses
-  width   check that comments of Rust have at most 100 columns
+  public  list the public items of the published libraries that nothing outside of them uses
+  width   check that comments in Rust have at most 100 columns
   traceability
           check that docs/traceability.md has each section of docs/specification.md and that the evidence it names exists
   features [PACKAGE...]
-          check that every published package, or these, compiles with none of its features, each, and all
+          check that every published package, or each of these, compiles with no features, each single one, and all
   ports [brief] [NAME...]
           check other compilers, processors and systems: msrv, i686, aarch64, s390x, windows, macos, wasm,
           miri; installs emulators and compilers. `brief` runs the tests that take seconds
@@ -109,20 +109,21 @@ usage: cargo xtask <command>
           the tests and dev/xtask/faults/survivors.tsv does not list it (needs cargo-mutants; takes an hour)
   mutants planted [WORD...]
           plant the faults of dev/xtask/faults, or those with one of these words, in a copy of the tree; fails
-          if the test beside one does not see it (each compiles a crate again: hours for all)
+          if the test named next to a fault does not detect it (each compiles a crate again: hours for all)
   publish [send]
-          pack and build every published package as a registry would get it; without `send`, send nothing
+          pack and build every published package as a registry would receive it; without `send`, send nothing
   dist [--try] [PART...]
           pack a release, or these parts of it, into target/dist: tess shaders npm covergroups c deb python crates;
           with `--try` pack twice, compare the bytes, and use each archive as its README says, where nothing else of
-          the project is
+          the project is present
   deny [advisories]
           check the licences and sources of dependencies, and known vulnerabilities on request
   semver REVISION
           compare the libraries' interfaces with those of a commit or tag
   records cpu|gpu
-          measure all that docs/performance.md says of this machine's CPU or GPU, in ten minutes: builds the programs
-          and writes benches/records, the tables and the charts. `ci` fails if a record is older than what it measures
+          measure everything that docs/performance.md states about this machine's CPU or GPU, in ten minutes: builds
+          the programs and writes benches/records, the tables and the charts. `ci` fails if a record is older than
+          what it measures
   performance
           write the tables of docs/performance.md and the charts from the records";
 
@@ -142,7 +143,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs the command; `None` if there is no such command.
+/// Runs the command; `None` if it does not exist.
 fn run(words: &[&str]) -> Option<Result<(), String>> {
     let after_setup =
         |command: &dyn Fn() -> Result<(), String>| setup::run().and_then(|()| command());
@@ -190,7 +191,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
     })
 }
 
-/// Runs a command that needs the kit, in a process that has it.
+/// Runs a command that needs the kit, in a process that includes it.
 fn with_kit(words: &[&str]) -> Option<Result<(), String>> {
     #[cfg(feature = "kit")]
     return rtl::run(words);

@@ -1,12 +1,12 @@
-//! Mesa's lavapipe and llvmpipe with this library as their tessellator: `integrations/mesa/mesa.py`
+//! Mesa's lavapipe and llvmpipe with this library as their tessellator; `integrations/mesa/mesa.py`
 //! builds and compares them.
 
 use crate::command::{self, workspace};
 use crate::setup::{self, Need};
 use std::process::{Command, Stdio};
 
-/// Packages of Debian: its tools for sources, what Mesa's build runs, LLVM and what else the
-/// drivers are built on, and the libraries of X11 and Wayland.
+/// Debian packages: its tools for sources, the programs of Mesa's build, LLVM and other bases of
+/// the drivers, and the libraries of X11 and Wayland.
 const PACKAGES: &str = "dpkg-dev patch git debian-archive-keyring meson ninja-build bison flex glslang-tools pkg-config \
     python3-mako python3-yaml python3-venv gcc g++ llvm-dev libdrm-dev libexpat1-dev zlib1g-dev libelf-dev libudev-dev \
     libglvnd-dev libx11-dev libx11-xcb-dev libxcb-dri2-0-dev libxcb-dri3-dev libxcb-present-dev libxcb-randr0-dev \
@@ -27,7 +27,8 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
             dpkg.status().is_ok_and(|status| status.success())
         },
     }])?;
-    // The system's interpreter: another one may lack the modules that Mesa's build imports.
+    // The system's interpreter is used, because another one may lack the modules that Mesa's build
+    // imports.
     let mut python = Command::new("/usr/bin/python3");
     python.arg("-BE").arg(workspace().join("integrations/mesa/mesa.py")).args(words);
     command::run(&mut python)

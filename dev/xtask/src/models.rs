@@ -1,4 +1,4 @@
-//! `tess mesh` on model files, judged by programs that share nothing with it:
+//! Runs `tess mesh` on model files; programs that share nothing with it judge the results:
 //! tools/cli/tests/models.
 
 use crate::command::{self, in_file, target, workspace};
@@ -8,16 +8,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Packages of the virtual environment.
+/// The packages of the virtual environment.
 const PACKAGES: &[&str] = &["numpy>=1.24", "pillow>=10", "pygltflib>=1.16,<2", "scipy>=1.10"];
 
-/// Khronos' validator of glTF files.
+/// Khronos' validator for glTF files.
 const VALIDATOR: &str = "gltf-validator@2.0.0-dev.3.10";
 
-/// Judges the outputs for small models that a script makes, of every kind.
+/// Judges the outputs for small models of every kind, which a script makes.
 ///
 /// # Errors
-/// A file is not read, or an output is wrong; the judges cannot be installed.
+/// A file cannot be read, an output is wrong, or the judges cannot be installed.
 pub(crate) fn of_every_kind() -> Result<(), String> {
     command::run(&mut judge_made(&command::program()?)?)
 }
@@ -41,7 +41,7 @@ pub(crate) fn judge_made(program: &Path) -> Result<Command, String> {
 /// Judges the outputs for all models in these folders.
 ///
 /// # Errors
-/// An output is wrong; the judges cannot be installed.
+/// An output is wrong, or the judges cannot be installed.
 pub(crate) fn run(folders: &[&str]) -> Result<(), String> {
     command::run(judge(&command::program()?)?.args(folders))
 }

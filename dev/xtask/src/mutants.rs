@@ -1,4 +1,4 @@
-//! Planted faults: `cargo mutants` changes one thing at a time and demands that a test fails.
+//! Planted faults: `cargo mutants` makes one change at a time, and a test must fail.
 
 mod fault;
 mod planted;
@@ -7,14 +7,14 @@ use crate::command::{cargo, in_file, read, shown, workspace};
 use std::fs;
 use tess_testkit::circuit;
 
-/// A crate and the tests that must see its faults, the fastest pass first. Each pass tries what the
-/// one before it missed.
+/// A crate, and the tests that must detect its faults, the fastest pass first. Each pass tries the
+/// faults that the one before it missed.
 struct Subject {
     package: &'static str,
     passes: &'static [Pass],
 }
 
-/// Tests, and the files whose faults they can see; none are all files.
+/// Tests, and the files whose faults they can detect; an empty list stands for all files.
 struct Pass {
     tests: &'static str,
     files: &'static [&'static str],
@@ -35,7 +35,7 @@ const SUBJECTS: &[Subject] = &[
     Subject {
         package: "tess-simd",
         passes: &[
-            // Without `std` the kernels are compiled for one CPU level alone.
+            // Without `std` the kernels are compiled for only one CPU level.
             Pass {
                 tests: "-C=--no-default-features -C=--features=taps,apart -C=--test=baseline -C=--test=kernels",
                 files: &[],
@@ -60,7 +60,7 @@ const SUBJECTS: &[Subject] = &[
                 tests: "-C=--all-features -C=--lib -C=--test=plan -C=--test=shaders",
                 files: &[],
             },
-            // The host of the shaders, on a device.
+            // The host side of the shaders, on a device.
             Pass {
                 tests: "--test-package=tess-wgpu -C=--all-features -C=--test=batches",
                 files: &[],
@@ -90,7 +90,7 @@ const SUBJECTS: &[Subject] = &[
     },
 ];
 
-/// The survivors that change nothing: `TIMES`, the fault and the reason, with tabs between them.
+/// The list of survivors that change nothing: `TIMES`, the fault and the reason, separated by tabs.
 const EQUIVALENT: &str = "dev/xtask/faults/survivors.tsv";
 
 /// Plants the faults of `dev/xtask/faults`; see [`planted::run`].
@@ -98,11 +98,11 @@ pub(crate) fn planted(words: &[&str]) -> Result<(), String> {
     planted::run(words)
 }
 
-/// Writes the design of the circuit to a folder, with every fault or with one, and prints the
+/// Writes the design of the circuit to a folder, with all faults or with one, and prints the
 /// numbers of those it has.
 ///
 /// # Errors
-/// `number` is no number of a fault, or see [`circuit::plant`].
+/// `number` is not the number of a fault, or see [`circuit::plant`].
 pub(crate) fn plant_in_circuit(folder: &str, number: Option<&str>) -> Result<(), String> {
     let number = number.map(|number| number.parse().map_err(|error| format!("{number}: {error}")));
     let number: Option<usize> = number.transpose()?;
@@ -115,11 +115,11 @@ pub(crate) fn plant_in_circuit(folder: &str, number: Option<&str>) -> Result<(),
     Ok(())
 }
 
-/// Plants every fault in `package`; `rest` are options for `cargo mutants`, such as a file or a
-/// shard. With `--iterate` among them, faults that an earlier run caught are left out.
+/// Plants every fault in `package`. `rest` has options for `cargo mutants`, such as a file or a
+/// shard. With `--iterate`, faults that an earlier run detected are left out.
 ///
 /// # Errors
-/// A survivor that [`EQUIVALENT`] does not list, or tests that fail without a fault.
+/// A survivor is not in [`EQUIVALENT`], or tests fail without a fault.
 pub(crate) fn run(package: &str, rest: &[&str]) -> Result<(), String> {
     let subject = SUBJECTS.iter().find(|subject| subject.package == package);
     let subject = subject.ok_or_else(|| format!("no faults are planted in `{package}`"))?;
@@ -137,7 +137,8 @@ pub(crate) fn run(package: &str, rest: &[&str]) -> Result<(), String> {
         }
         println!("\n$ {}", shown(&mutants));
         let status = mutants.status().map_err(|error| error.to_string())?;
-        // 2: some were missed, which the list decides on; 3: some never ended, which is noticed.
+        // 2: some were missed, which the list judges; 3: some never ended, which counts as
+        // detected.
         if !matches!(status.code(), Some(0 | 2 | 3)) {
             return Err(format!("`{}` ended with {status}", shown(&mutants)));
         }
@@ -153,12 +154,12 @@ pub(crate) fn run(package: &str, rest: &[&str]) -> Result<(), String> {
     Err(format!("survivors that {EQUIVALENT} does not list:\n{}", unlisted.join("\n")))
 }
 
-/// The faults that no pass saw.
+/// The faults that no pass detected.
 #[derive(Default)]
 struct Missed(Vec<String>);
 
 impl Missed {
-    /// Adds one more pass: the faults that it missed and those that it saw, line by line.
+    /// Adds another pass: the faults that it missed and those that it detected, one per line.
     fn add(&mut self, missed: &str, seen: &str) {
         self.0.retain(|fault| seen.lines().all(|line| line != fault));
         let new: Vec<_> =
@@ -167,8 +168,8 @@ impl Missed {
     }
 }
 
-/// The missed faults that are not among these, whichever lines they are on; each of these excuses
-/// one.
+/// The missed faults that are not in the list, regardless of their lines. Each entry of the list
+/// excuses one fault.
 fn unlisted(missed: &[String], mut listed: Vec<String>) -> Vec<&str> {
     let is_unlisted = |line: &&str| match listed.iter().position(|name| *name == name_of(line)) {
         Some(at) => {
@@ -180,10 +181,10 @@ fn unlisted(missed: &[String], mut listed: Vec<String>) -> Vec<&str> {
     missed.iter().map(String::as_str).filter(is_unlisted).collect()
 }
 
-/// The faults of a list, each as often as it says.
+/// The faults of a list, each repeated as often as the list states.
 ///
 /// # Errors
-/// A line of another form.
+/// A line has another form.
 fn listed(list: &str) -> Result<Vec<String>, String> {
     let mut faults = Vec::new();
     for line in list.lines().filter(|line| !line.starts_with('#')) {

@@ -11,7 +11,7 @@ pub(crate) struct Package {
     pub(crate) name: String,
     version: String,
     manifest_path: PathBuf,
-    /// The registries that take it; `None` means any.
+    /// The registries that it may be published to; `None` stands for any.
     publish: Option<Vec<String>>,
     pub(crate) targets: Vec<Target>,
 }
@@ -45,7 +45,7 @@ impl Package {
         self.manifest_path.parent().unwrap_or(&self.manifest_path)
     }
 
-    /// Its name and version, as registries call its folder.
+    /// Its name and version, in the form that registries use for folders.
     pub(crate) fn full_name(&self) -> String {
         format!("{}-{}", self.name, self.version)
     }
@@ -70,7 +70,7 @@ pub(crate) fn all() -> Result<Vec<Package>, String> {
     of(&mut cargo("metadata --no-deps --format-version 1"))
 }
 
-/// The package in this folder, which is a workspace of its own.
+/// The package in this folder, which is a separate workspace.
 ///
 /// # Errors
 /// As for [`all`], or the folder has no package.
@@ -86,7 +86,7 @@ fn of(metadata: &mut Command) -> Result<Vec<Package>, String> {
     Ok(metadata.packages)
 }
 
-/// The packages that are published.
+/// The published packages.
 ///
 /// # Errors
 /// `cargo metadata` fails, or no package is published.

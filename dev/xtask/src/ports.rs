@@ -7,16 +7,17 @@ mod msrv;
 mod wasm;
 mod windows;
 
-/// How much of a port's work is done.
+/// How much of a port is checked.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Extent {
-    /// The recorded results of `golden/` and what else takes seconds; continuous integration.
+    /// The recorded results of `golden/` and other checks that take seconds, for continuous
+    /// integration.
     Brief,
     /// Every test that can run there.
     Whole,
 }
 
-/// A port: its name on the command line and what checks it.
+/// A port: its name on the command line, and its check.
 struct Port {
     name: &'static str,
     check: fn(Extent) -> Result<(), String>,
@@ -33,10 +34,10 @@ const PORTS: &[Port] = &[
     Port { name: "miri", check: miri::check },
 ];
 
-/// Checks these ports, or all of them if none is named.
+/// Checks these ports, or all of them if none is given.
 ///
 /// # Errors
-/// A name that no port has, something that cannot be installed, or a failure on a port; the others
+/// A name is not that of a port, something cannot be installed, or a port fails; the other ports
 /// are checked nevertheless.
 pub(crate) fn run(names: &[&str], extent: Extent) -> Result<(), String> {
     if let Some(name) = names.iter().find(|name| PORTS.iter().all(|port| port.name != **name)) {

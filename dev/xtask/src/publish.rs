@@ -1,4 +1,4 @@
-//! Conditions of publishing: packages that build on their own, licences, compatible changes.
+//! The conditions of publishing: packages that build by themselves, licences, compatible changes.
 
 use crate::command::{self, cargo, in_file, workspace};
 use crate::packages::{self, Package};
@@ -10,29 +10,30 @@ use std::process::Command;
 /// Publishes every published package.
 ///
 /// # Errors
-/// Sources that no commit has, or what cargo says.
+/// The sources are not committed, or cargo fails.
 pub(crate) fn send() -> Result<(), String> {
     let mut status = Command::new("git");
     let changed = command::output(status.args(["status", "--porcelain"]).current_dir(workspace()))?;
     if !changed.is_empty() {
         return Err(format!("a published version is a commit; commit these first:\n{changed}"));
     }
-    // The copies of the licences are no commit's.
+    // The copies of the licences belong to no commit.
     with_licences(&mut cargo("publish --workspace --allow-dirty"))?;
     APART.iter().try_for_each(|folder| command::run(in_folder(&mut cargo("publish"), folder)))
 }
 
-/// Published packages that are workspaces of their own. They depend on published versions of the
-/// others, so they come after them, and nothing but `cargo xtask integrations` builds them before.
+/// Published packages that are separate workspaces. They depend on published versions of the
+/// others, so they are published after them; before that, only `cargo xtask integrations` builds
+/// them.
 const APART: &[&str] = &["integrations/bevy"];
 
-/// The command with the manifest in this folder of the workspace.
+/// The command for the manifest in this folder of the workspace.
 fn in_folder<'a>(cargo: &'a mut Command, folder: &str) -> &'a mut Command {
     cargo.arg("--manifest-path").arg(workspace().join(folder).join("Cargo.toml"))
 }
 
-/// Runs a command while each published package has a copy of the licences, as each is an archive of
-/// its own.
+/// Runs a command while each published package has a copy of the licences, because each becomes an
+/// archive of its own.
 fn with_licences(command: &mut Command) -> Result<(), String> {
     let copies = |act: &dyn Fn(&Path, &Path) -> std::io::Result<()>| {
         packages::published()?.iter().try_for_each(|package| {
@@ -46,7 +47,7 @@ fn with_licences(command: &mut Command) -> Result<(), String> {
     copies(&|_, to| fs::remove_file(to)).and(ran)
 }
 
-/// Packs every published package; gives the archives.
+/// Packs every published package, and returns the archives.
 ///
 /// # Errors
 /// As for [`dry_run`].
@@ -62,8 +63,8 @@ pub(crate) fn pack() -> Result<Vec<PathBuf>, String> {
     Ok(names.iter().map(file).collect())
 }
 
-/// Packs the packages of [`APART`]; gives their names with their versions. Their locks are left
-/// out: no registry has the versions of this workspace that they would name.
+/// Packs the packages of [`APART`], and returns their names and versions. Their lock files are left
+/// out, because no registry has the versions of this workspace that they would name.
 fn pack_apart() -> Result<Vec<String>, String> {
     let pack = |folder: &&str| {
         let mut pack = cargo("package --no-verify --allow-dirty --exclude-lockfile --target-dir");
@@ -73,7 +74,7 @@ fn pack_apart() -> Result<Vec<String>, String> {
     APART.iter().map(pack).collect()
 }
 
-/// Packs and builds every published package as the registry would get it, without sending it.
+/// Packs and builds every published package as the registry would receive it, without sending it.
 pub(crate) fn dry_run() -> Result<(), String> {
     let lacking = lacking()?;
     if !lacking.is_empty() {
@@ -81,22 +82,22 @@ pub(crate) fn dry_run() -> Result<(), String> {
     }
     forget_packages()?;
     let mut publish = cargo("publish --dry-run --workspace --all-features");
-    // Whether it builds is asked, with every dependency; nobody runs or debugs the result.
+    // This only tests the build, with every dependency; nobody runs or debugs the result.
     publish.env("CARGO_PROFILE_DEV_DEBUG", "0");
-    // A developer's changes are packed too; what is published comes from a clean checkout.
+    // A developer's changes are packed too; actual publishing needs a clean checkout.
     with_licences(publish.arg("--allow-dirty"))?;
     println!("\nONLY PACKED: {}; `cargo xtask integrations` builds it", pack_apart()?.join(", "));
     Ok(())
 }
 
-/// Removes what an earlier dry run left of the packages. Cargo takes them from a registry that is a
-/// folder, and believes that a version in a registry never changes: it would build old sources, or
-/// none.
+/// Removes the packages left by an earlier dry run. Cargo takes them from a folder that serves as a
+/// registry, and assumes that a version in a registry never changes. It would build old sources, or
+/// nothing.
 fn forget_packages() -> Result<(), String> {
     let (home, target) = (command::cargo_home()?, command::target());
     for package in packages::published()? {
         let (with_version, name) = (package.full_name(), format!("{}-", package.name));
-        // A registry that is a folder has a name without a host.
+        // The name of a registry that is a folder has no host.
         for registry in entries(&home.join("registry/src"), "-") {
             remove_all(&entries(&registry, &with_version))?;
         }
@@ -105,7 +106,7 @@ fn forget_packages() -> Result<(), String> {
     Ok(())
 }
 
-/// The entries of a folder whose names begin so; none if there is no such folder.
+/// The entries of a folder whose names have this prefix; empty if the folder does not exist.
 fn entries(folder: &Path, prefix: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let named = entries.filter(|e| e.file_name().to_string_lossy().starts_with(prefix));
@@ -118,9 +119,9 @@ fn remove_all(folders: &[PathBuf]) -> Result<(), String> {
         .try_for_each(|folder| fs::remove_dir_all(folder).map_err(|error| in_file(folder, &error)))
 }
 
-/// Checks dependencies against `deny.toml`: licences, banned and duplicate crates, sources.
+/// Checks dependencies against `deny.toml`: licences, banned and duplicate crates, and sources.
 ///
-/// `advisories` asks for the database of known vulnerabilities too, which is fetched from the
+/// With `advisories`, also checks the database of known vulnerabilities, which is fetched from the
 /// network.
 pub(crate) fn deny(advisories: bool) -> Result<(), String> {
     setup::subcommand("deny")?;
@@ -133,8 +134,8 @@ pub(crate) fn deny(advisories: bool) -> Result<(), String> {
     command::run(&mut deny)
 }
 
-/// The part of [`deny`] in continuous integration: nothing where cargo-deny, which takes minutes to
-/// compile, is not installed; it says so.
+/// The part of [`deny`] in continuous integration. If cargo-deny, which takes minutes to compile,
+/// is not installed, it checks nothing and says so.
 pub(crate) fn deny_if_installed() -> Result<(), String> {
     if setup::has_subcommand("deny") {
         return deny(false);
@@ -147,7 +148,7 @@ pub(crate) fn deny_if_installed() -> Result<(), String> {
 }
 
 /// Compares the interfaces of the published libraries with those of a commit, and with the version
-/// numbers that the manifests have.
+/// numbers in the manifests.
 pub(crate) fn semver(baseline: &str) -> Result<(), String> {
     setup::subcommand("semver-checks")?;
     let mut checks = cargo("semver-checks --all-features --baseline-rev");
@@ -171,7 +172,7 @@ const SHOWN: &[&str] = &[
 /// The texts of the licences, in the workspace's folder.
 pub(crate) const LICENCES: &[&str] = &["LICENSE-APACHE", "LICENSE-MIT"];
 
-/// Files and keys of the manifest that published packages lack, one line for each.
+/// The files and manifest keys that published packages lack, one line per item.
 fn lacking() -> Result<Vec<String>, String> {
     let mut lacking = Vec::new();
     let apart: Result<Vec<_>, _> = APART.iter().map(|folder| packages::at(folder)).collect();

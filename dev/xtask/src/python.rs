@@ -1,4 +1,4 @@
-//! The Python package: its wheel, and its tests on the wheel in a fresh virtual environment.
+//! The Python package: its wheel, and tests of the wheel in a fresh virtual environment.
 
 use crate::command::{self, cargo, in_file, workspace};
 use crate::setup::{self, ICARUS, PYTHON};
@@ -7,18 +7,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Packages of the virtual environment beside the wheel; the wheel's extras name the rest.
+/// The packages of the virtual environment besides the wheel; the wheel's extras name the rest.
 const TOOLS: &[&str] = &["maturin>=1.9,<2"];
 
 /// Checks and tests the package; the last line printed is the tally.
 ///
 /// # Errors
-/// A lint, a type or a test fails, or a package of the environment cannot be had.
+/// A lint, a type check or a test fails, or a package of the environment is not available.
 pub(crate) fn run() -> Result<(), String> {
     run_with(&command::program()?)
 }
 
-/// The same, compared with this program `tess`.
+/// Does what [`run`] does, with this program `tess` for comparisons.
 ///
 /// # Errors
 /// As for [`run`].
@@ -26,18 +26,18 @@ pub(crate) fn run_with(program: &Path) -> Result<(), String> {
     tally::run([tests(program)?])
 }
 
-/// The command that does [`run_with`] in a process of its own, so that other tests can run
-/// meanwhile.
+/// The command that does [`run_with`] in a process of its own, so that other tests can run at the
+/// same time.
 ///
 /// # Errors
-/// This program has no path.
+/// This program's path is unknown.
 pub(crate) fn in_a_process(program: &Path) -> Result<Command, String> {
     let mut command = command::this(&["python", "--program"])?;
     command.arg(program);
     Ok(command)
 }
 
-/// Makes everything ready, and gives the command that runs the tests, which compare with this
+/// Prepares everything, and returns the command that runs the tests, which compare with this
 /// program `tess`.
 fn tests(program: &Path) -> Result<Command, String> {
     setup::provide(&[PYTHON, ICARUS])?;
@@ -53,12 +53,12 @@ fn tests(program: &Path) -> Result<Command, String> {
     Ok(tests)
 }
 
-/// Builds the wheel, with this bill of materials, and the archive of sources of a release made at
-/// this time, and gives each to `take`. The wheel's name says the oldest glibc that maturin found
-/// it to run with.
+/// Builds the wheel, with this bill of materials, and the source archive of a release with this
+/// time stamp, and passes each to `take`. The wheel's name contains the oldest glibc that it runs
+/// with, as determined by maturin.
 ///
 /// # Errors
-/// A build fails, or `take` does.
+/// A build or `take` fails.
 pub(crate) fn release(
     epoch: &str,
     bill: &Path,
@@ -80,15 +80,14 @@ pub(crate) fn release(
     Ok(())
 }
 
-/// Imports of the tests that see planted faults.
+/// The imports of those tests that detect planted faults.
 const FOR_FAULTS: &[&str] = &["numpy>=1.21", "hypothesis>=6", "pytest>=7"];
 
-/// Builds the package of the tree at `root` as `cargo build` does, which takes less time than a
-/// wheel, and gives the command that runs the tests in `file` on it. Everything that is made goes
-/// to `target`.
+/// Builds the package of the tree at `root` with `cargo build`, which takes less time than a wheel,
+/// and returns the command that runs the tests in `file` on it. All products go to `target`.
 ///
 /// # Errors
-/// It does not compile, or a package of the environment cannot be had.
+/// It does not compile, or a package of the environment is not available.
 pub(crate) fn of_tree(root: &Path, target: &Path, file: &str) -> Result<Job, String> {
     let environment = Environment(target.join("venv"));
     if !environment.0.exists() {
@@ -119,12 +118,12 @@ fn package() -> PathBuf {
     workspace().join("bindings/python")
 }
 
-/// Where its builds go.
+/// The folder of its builds.
 fn target() -> PathBuf {
     package().join("target")
 }
 
-/// The package is a workspace of its own, which the workspace's lints do not see.
+/// Lints the package, which is a separate workspace that the main workspace's lints do not cover.
 fn lint() -> Result<(), String> {
     let manifest = ["--manifest-path", "bindings/python/Cargo.toml"];
     command::run(cargo("fmt --check").args(manifest))?;
@@ -135,14 +134,15 @@ fn lint() -> Result<(), String> {
 struct Environment(PathBuf);
 
 impl Environment {
-    /// One without anything of an earlier run.
+    /// An environment without anything from an earlier run.
     fn fresh() -> Result<Self, String> {
         let folder = target().join("venv");
         command::run(command::python().args(["-m", "venv", "--clear"]).arg(&folder))?;
         Ok(Self(folder))
     }
 
-    /// A module with these arguments, split at spaces, in the folder of the package.
+    /// The command that runs a module with these arguments, split at spaces, in the folder of the
+    /// package.
     fn python(&self, words: &str) -> Command {
         let folder = if cfg!(windows) { "Scripts" } else { "bin" };
         let mut python = Command::new(self.0.join(folder).join("python"));
@@ -150,7 +150,7 @@ impl Environment {
         python
     }
 
-    /// Installs packages from the index that pip is set to.
+    /// Installs packages from pip's configured index.
     fn install(&self, packages: &[&str]) -> Result<(), String> {
         let mut pip = self.python("pip install --quiet --disable-pip-version-check");
         command::run(pip.args(packages)).map_err(|error| {
@@ -163,7 +163,7 @@ impl Environment {
         Self::build(&mut self.python("maturin build --release"))
     }
 
-    /// Runs a build of maturin, whose file is the only one in its folder.
+    /// Runs a build by maturin, whose product is the only file in its folder.
     fn build(maturin: &mut Command) -> Result<PathBuf, String> {
         let folder = target().join("wheels");
         if folder.exists() {
@@ -178,7 +178,7 @@ impl Environment {
         }
     }
 
-    /// The stubs are those of the module, and the tests and examples keep to them.
+    /// Checks that the stubs match the module, and that the tests and examples match the stubs.
     fn check_types(&self) -> Result<(), String> {
         command::run(
             &mut self.python("mypy.stubtest --mypy-config-file pyproject.toml tess_model"),

@@ -1,5 +1,5 @@
-//! The circuit in `rtl`: lint, ports, comparison with the model, planted faults and clocks in one
-//! command; long comparisons, proofs and gates, and costs in others.
+//! The circuit in `rtl`: one command for lint, ports, comparison with the model, planted faults and
+//! clocks; others for long comparisons, proofs, gates and costs.
 
 mod bench;
 mod budgets;
@@ -20,7 +20,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use tess_verify::Case;
 
-/// Runs the command; `None` if there is no such command.
+/// Runs the command; `None` if it does not exist.
 pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
     Some(match *words {
         ["rtl"] => compare(),
@@ -34,16 +34,16 @@ pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
 }
 
 /// Checks the ports, compares the circuit with the model and plants its faults, as the tests of the
-/// C interface do; then clocks.
+/// C interface do, and finally counts clocks.
 ///
 /// # Errors
 /// A tool is missing, the lint warns, an output depends on an input, an element differs, or a
-/// planted fault is not found.
+/// planted fault is not detected.
 fn compare() -> Result<(), String> {
     setup::provide(&[setup::VERILATOR, setup::SYSTEMC, setup::YOSYS])?;
     ports::run()?;
-    // Only this package: the workspace has twice as many to compile. A test whose tool is missing
-    // fails.
+    // Only this package is built, because the workspace has twice as much to compile. A test fails
+    // if its tool is missing.
     let mut tests = command::cargo(bench::CAPI);
     tests.args(["--", "rtl_"]).env("TESS_CAPI_BUILD", bench::CAPI).env("CI", "1");
     command::run(&mut tests)?;
@@ -55,7 +55,7 @@ fn sources() -> PathBuf {
     command::workspace().join("rtl")
 }
 
-/// Cases as the bench reads them, one a line.
+/// Cases in the form that the bench reads, one per line.
 fn lines(cases: &[Case]) -> String {
     let mut text = String::new();
     for case in cases {

@@ -1,9 +1,9 @@
-//! Commands that are scripts in Python.
+//! Commands implemented as Python scripts.
 
 use crate::command::{self, workspace};
 use crate::setup::{self, PYTHON};
 
-/// Measurements as data, and what is made of them: tables and charts.
+/// Generates tables and charts from recorded measurements.
 pub(crate) const RECORDS: &str = "benches/records.py";
 
 /// Takes the measurements.
@@ -15,7 +15,7 @@ pub(crate) const CHECKS: &str = "dev/checks.py";
 /// Runs a script with these words.
 ///
 /// # Errors
-/// It fails, or Python cannot be installed.
+/// The script fails, or Python cannot be installed.
 pub(crate) fn run(script: &str, words: &[&str]) -> Result<(), String> {
     setup::provide(&[PYTHON])?;
     command::run(command::python().arg("-BE").arg(workspace().join(script)).args(words))

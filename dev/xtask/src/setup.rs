@@ -1,4 +1,4 @@
-//! Sets up what commands need beyond Rust.
+//! Sets up the programs that commands need in addition to Rust.
 
 mod needs;
 
@@ -14,25 +14,25 @@ use std::process::{Command, Stdio};
 pub(crate) struct Need {
     /// Its name, and its purpose.
     pub(crate) what: &'static str,
-    /// Debian packages that bring it.
+    /// The Debian packages that provide it.
     pub(crate) packages: &'static [&'static str],
     pub(crate) is_there: fn() -> bool,
 }
 
-/// Provides what all tests need.
+/// Provides everything that the tests need.
 pub(crate) fn run() -> Result<(), String> {
     provide(&[needs::COMPARISONS, needs::BEYOND].concat())
 }
 
-/// Provides what the tests need that `cargo xtask test` runs.
+/// Provides what the tests of `cargo xtask test` need.
 pub(crate) fn for_comparisons() -> Result<(), String> {
     provide(needs::COMPARISONS)
 }
 
-/// Installs what is missing where the system allows it.
+/// Installs missing programs if the system allows it.
 ///
 /// # Errors
-/// Something is missing and cannot be installed: the message says what to install.
+/// Something is missing and cannot be installed; the message tells what to install.
 pub(crate) fn provide(needs: &[Need]) -> Result<(), String> {
     let missing: Vec<&Need> = needs.iter().filter(|need| !(need.is_there)()).collect();
     if missing.is_empty() {
@@ -75,8 +75,8 @@ fn apt() -> Command {
     command
 }
 
-/// Installs a Rust toolchain (`stable`, `nightly`, `1.89.0`) where it is missing, with these parts:
-/// a `component` or a `target` each.
+/// Installs a Rust toolchain (`stable`, `nightly`, `1.89.0`) if it is missing, with these parts:
+/// each is a `component` or a `target`.
 pub(crate) fn toolchain(name: &str, parts: &[(&str, &str)]) -> Result<(), String> {
     let mut list = rustup(&["toolchain", "list"]);
     let known = command::output(&mut list).map_err(|error| {
@@ -95,7 +95,7 @@ pub(crate) fn toolchain(name: &str, parts: &[(&str, &str)]) -> Result<(), String
     Ok(())
 }
 
-/// Adds the standard library for `target` to the toolchain that runs this.
+/// Adds the standard library for `target` to the toolchain that runs this program.
 pub(crate) fn target(target: &str) -> Result<(), String> {
     let current = std::env::var("RUSTUP_TOOLCHAIN").map_err(|_| {
         format!("the target {target} needs a compiler from rustup: https://rustup.rs")
@@ -109,12 +109,13 @@ fn rustup(arguments: &[&str]) -> Command {
     rustup
 }
 
-/// Installs a subcommand of cargo where it is missing; compiling it takes minutes.
+/// Installs a cargo subcommand if it is missing; compiling it takes minutes.
 pub(crate) fn subcommand(name: &str) -> Result<(), String> {
     if has_subcommand(name) {
         return Ok(());
     }
-    // Without optimisation: building it takes longer than all of its runs here.
+    // It is built without optimisation, because an optimised build would take longer than all of
+    // its runs here.
     command::run(&mut command::cargo(&format!("install cargo-{name} --locked --debug")))
 }
 
@@ -127,7 +128,7 @@ pub(crate) fn has_subcommand(name: &str) -> bool {
         .is_ok_and(|status| status.success())
 }
 
-/// Whether a folder of `PATH` has this file.
+/// Whether a folder in `PATH` has this file.
 pub(crate) fn has_program(name: &str) -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();
     std::env::split_paths(&path).any(|folder| folder.join(name).is_file())

@@ -1,9 +1,9 @@
 //! The test programs of the workspace, all built with one set of features.
 //!
-//! Cargo gives dependencies the features that the selected packages want together. A file of tests
-//! is therefore selected by its target, of the whole workspace, so that no dependency is compiled
-//! again. The folder of a package selects that package alone: its own dependencies may be compiled
-//! once more, other packages' tests never.
+//! Cargo gives dependencies the union of the features that the selected packages request. A test
+//! file is therefore selected as a target of the whole workspace, so that no dependency is compiled
+//! again. The folder of a package selects only that package: its dependencies may be compiled once
+//! more, but never the tests of other packages.
 
 use crate::command::{self, cargo, workspace};
 use crate::levels;
@@ -18,14 +18,14 @@ use std::process::Command;
 /// The arguments of `cargo` for the tests of the workspace.
 const ALL: &str = "test --workspace --all-features --no-fail-fast";
 
-/// The packages that have no part in [`Extent::Comparisons`], and bring much that nothing else
-/// needs to compile.
+/// The packages that are not part of [`Extent::Comparisons`] and have many dependencies that
+/// nothing else needs.
 const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-benches"];
 
-/// Has cargo list what it built on its standard output.
+/// Makes cargo list its build products on its standard output.
 const MESSAGES: &str = "--message-format=json-render-diagnostics";
 
-/// The programs that take longest, which start first: what starts last then ends soon.
+/// The programs that take longest. They start first, so that the last ones to start end soon.
 const LONG: &[&str] = &[
     "tools/cli/tests/program/main.rs",
     "tess-wgpu/tests/batches/main.rs",
@@ -40,19 +40,19 @@ const LONG: &[&str] = &[
     "bindings/c/tests/foreign.rs",
 ];
 
-/// Tests that only [`Extent::All`] runs, by their program; no names are all of its tests.
+/// Tests that only [`Extent::All`] runs, by program; an empty list stands for all of its tests.
 struct Beyond {
     program: &'static str,
-    /// Beginnings of names.
+    /// Prefixes of test names.
     tests: &'static [&'static str],
 }
 
 const BEYOND: &[Beyond] = &[
-    // They need OpenGL or a simulator.
+    // These tests need OpenGL or a simulator.
     Beyond { program: "tess-wgpu/tests/gl/main.rs", tests: &[] },
     Beyond { program: "bindings/c/tests/foreign.rs", tests: &["rtl_", "uvm_"] },
-    // They are slow. The comparisons that stay reach the same code with fewer patches or in one
-    // language.
+    // These tests are slow. The remaining comparisons reach the same code with fewer patches, or in
+    // a single language.
     Beyond {
         program: "tools/cli/tests/program/main.rs",
         tests: &["backends::gpu_equals_recorded"],
@@ -62,16 +62,16 @@ const BEYOND: &[Beyond] = &[
     Beyond { program: "tools/probe/tests/bench.rs", tests: &[] },
 ];
 
-/// Which tests are run.
+/// The extent of a test run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Extent {
-    /// The model, the CPU, the GPU on Vulkan, surfaces, the kit, the program and C.
+    /// The model, the CPU, the GPU with Vulkan, surfaces, the kit, the program and C.
     Comparisons,
-    /// Also what needs OpenGL, a window or a simulator.
+    /// In addition, tests that need OpenGL, a window or a simulator.
     All,
 }
 
-/// Sources and where their builds go: the workspace's, or a copy.
+/// Sources, and the folder of their builds: those of the workspace, or a copy.
 pub(crate) struct Tree {
     pub(crate) root: PathBuf,
     pub(crate) target: PathBuf,
@@ -91,7 +91,8 @@ struct Profile {
     test: bool,
 }
 
-/// Arguments of `cargo xtask test`: paths of tests, and words of which a test's name must have one.
+/// Arguments of `cargo xtask test`: paths of tests, and words of which a test's name must contain
+/// one.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct TestSelection<'a> {
     pub(crate) paths: Vec<&'a str>,
@@ -99,8 +100,8 @@ pub(crate) struct TestSelection<'a> {
 }
 
 impl<'a> TestSelection<'a> {
-    /// The first argument is a path; so are those behind it that have a `/` or are a package's
-    /// folder.
+    /// The first argument is a path. So are later ones that contain a `/` or are the folder of a
+    /// package.
     pub(crate) fn of(arguments: &[&'a str]) -> Self {
         let is_path = |(number, argument): &(usize, &str)| {
             *number == 0
@@ -114,9 +115,9 @@ impl<'a> TestSelection<'a> {
     }
 }
 
-/// Builds the tests and gives a job for each program, the longest first, and one for the examples
-/// in the documentation. Of a part, only programs whose sources begin with one of its paths, and no
-/// documentation.
+/// Builds the tests, and returns a job for each program, the longest first, and one for the
+/// examples in the documentation. For a part, returns only programs whose sources are below one of
+/// its paths, and no documentation.
 ///
 /// # Errors
 /// They do not compile, or a path has no tests.
@@ -126,7 +127,7 @@ pub(crate) fn jobs(extent: Extent, part: &TestSelection<'_>) -> Result<Vec<Job>,
     println!("\n$ {}", command::shown(build.arg("--no-run")));
     let root = workspace();
     let selected = match (extent, &part.paths[..]) {
-        // Not the examples either, whose sources are in tests.
+        // The examples are not built either; their sources are included in tests.
         (Extent::Comparisons, []) => comparisons()?,
         (_, paths) => selection(paths)?,
     };
@@ -141,7 +142,7 @@ pub(crate) fn jobs(extent: Extent, part: &TestSelection<'_>) -> Result<Vec<Job>,
         let mut documentation = cargo(&base);
         documentation.arg("--doc");
         prepare(&mut documentation, &base);
-        // It compiles the examples, so it takes long.
+        // This job compiles the examples, so it takes long.
         jobs.insert(1.min(jobs.len()), Job::new(documentation));
     }
     for job in &mut jobs {
@@ -150,8 +151,8 @@ pub(crate) fn jobs(extent: Extent, part: &TestSelection<'_>) -> Result<Vec<Job>,
     Ok(jobs)
 }
 
-/// The arguments of `cargo` that select the packages. With all of them every dependency has the
-/// same features, but the folder of a package says that no other is wanted.
+/// The arguments of `cargo` that select the packages. If all are selected, every dependency has the
+/// same features; the folder of a package selects only that package.
 fn base(extent: Extent, part: &TestSelection<'_>) -> Result<String, String> {
     let mut base = ALL.to_owned();
     if part.paths.is_empty() {
@@ -173,11 +174,11 @@ fn base(extent: Extent, part: &TestSelection<'_>) -> Result<String, String> {
     Ok(base)
 }
 
-/// Builds the test programs of `path` in another tree and gives their jobs; for tests in Python,
-/// the package.
+/// Builds the test programs of `path` in another tree, and returns their jobs. For tests in Python,
+/// builds the package.
 ///
 /// # Errors
-/// They do not compile, or there are none.
+/// They do not compile, or do not exist.
 pub(crate) fn programs(tree: &Tree, path: &str) -> Result<Vec<Job>, String> {
     if path.ends_with(".py") {
         return Ok(vec![python::of_tree(&tree.root, &tree.target.join("python"), path)?]);
@@ -191,13 +192,13 @@ pub(crate) fn programs(tree: &Tree, path: &str) -> Result<Vec<Job>, String> {
     Ok(jobs)
 }
 
-/// The jobs of a build, from what cargo said of it in the tree at `root`.
+/// The jobs of a build, from cargo's messages about it in the tree at `root`.
 fn jobs_of(messages: &str, root: &Path, extent: Extent, paths: &[&str]) -> Vec<Job> {
     let programs = messages.lines().filter_map(|line| serde_json::from_str(line).ok());
     programs.filter_map(|program| job(program, root, extent, paths)).collect()
 }
 
-/// Arguments of cargo that select the targets below these paths.
+/// The arguments of cargo that select the targets below these paths.
 fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
     let mut chosen = Vec::new();
     let packages = packages::all()?;
@@ -212,12 +213,12 @@ fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
             ));
         }
     }
-    // Cargo takes `--lib` once.
+    // Cargo accepts `--lib` only once.
     let selections: BTreeSet<_> = chosen.into_iter().map(Target::selection).collect();
     Ok(selections.into_iter().flatten().collect())
 }
 
-/// Arguments of cargo that select the programs of [`Extent::Comparisons`].
+/// The arguments of cargo that select the programs of [`Extent::Comparisons`].
 fn comparisons() -> Result<Vec<String>, String> {
     let packages = packages::all()?;
     let chosen = packages.iter().filter(|package| !APART.contains(&package.name.as_str()));
@@ -228,12 +229,12 @@ fn comparisons() -> Result<Vec<String>, String> {
     Ok(selections.into_iter().flatten().collect())
 }
 
-/// The tests of a program that [`BEYOND`] leaves out; none are all.
+/// The tests of a program that [`BEYOND`] leaves out; an empty list stands for all.
 fn tests_beyond(source: &Path) -> Option<&'static [&'static str]> {
     BEYOND.iter().find(|beyond| source.ends_with(beyond.program)).map(|beyond| beyond.tests)
 }
 
-/// The command of a program that is to run.
+/// The job of a program, if it is to run.
 fn job(program: TestProgram, root: &Path, extent: Extent, paths: &[&str]) -> Option<Job> {
     let TestProgram { manifest_path, target, profile, executable } = program;
     let source = target.src_path.strip_prefix(root).unwrap_or(&target.src_path);
@@ -248,24 +249,24 @@ fn job(program: TestProgram, root: &Path, extent: Extent, paths: &[&str]) -> Opt
         command.args(left_out.iter().flat_map(|name| ["--skip", name]));
     }
     let folder = manifest_path.parent().unwrap_or(&manifest_path);
-    // As cargo runs tests.
+    // The environment in which cargo runs tests.
     command.current_dir(folder).env("CARGO_MANIFEST_DIR", folder);
     command.env("CARGO", cargo("").get_program());
     Some(Job { name: source.display().to_string(), command })
 }
 
-/// Tells tests of a build with these arguments what they may rely on.
+/// Sets the environment variables that the tests of a build with these arguments rely on.
 fn prepare(tests: &mut Command, base: &str) {
-    // A test whose tool is missing then fails; elsewhere it is reported as ignored.
+    // With CI set, a test fails if its tool is missing; otherwise it is reported as ignored.
     tests.env("CI", "1");
-    // The C interface's libraries are those of this build, which has this program.
+    // The libraries of the C interface are those of this build, which includes this program.
     if base.contains("--workspace") {
         tests.env("TESS_CAPI_BUILD", format!("{base} --test foreign"));
     }
     tests.env(levels::VARIABLE, levels::required().join(","));
-    // Shaders without what debuggers want: a tenth less for the driver to compile.
+    // Shaders get no debug information, which saves the driver a tenth of its compile time.
     tests.env("WGPU_DEBUG", "0");
-    // Without it drivers complain on the standard error, once for each device that is opened.
+    // Without this variable, drivers complain on the standard error each time a device is opened.
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         tests.env("XDG_RUNTIME_DIR", std::env::temp_dir());
     }

@@ -1,4 +1,4 @@
-//! Runs test commands and counts what they ran.
+//! Runs test commands, and counts the tests that they ran.
 
 use crate::command::shown;
 use std::collections::VecDeque;
@@ -9,7 +9,7 @@ use std::sync::Mutex;
 use std::sync::mpsc::{self, Receiver};
 use std::time::Instant;
 
-/// Numbers of tests, added up from the lines that test runners print.
+/// Numbers of tests, summed up from the lines that test runners print.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tally {
     passed: u64,
@@ -18,8 +18,8 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Adds a line such as `test result: ok. 3 passed; 0 failed; 1 ignored; ...`; whether it is
-    /// one.
+    /// Adds a line such as `test result: ok. 3 passed; 0 failed; 1 ignored; ...`; returns whether
+    /// it is one.
     fn add_line(&mut self, line: &str) -> bool {
         let Some(result) = line.trim_start().strip_prefix("test result: ") else { return false };
         let counts = result.split_once(". ").map_or("", |(_, counts)| counts);
@@ -55,7 +55,7 @@ impl Job {
         Self { name: shown(&command), command }
     }
 
-    /// The same program with this word, which selects tests.
+    /// The same program with this additional word, which selects tests.
     pub(crate) fn with(&self, word: &str) -> Self {
         let mut command = Command::new(self.command.get_program());
         command.args(self.command.get_args()).arg(word);
@@ -67,7 +67,7 @@ impl Job {
     }
 }
 
-/// A tally of the tests that commands ran, and the commands that failed.
+/// The number of tests that commands ran, and the commands that failed.
 #[derive(Default)]
 pub(crate) struct TestReport {
     all: Tally,
@@ -75,12 +75,12 @@ pub(crate) struct TestReport {
 }
 
 impl TestReport {
-    /// Runs the commands one after the other, and passes their output on.
+    /// Runs the commands one after another, and passes their output on.
     ///
     /// # Errors
-    /// A command that cannot be started. One that fails, or that passes without having run a test,
-    /// is noted for
-    /// [`TestReport::finish`]: a filter which matches nothing must not count as success.
+    /// A command cannot be started. A command that fails, or that passes without having run a test,
+    /// is recorded for [`TestReport::finish`]: a filter that matches nothing must not count as
+    /// success.
     pub(crate) fn one_by_one(
         &mut self,
         commands: impl IntoIterator<Item = Command>,
@@ -98,12 +98,12 @@ impl TestReport {
         Ok(())
     }
 
-    /// Runs the jobs, some of them at a time. Prints the line of each test when it ends, and the
-    /// rest of a job's output when the job ends. A job may have no test, but must say so: a program
-    /// that ends before its tests would otherwise pass.
+    /// Runs the jobs, several at a time. Prints the line of each test when it ends, and the rest of
+    /// a job's output when the job ends. A job may have no tests, but must report that; otherwise a
+    /// program that ends before its tests would pass.
     ///
     /// # Errors
-    /// As for [`TestReport::one_by_one`], and jobs that have no test together.
+    /// As for [`TestReport::one_by_one`], or if all jobs together ran no test.
     pub(crate) fn beside_each_other(&mut self, jobs: Vec<Job>) -> Result<(), String> {
         let passed_before = self.all.passed;
         let (total, workers) = (jobs.len(), at_once());
@@ -128,7 +128,7 @@ impl TestReport {
         Ok(())
     }
 
-    /// Prints and counts what the jobs put out.
+    /// Prints and counts the jobs' output.
     fn receive(&mut self, total: usize, news: Receiver<(String, News)>) -> Result<(), String> {
         let mut number = 0;
         for (name, news) in news {
@@ -146,7 +146,8 @@ impl TestReport {
             match (status.success(), results) {
                 (true, 1..) => {}
                 (true, 0) => self.broken.push(format!("{name} (no result)")),
-                // A program that crashes has no result either: nothing else says why it failed.
+                // A program that crashes has no result either; its exit status is the only reason
+                // known.
                 (false, 0) => self.broken.push(format!("{name} (no result; {status})")),
                 (false, _) => self.broken.push(name),
             }
@@ -157,7 +158,7 @@ impl TestReport {
     /// Prints the tally.
     ///
     /// # Errors
-    /// The commands that failed.
+    /// A command failed.
     pub(crate) fn finish(self) -> Result<(), String> {
         println!("\n{}", self.all);
         match self.broken.is_empty() {
@@ -167,10 +168,10 @@ impl TestReport {
     }
 }
 
-/// Runs every command, even after one failed, and prints their output and the tally.
+/// Runs every command, even after a failure, and prints their output and the tally.
 ///
 /// # Errors
-/// A command that fails, or that passes without having run a test.
+/// A command fails, or passes without having run a test.
 pub(crate) fn run(commands: impl IntoIterator<Item = Command>) -> Result<(), String> {
     let mut report = TestReport::default();
     report.one_by_one(commands)?;
@@ -184,26 +185,27 @@ enum News {
     Ended(Result<Captured, String>),
 }
 
-/// The rest of what a command printed on both of its outputs.
+/// The rest of a command's output, from both of its streams.
 struct Captured {
     text: String,
     status: ExitStatus,
     seconds: u64,
 }
 
-/// How many test programs run at a time. Each has a thread for every processor, but ends with few
-/// that are busy, so that a second one fills the gaps; more of them take memory and gain nothing.
+/// The number of test programs that run at the same time. Each has a thread per processor, but few
+/// are busy at its end, so a second program fills the gaps. More programs take memory and gain
+/// nothing.
 fn at_once() -> usize {
     std::thread::available_parallelism().map_or(1, |count| count.get().clamp(1, 4))
 }
 
-/// Runs a command and keeps its output, but for the lines of tests, which it tells at once.
+/// Runs a command and keeps its output, except for the lines of tests, which are passed on at once.
 fn captured(mut command: Command, tell: impl Fn(String)) -> Result<Captured, String> {
     let began = Instant::now();
     let (reader, writer) = std::io::pipe().map_err(|error| error.to_string())?;
     let both = writer.try_clone().map_err(|error| error.to_string())?;
     let mut child = command.stdout(writer).stderr(both).spawn().map_err(|e| e.to_string())?;
-    // The command holds the pipe's other end, which would never close.
+    // The command holds the other end of the pipe, which would otherwise never close.
     drop(command);
     let mut text = String::new();
     for line in BufReader::new(reader).split(b'\n') {
@@ -221,7 +223,7 @@ fn captured(mut command: Command, tell: impl Fn(String)) -> Result<Captured, Str
     Ok(Captured { text, status, seconds: began.elapsed().as_secs() })
 }
 
-/// Runs a command and passes its output on; whether it succeeded.
+/// Runs a command and passes its output on; returns whether it succeeded.
 fn run_one(command: &mut Command, tally: &mut Tally) -> Result<bool, String> {
     let name = shown(command);
     let cannot = |error| format!("cannot run `{name}`: {error}");
@@ -261,7 +263,7 @@ mod tests {
             says("test result: ok. 0 passed; 0 failed; 0 ignored; 0 measured; 9 filtered out");
         assert!(none.is_err_and(|message| message.contains("no test ran")), "none");
     }
-    /// Runs these lines of shell as jobs; what failed.
+    /// Runs these shell scripts as jobs; returns their failures.
     #[cfg(unix)]
     fn beside_each_other(scripts: &[&str]) -> Result<(), String> {
         let jobs = scripts.iter().map(|script| {

@@ -1,10 +1,10 @@
-//! Runs every test and says how many there were.
+//! Runs every test, and prints how many there were.
 
 use crate::suite::{self, Extent, TestSelection};
 use crate::tally::{Job, TestReport};
 use crate::{command, dist, examples, explorer, levels, models, python, setup};
 
-/// The rule where no browser can be had.
+/// What happens if no browser is available.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Browser {
     /// The tests of the explorer fail.
@@ -13,15 +13,15 @@ pub(crate) enum Browser {
     IfThere,
 }
 
-/// Runs the tests of the workspace that need no more than a Vulkan driver and a C compiler, or
-/// those of a [`TestSelection`], on every CPU level that this machine should have; the last line
-/// printed is the tally.
+/// Runs the tests of the workspace that need only a Vulkan driver and a C compiler, or those of a
+/// [`TestSelection`], on every CPU level that this machine should have. The last line printed is
+/// the tally.
 ///
 /// # Errors
 /// A test fails, something cannot be installed, or a path has no tests.
 pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
     setup::for_comparisons()?;
-    // Whoever names a test wants it.
+    // A test that is named is wanted, whatever it needs.
     let extent = if arguments.is_empty() { Extent::Comparisons } else { Extent::All };
     let mut report = TestReport::default();
     report.beside_each_other(suite::jobs(extent, &TestSelection::of(arguments))?)?;
@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
 /// As for [`run`].
 pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     setup::run()?;
-    // Compiled once, so that nothing else of the suite builds the program with other features.
+    // The program is built once, so that nothing else of the suite builds it with other features.
     let mut jobs = suite::jobs(Extent::All, &TestSelection::default())?;
     let program = command::built_program();
     jobs.insert(0, Job::new(models::judge_made(&program)?));
@@ -56,12 +56,12 @@ pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     }
     let mut report = TestReport::default();
     let explorer = std::thread::scope(|scope| {
-        // The page is compiled on one processor for the most part, so that tests fill the others.
+        // Compiling the page mostly uses one processor, so tests fill the others.
         let page = scope.spawn(|| lacking.is_none().then(|| explorer::tests(&program)).transpose());
         report.beside_each_other(jobs)?;
         page.join().map_err(|_| "building the explorer panicked".to_owned())?
     })?;
-    // Alone, as a page waits for a picture only so long.
+    // This runs by itself, because a page waits for a picture only for a limited time.
     report.one_by_one(explorer)?;
     if lacking.is_none() {
         report.one_by_one([dist::for_browsers(&program)?])?;
@@ -69,7 +69,7 @@ pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     finish(report)
 }
 
-/// Says what this machine cannot compare, and then the tally.
+/// Prints what this machine cannot compare, then the tally.
 fn finish(report: TestReport) -> Result<(), String> {
     if let Some(sentence) = levels::not_compared() {
         println!("\n{sentence}");

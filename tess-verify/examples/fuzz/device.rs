@@ -1,13 +1,14 @@
-//! The tessellator under test, and what a fuzzer asks about it. Put yours in place of this one.
+//! The tessellator under test, and the check that a fuzzer runs on it. Put yours in place of this
+//! one.
 
 use tess_core::{Config, PatchFactors, Tessellation};
 use tess_verify::check::{SecondFormulation, Strength, check_case};
 use tess_verify::{Answers, Backend, Case};
 
-/// A device: the model by random access, which may have a fault.
+/// A device: the model by random access, optionally with a fault.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Device {
-    /// Whether it keeps 8 bits of a factor's fraction, where there are 16.
+    /// Whether it keeps only 8 of the 16 bits of a factor's fraction.
     pub(crate) truncates: bool,
 }
 
@@ -27,17 +28,17 @@ impl Backend for Device {
     }
 }
 
-/// The device's answer for one case against the model's. The message of a finding begins with the
-/// case as a line, which `tess patch --cases` takes.
+/// Compares the device's output for one case with the model's. The message of a finding begins with
+/// the case as a line, which `tess patch --cases` accepts.
 ///
 /// # Errors
-/// The first difference, or the device does not run.
+/// The first difference, or the reason why the device could not run.
 pub(crate) fn check(device: &mut Device, case: &Case) -> Result<(), String> {
     match check_case(device, case, Strength::default()) {
         Ok(None) => Ok(()),
         Ok(Some(wrong)) => Err(format!("{case}\n{}\n{wrong}", case.command())),
-        // A device that lacks the case's configuration is not compared; `Selection::fit` asks for
-        // those it has.
+        // A case in a configuration that the device lacks is skipped. `Selection::fit` makes cases
+        // in those that it has.
         Err(error) if error.is_unsupported() => Ok(()),
         Err(error) => Err(format!("{case}\n{error}")),
     }

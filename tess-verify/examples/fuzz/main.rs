@@ -2,9 +2,9 @@
 //!
 //!   cargo run --release --example fuzz --features arbitrary -- [SECONDS [SEED]] [--fault]
 //!
-//! Ends with the first finding (exit code 1), or with the number of cases a second. `--fault`
-//! plants a fault in the device. The same with cargo-fuzz, which follows what the bytes reach, is
-//! the target `device` in the folder `fuzz` of the repository.
+//! Ends with the first finding (exit code 1), or with the number of cases per second. `--fault`
+//! plants a fault in the device. The target `device` in the repository's folder `fuzz` is the same
+//! for cargo-fuzz, which is guided by the code that the bytes reach.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 pub(crate) mod device;
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// Compares cases while `more` says so; the first finding.
+/// Compares cases while `more` returns true; returns the first finding.
 pub(crate) fn search(
     device: &mut Device,
     seed: u64,

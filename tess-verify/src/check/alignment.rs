@@ -1,44 +1,47 @@
-//! The shortest explanation of answers that are out of step: the edit distance, and which edits
-//! make it.
+//! Explains answers that are out of step with what was asked, by an edit distance and the edits
+//! that it counts.
 //!
 //! ```text
 //! asked    A B C D E        A is answered; B is missing; C is answered; X stands in the place of D; E is answered;
 //! answers  A C X E E        the second E is one too many: three edits, and no other explanation has fewer
 //! ```
 //!
-//! `D[i][j]` is the least number of edits that make the answers from `i` on into what is asked from
-//! `j` on: the lower right corner is 0, and each other entry is the least of its right, lower and
-//! lower right neighbour plus one, or the lower right one where the cases agree. Neighbours differ
-//! by at most one, so a row of the matrix is bits, 64 entries in a word, and a row follows from the
-//! one below by a few operations on words (Myers, "A fast bit-vector algorithm for approximate
-//! string matching", 1999; Hyyrö's form). Two bits of each entry are kept: they say which edit is
-//! first.
+//! `D[i][j]` is the smallest number of edits between the answers from `i` on and the asked cases
+//! from `j` on. The lower right corner is 0. Every other entry is the smallest of its right, lower
+//! and lower right neighbours plus one, or the lower right neighbour itself where the cases agree.
+//! If more answers are to come, the whole bottom row is 0.
+//!
+//! Neighbours differ by at most one, so a row of the matrix is stored as bits, 64 entries per word,
+//! and each row follows from the one below by a few word operations (Myers, "A fast bit-vector
+//! algorithm for approximate string matching", 1999; Hyyrö's form). Two bits per entry are kept to
+//! tell which edit comes first.
 
 use crate::case::Case;
 use std::collections::HashMap;
 
-/// The fate of the next answer, of the next asked case, or of both.
+/// How the next answer, the next asked case, or both are accounted for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Step {
-    /// The answer is to the case.
+    /// The answer is to this case.
     Same,
-    /// The answer is to another case, and stands in the place of this one.
+    /// The answer is to another case and takes the place of this one.
     Replaced,
-    /// The answer is one more than was asked.
+    /// The answer was not asked for.
     Extra,
     /// The case has no answer.
     Missing,
 }
 
-/// A row of the matrix, or what is said of each of its entries; bit `j - 1` is that of the last `j`
+/// A row of the matrix, or one property of each of its entries. Bit `j - 1` belongs to the last `j`
 /// asked cases.
 type Bits = Vec<u64>;
 
-/// The fewest steps that explain `answers` to what was `asked`. Where there is a choice, an answer
-/// stands in the place of the next case. Is it `whole`, every case that is left is missing; if not,
-/// those behind the answers count nothing, as their answers are still to come.
+/// The smallest number of steps that explain `answers` to the `asked` cases. Where there is a
+/// choice, an answer takes the place of the next case. With `whole`, every case that is left over
+/// is missing. Otherwise cases after the last answer cost nothing, because their answers are still
+/// to come.
 ///
-/// Time: the number of answers times that of words of 64 cases.
+/// Time: proportional to the number of answers times the number of 64-case words.
 pub(super) fn align(
     answers: &[Option<Case>],
     asked: &[Case],
@@ -46,8 +49,8 @@ pub(super) fn align(
     said: &mut Said,
 ) -> Vec<Step> {
     let words = asked.len().div_ceil(64);
-    // Where the cases stand that were answered; of others nothing is known, and nothing is
-    // allocated.
+    // The positions of each case that was answered. Other cases are not stored, and an answer that
+    // was not asked for allocates nothing.
     let mut places: HashMap<Case, Bits> =
         answers.iter().flatten().map(|case| (*case, Bits::new())).collect();
     for (bit, case) in asked.iter().rev().enumerate() {
@@ -68,25 +71,25 @@ pub(super) fn align(
     trace(answers, asked, whole, said)
 }
 
-/// The differences between an entry of a row and the one for one case fewer: up by one, or down by
-/// one.
+/// The difference between each entry of a row and the entry for one case fewer: one more (`up`) or
+/// one less (`down`).
 struct Row {
     up: Bits,
     down: Bits,
 }
 
-/// Two bits of each entry, row by row from the last answer on. The memory is used again.
+/// Two bits per entry, row by row, starting with the last answer. The memory is reused.
 #[derive(Default)]
 pub(super) struct Said {
-    /// Equal to the entry for an answer and a case fewer: so the answer is right, or no
-    /// replacement.
+    /// The entry equals the one for one answer and one case fewer: the answer is right, or it is
+    /// not a replacement.
     diagonal: Bits,
-    /// One more than the entry for one case fewer: the case may be missing.
+    /// The entry is one more than that for one case fewer: the case may be missing.
     up: Bits,
 }
 
 impl Row {
-    /// Makes the row for one answer more, which is to the cases `equal`.
+    /// Advances to the row for one more answer; `equal` marks the cases that it answers.
     fn next(&mut self, equal: &Bits, diagonal: &mut Bits) {
         let (mut carry, mut more_in, mut less_in) = (false, 1, 0);
         for ((up, down), equal) in self.up.iter_mut().zip(&mut self.down).zip(equal) {
@@ -94,7 +97,7 @@ impl Row {
             let (sum, over_again) = sum.overflowing_add(u64::from(carry));
             carry = over || over_again;
             let same = (sum ^ *up) | equal | *down;
-            // Against the row below: one more, or one less.
+            // Compared with the row below: one more, or one less.
             let (more, less) = (*down | !(same | *up), *up & same);
             let (more_left, less_left) = (more << 1 | more_in, less << 1 | less_in);
             (more_in, less_in) = (more >> 63, less >> 63);
@@ -105,7 +108,7 @@ impl Row {
     }
 }
 
-/// The steps from the first answer and case on.
+/// The steps, starting with the first answer and case.
 fn trace(answers: &[Option<Case>], asked: &[Case], whole: bool, said: &Said) -> Vec<Step> {
     let mut steps = Vec::with_capacity(answers.len());
     let (mut i, mut j) = (0, 0);
@@ -145,8 +148,7 @@ mod tests {
         line.parse().expect("a case")
     }
 
-    /// The matrix entry by entry: how many edits explain the answers, and whatever of what is
-    /// asked.
+    /// The number of edits from the whole matrix, entry by entry.
     fn fewest(answers: &[Option<Case>], asked: &[Case], whole: bool) -> usize {
         let last = |j| if whole { asked.len() - j } else { 0 };
         let mut row: Vec<usize> = (0..=asked.len()).map(last).collect();
@@ -162,7 +164,7 @@ mod tests {
         row[0]
     }
 
-    /// How many edits the steps are, after each is tried.
+    /// The number of edits among the steps; each step is checked.
     fn edits(steps: &[Step], answers: &[Option<Case>], asked: &[Case], whole: bool) -> usize {
         let (mut i, mut j) = (0, 0);
         for step in steps {
@@ -179,8 +181,8 @@ mod tests {
         steps.iter().filter(|step| **step != Step::Same).count()
     }
 
-    /// Texts of few and of many cases, shorter and longer than a word, equal in long parts or
-    /// nowhere.
+    /// Sequences of few and of many distinct cases, shorter and longer than a word, with long equal
+    /// parts or with none.
     #[test]
     fn no_explanation_is_shorter() {
         let (mut random, mut said) = (SplitMix64::new(1), Said::default());

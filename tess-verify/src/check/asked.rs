@@ -1,5 +1,5 @@
-//! Cases that were asked, beside the answers: one dropped, repeated or foreign answer is one
-//! difference.
+//! Matches answers with the cases that were asked: a dropped, repeated or foreign answer is a
+//! single difference.
 //!
 //! ```text
 //! asked    A B C D E      A is answered. C is not the next one: the answers and cases ahead are read, and
@@ -7,10 +7,11 @@
 //! ```
 //!
 //! While answers are in step, nothing is read ahead. Where they are not, at most [`WINDOW`] answers
-//! are read, and twice as many cases, and the fewest edits are found that explain these answers
-//! (`alignment`). Half of them are settled; what is best for the rest depends on what comes behind
-//! it. So a case is looked for as far as fewer than [`WINDOW`] are missing, and it is a place to go
-//! on from only if what follows agrees.
+//! and twice as many cases are read, and the smallest number of edits that explains these answers
+//! is found (`alignment`). Only the first half of the edits is settled, because the best
+//! explanation of the rest depends on what follows. So fewer than [`WINDOW`] missing cases can be
+//! bridged, and the comparison resumes at a case only if what follows agrees. on from only if what
+//! follows agrees.
 
 use super::Known;
 use super::alignment::{Said, Step, align};
@@ -21,30 +22,31 @@ use crate::vectors::{Record, VectorError, VectorFile};
 use std::collections::VecDeque;
 use std::io::BufRead;
 
-/// The cases that were asked, in the order in which a file is to answer them.
+/// The asked cases, in the order in which a file is to answer them.
 pub type Asked<'a> = &'a mut (dyn Iterator<Item = Result<Case, VectorError>> + Send);
 
-/// How many answers are looked through where they are out of step: fewer may be missing, or too
-/// many, in one place. Of answers with more than 4000 points and indices each, fewer are looked
-/// through.
+/// The number of answers that are examined where answers are out of step. Fewer than this may be
+/// missing or superfluous in one place. Where answers have more than 4000 points and indices on
+/// average, fewer are examined.
 const WINDOW: usize = 4096;
 
-/// Points and indices of the answers that are read ahead, at most and one answer more: some 100 MB.
+/// The largest number of points and indices read ahead, not counting the last answer: about 100 MB.
 const ELEMENTS: usize = 4000 * WINDOW;
 
-/// The cases that are still to be answered, and the answers that were read ahead.
+/// The cases still to be answered, and the answers read ahead.
 pub(super) struct Expected<'a> {
     asked: Asked<'a>,
-    /// The next cases, of which the first is due.
+    /// The next cases; the first one is due.
     next: VecDeque<Case>,
     /// The number of the case that is due, from 1.
     due: u64,
-    /// The next answers, as far as they were read.
+    /// The next answers, as far as they have been read.
     ahead: VecDeque<Record>,
     answers_end: bool,
-    /// Why the answers end early, once those before are settled.
+    /// The error at which the answers end early; it is reported once the answers before it are
+    /// settled.
     malformed: Option<VectorError>,
-    /// The fate of the first answers and cases, as far as it is settled.
+    /// The settled steps of the first answers and cases.
     steps: VecDeque<Step>,
     said: Said,
     known: &'a Known,
@@ -67,7 +69,7 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// The next answer, and what is wrong with its place if something is; `None` at the end.
+    /// The next answer, with its fault if it is out of place; `None` at the end.
     ///
     /// # Errors
     /// The answers or the asked cases cannot be read.
@@ -110,7 +112,7 @@ impl<'a> Expected<'a> {
         self.read_cases(2 * WINDOW)?;
         let cases_end = self.next.len() < 2 * WINDOW;
         let answers: Vec<Option<Case>> = self.ahead.iter().map(Record::case).collect();
-        // Behind a malformed answer there may be others.
+        // More answers may follow a malformed one.
         let is_cut = self.malformed.is_some();
         let whole = self.answers_end && !is_cut || cases_end;
         let steps = align(&answers, self.next.make_contiguous(), whole, &mut self.said);
@@ -131,7 +133,7 @@ impl<'a> Expected<'a> {
         Ok(())
     }
 
-    /// The cases without an answer, when there are no more answers.
+    /// The cases left without an answer, once there are no more answers.
     ///
     /// # Errors
     /// The asked cases cannot be read.
@@ -145,7 +147,7 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// The cases without an answer before the one that is malformed.
+    /// The cases without an answer that precede a malformed record.
     pub(super) fn so_far(self) -> Findings {
         self.missing
     }
@@ -158,7 +160,7 @@ impl<'a> Expected<'a> {
         Ok(())
     }
 
-    /// Reads until there are so many answers ahead. They end at a malformed one, too.
+    /// Reads until `answers` answers are ahead. A malformed answer ends the answers, too.
     fn read_answers<R: BufRead>(&mut self, file: &mut VectorFile<R>, answers: usize) {
         let mut elements: usize = self.ahead.iter().map(size).sum();
         while self.ahead.len() < answers && elements <= ELEMENTS && !self.answers_end {
@@ -175,7 +177,7 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// The case that is due has no answer.
+    /// Records that the case that is due has no answer.
     fn miss(&mut self) {
         if let Some(case) = self.next.pop_front() {
             let found = Found::Different(missing(), Some(case));
@@ -186,7 +188,7 @@ impl<'a> Expected<'a> {
     }
 }
 
-/// Points and indices of a record.
+/// The number of points and indices of a record.
 fn size(record: &Record) -> usize {
     match record {
         Record::Listing(listing) => listing.output.points.len() + listing.output.indices.len(),

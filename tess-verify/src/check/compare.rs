@@ -1,4 +1,5 @@
-//! Exact comparison: the first element in which two results differ, and the stage it points to.
+//! Exact comparison: the first element in which two results differ, and the stage that it points
+//! to.
 
 mod mismatch;
 
@@ -21,13 +22,13 @@ impl Mismatch {
     }
 }
 
-/// The first difference between the points of two outputs, whatever their indices.
+/// The first difference between the points of two outputs; indices are ignored.
 pub(crate) fn points_alone(observed: &Tessellation, expected: &Tessellation) -> Option<Mismatch> {
     count("points", &observed.points, &expected.points)
         .or_else(|| points(&observed.points, &expected.points))
 }
 
-/// The first difference between the vertices of two outputs' primitives, by their coordinates.
+/// The first difference between the vertices of two outputs' primitives, compared by coordinates.
 pub(crate) fn sequences(
     case: &Case,
     observed: &Tessellation,
@@ -85,7 +86,7 @@ fn indices(size: usize, observed: &[u32], expected: &[u32]) -> Option<Mismatch> 
     Some(Mismatch::hex(element, 1, observed[at], expected[at], SpecStage::Stitch))
 }
 
-/// The first difference between contexts of `factors`, all three lists being equally long.
+/// The first difference between the contexts of `factors`; the three lists have equal lengths.
 pub(crate) fn contexts(
     factors: &[FixedFactor],
     observed: &[FactorContext],
@@ -102,7 +103,7 @@ pub(crate) fn contexts(
     factors.iter().zip(observed).zip(expected).find_map(of_one)
 }
 
-/// The fields of a context by name, parity as 1 for odd.
+/// The fields of a context with their names; parity is 1 for odd.
 fn context_fields(context: &FactorContext) -> [(&'static str, u32); 7] {
     [
         ("parity", context.parity.odd()),
@@ -115,7 +116,7 @@ fn context_fields(context: &FactorContext) -> [(&'static str, u32); 7] {
     ]
 }
 
-/// The first difference between the locations of contexts, which belong to `factors`.
+/// The first difference between the locations of contexts; `contexts` are those of `factors`.
 pub(crate) fn locations(
     factors: &[FixedFactor],
     contexts: &[FactorContext],
@@ -133,7 +134,7 @@ pub(crate) fn locations(
     })
 }
 
-/// The first difference between processed factors of the raw factors `values`.
+/// The first difference between the processed factors of the raw factors `values`.
 pub(crate) fn fixed_factors(
     values: &[f32],
     observed: &[[FixedFactor; 2]],
@@ -172,8 +173,7 @@ mod tests {
         }
     }
 
-    /// Each location belongs to the context in which it lies, the first and the last of each
-    /// included.
+    /// Each location belongs to its own context, also at the first and the last location of one.
     #[test]
     fn a_wrong_location_names_its_factor() {
         let factors = [0x2_0000, 0x3_8000, 0x4_0000].map(FixedFactor::from_bits);

@@ -1,7 +1,7 @@
-//! One value, one conversion, through a whole file.
+//! Each value must be converted in one way throughout a file.
 //!
-//! Within 0.6 units in the last place some values have two legal fixed-point numbers. A device may
-//! take either, but always the same one: neighbouring patches meet because of that.
+//! Some values have two legal fixed-point numbers within 0.6 units in the last place. A device may
+//! choose either one, but must always choose the same, because neighbouring patches meet only then.
 
 use super::report::Explained;
 use super::{Difference, Report};
@@ -10,7 +10,7 @@ use crate::check::compare::{Element, Mismatch, SpecStage};
 use crate::check::strength::{Ambiguous, Conversions};
 use std::collections::HashMap;
 
-/// A record that the model explains, if some values were converted in one of some ways.
+/// A record that the model explains if some values were converted in one of several ways.
 #[derive(Debug)]
 pub(super) struct Use {
     pub(super) number: u64,
@@ -19,10 +19,10 @@ pub(super) struct Use {
     pub(super) conversions: Conversions,
 }
 
-/// For each value, the number that it became (0 or 1), and the first record that shows it.
+/// For each value, which of its numbers it became (0 or 1), and the first record that shows it.
 type Known = HashMap<u32, (usize, u64)>;
 
-/// The records that convert a value in another way than one before them.
+/// The records that convert a value in a way that contradicts an earlier record.
 pub(super) fn conflicts(mut uses: Vec<Use>) -> Report {
     uses.sort_unstable_by_key(|used| used.number);
     let (mut report, mut known) = (Report::default(), Known::new());
@@ -36,11 +36,11 @@ pub(super) fn conflicts(mut uses: Vec<Use>) -> Report {
     report
 }
 
-/// How a record contradicts those before it. If it does not, the values that it shows become known.
+/// How a record contradicts earlier ones. If it does not, the values that it shows become known.
 fn conflict(used: &Use, known: &mut Known) -> Option<Mismatch> {
     let Conversions { values, accepted } = &used.conversions;
     let bit = |choice: u64, value: usize| usize::from(choice >> value & 1 == 1);
-    // A value that is known, and that this choice converts in the other way.
+    // A known value that this choice converts in the other way.
     let against = |choice: u64| {
         values.iter().enumerate().find_map(|(i, value)| {
             let (number, record) = known.get(&value.value)?;
@@ -54,7 +54,7 @@ fn conflict(used: &Use, known: &mut Known) -> Option<Mismatch> {
         return Some(mismatch(value, number, record));
     };
     for (i, value) in values.iter().enumerate() {
-        // A value whose number does not show in the output may be either.
+        // A value whose number does not show in the output may be either one.
         if consistent.iter().all(|&choice| bit(choice, i) == bit(first, i)) {
             known.entry(value.value).or_insert((bit(first, i), used.number));
         }
@@ -80,7 +80,7 @@ mod tests {
         Ambiguous { value, numbers: [2 * value, 2 * value + 1] }
     }
 
-    /// A record that shows values, and the choices that explain it.
+    /// A record with ambiguous values, and the choices that explain it.
     fn shows(number: u64, values: &[u32], choices: &[u64]) -> Use {
         let case = "case isoline integer line ruler 3f800000 3f800000".parse().expect("a case");
         let values = values.iter().map(|&value| ambiguous(value)).collect();
@@ -88,7 +88,7 @@ mod tests {
         Use { number, line: None, case, conversions: Conversions { values, accepted } }
     }
 
-    /// Of two values in a record, the second one is known by its own bit, whichever the first has.
+    /// Where a record has two values, each is known by its own bit, whatever the other's bit is.
     #[test]
     fn each_value_has_a_bit() {
         for choice in 0..4 {
@@ -108,8 +108,8 @@ mod tests {
         }
     }
 
-    /// A value that may be either in a record stays open; the choices that contradict others are
-    /// left out.
+    /// A value that may be either number in a record stays open; choices that contradict other
+    /// records are dropped.
     #[test]
     fn what_does_not_show_stays_open() {
         let open = || shows(1, &[10, 20], &[0, 2]);

@@ -12,7 +12,7 @@ use crate::generate::from_fixed;
 use crate::vectors::Coordinates;
 use tess_core::{Config, PatchFactors, SplitOrder, Tessellation};
 
-/// The finding on a device's output for a case.
+/// Judges a device's output for a case.
 pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) -> Found {
     match strength.explain(case, observed) {
         Some(conversions) if conversions.values.is_empty() => Found::Equal,
@@ -26,8 +26,8 @@ pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) ->
     }
 }
 
-/// The finding on a device's output by coordinates. They have no vertex numbers, so the strictest
-/// order is the model's sequence; third coordinates are compared in any strength.
+/// Judges a device's output by coordinates. It has no vertex numbers, so the strictest order is the
+/// model's sequence. Third coordinates are compared at every strength.
 pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -> Found {
     let order = match strength.order {
         ListOrder::Exact => ListOrder::Sequence,
@@ -45,12 +45,12 @@ pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -
     }
 }
 
-/// The explanations of an output: freedoms that were not granted, and mistakes that turn it round.
+/// What explains an output: freedoms that were not granted, and systematic mistakes.
 fn explained(case: &Case, observed: &Tessellation, strength: Strength) -> Explained {
     Way::ALL.map(|way| way.explains(case, observed, strength, 64))
 }
 
-/// The first difference to the output that is the nearest of the legal ones.
+/// The first difference from the nearest legal output.
 fn first_mismatch(case: &Case, observed: &Tessellation, strength: Strength) -> Option<Mismatch> {
     let case = nearest(case, observed, strength);
     let expected = case.patch().tessellate();
@@ -73,8 +73,8 @@ fn first_mismatch(case: &Case, observed: &Tessellation, strength: Strength) -> O
     })
 }
 
-/// Of the cases whose output is legal, the one that has the most points in common with the
-/// observed ones: the first difference to that one is the most useful.
+/// The case, among those with a legal output, whose output shares the most points with the observed
+/// one: the first difference from it is the most useful.
 fn nearest(case: &Case, observed: &Tessellation, strength: Strength) -> Case {
     let alternatives = Alternatives::new(case, strength.conversion);
     let wrong_points = |choice: &u64| {
@@ -105,8 +105,8 @@ fn unordered(difference: Difference) -> Mismatch {
     Mismatch { element: Element::Vertices(vertices), observed, expected: times(expected), stage }
 }
 
-/// The stage that explains a whole output: one that the model reaches with one factor processed
-/// differently, or with the other split order; else the one that the first difference points to.
+/// The stage of the fault, if one change explains the whole output: a factor processed differently,
+/// or the other split order. Otherwise the stage that the first difference points to.
 fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: SpecStage) -> SpecStage {
     let explains = |strength: Strength, other: &Case| {
         strength.equal(case, observed, &other.patch().tessellate())
@@ -126,14 +126,15 @@ fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: SpecSt
     first
 }
 
-/// Cases whose factors came out differently: one off by a unit in the last place, or by one; all
-/// equal to 1; the inside raised to what makes a picture frame; and what is culled and what is not,
-/// the other way round.
+/// Variants of a case whose factors were processed differently: one factor off by a unit in the
+/// last place or by one; all factors 1; the inside raised to that of a picture frame; a patch
+/// culled that should not be, or not culled that should be.
 fn other_factors(case: &Case) -> Vec<Case> {
     let with = |factors| Case { factors, ..*case };
     let uniform = |factor| with(PatchFactors::uniform(case.domain(), factor));
     let outer = case.domain().outer_factors();
-    // The smallest factor of all is above zero, and is raised to the lower end of the range.
+    // Every factor becomes positive; the smallest positive one is raised to the lower end of the
+    // range.
     let above_zero = |factor: f32| if factor > 0.0 { factor } else { f32::from_bits(1) };
     let raised = |inside: u32| {
         with(PatchFactors::from_fn(case.domain(), |position| {

@@ -1,4 +1,4 @@
-//! The kinds that cover everything there is: all fixed-point factors, all binary32 of a binade.
+//! The exhaustive kinds: all fixed-point factors, and all binary32 numbers of a binade.
 
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::check::compare::{self, Mismatch, SpecStage};
@@ -8,8 +8,8 @@ use crate::vectors::{FactorsRow, LocationsRow};
 use crate::vectors::{Fnv1a, words_digest};
 use tess_core::FixedFactor;
 
-/// Contexts and locations of all fractions of a factor's integer part. The locations are those of
-/// the model's contexts, so that a wrong context does not hide or feign a wrong location.
+/// Checks the contexts and locations of all factors with one integer part. Locations are computed
+/// from the model's contexts, so a wrong context neither hides nor fakes a wrong location.
 pub(super) fn locations(
     backend: &mut dyn Backend,
     row: &LocationsRow,
@@ -20,7 +20,7 @@ pub(super) fn locations(
     let observed = all_answered(backend, "contexts", answers, factors.len())?;
     let mut digest = Fnv1a::default();
     observed.iter().for_each(|context| digest.context(context));
-    // The digest leaves the parity out.
+    // The digest does not cover the parity.
     if digest.finish() != row.contexts_digest || observed != contexts {
         let digest = || {
             let (observed, expected) = (digest.finish(), row.contexts_digest);
@@ -41,10 +41,10 @@ pub(super) fn locations(
         }))
 }
 
-/// How many binary32 are handed over at once.
+/// The number of binary32 numbers per call of the backend.
 const CHUNK: u32 = 1 << 16;
 
-/// Factor processing of every binary32 of a binade.
+/// Checks factor processing of every binary32 number of a binade.
 pub(super) fn factors(
     backend: &mut dyn Backend,
     row: &FactorsRow,

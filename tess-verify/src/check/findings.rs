@@ -1,4 +1,4 @@
-//! Findings record by record, and their sum.
+//! Findings, record by record, and their sum.
 
 use super::consistency::{Use, conflicts};
 use super::report::Explained;
@@ -10,27 +10,27 @@ use crate::check::known::MISSING;
 use crate::check::strength::Conversions;
 use std::fmt::Display;
 
-/// The finding on a record.
+/// The finding for one record.
 pub(super) enum Found {
-    /// It is as it should be.
+    /// It is right.
     Equal,
-    /// So it is, if the device converts some values in one of these ways.
+    /// It is right if the device converts some values in one of these ways.
     Converted(Case, Conversions),
-    /// Its fault, and the patch that shows it, if one does.
+    /// It is wrong: the fault, and the patch that shows it, if there is one.
     Different(Mismatch, Option<Case>),
-    /// The fault of a device's output for a case, and what explains it.
+    /// A device's output for a case is wrong: the fault, and what explains it.
     Explained(Mismatch, Case, Explained),
-    /// It differs, and that is known.
+    /// It is wrong, and the difference is known.
     Known,
 }
 
 impl Found {
-    /// Whether the record differs, as far as it shows on its own.
+    /// Whether the record is wrong by itself.
     pub(super) const fn is_different(&self) -> bool {
         matches!(self, Self::Different(..) | Self::Explained(..))
     }
 
-    /// The same, unless it is a difference that is known of this case.
+    /// This finding, unless it is a difference that is known for this case.
     pub(super) fn unless_known(self, case: Option<Case>, known: &Known) -> Self {
         let difference: Option<&dyn Display> = match &self {
             Self::Different(mismatch, _) if mismatch.element == Element::Record => Some(&MISSING),
@@ -46,7 +46,7 @@ impl Found {
     }
 }
 
-/// The findings of one worker, or of all.
+/// The findings of one worker, or of all of them.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     report: Report,
@@ -54,8 +54,8 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Adds what was found of record `number`. Of one that is shown, `again` gives the record as a
-    /// file, and whether it passes alone.
+    /// Adds the finding for record `number`. `again` is called only for a difference that is shown:
+    /// it returns the record as a file, and whether the record passes by itself.
     pub(super) fn add(
         &mut self,
         number: u64,
@@ -93,13 +93,13 @@ impl Findings {
         self.report.differ(Difference { file, passes_alone, ..found });
     }
 
-    /// Adds what another worker found.
+    /// Adds another worker's findings.
     pub(super) fn join(&mut self, mut other: Self) {
         self.report.add(other.report);
         self.uses.append(&mut other.uses);
     }
 
-    /// The verdict, when everything is in.
+    /// The report, once everything has been added.
     pub(super) fn report(mut self) -> Report {
         self.report.add(conflicts(self.uses));
         self.report
@@ -112,14 +112,13 @@ mod tests {
     use crate::check::MAX_DIFFERENCES;
     use crate::check::compare::SpecStage;
 
-    /// A record is kept as a file for the first differences, and for one that is the smallest so
-    /// far.
+    /// A record is kept as a file if it is among the first differences, or the smallest so far.
     #[test]
     fn files_are_made_for_what_is_shown() {
         let mut findings = Findings::default();
         let mut made = Vec::new();
         let first = u64::try_from(MAX_DIFFERENCES).expect("few");
-        // Factor 2 and up, then 1.
+        // The factors are 2 and up, and once 1.
         for number in 1..=first + 5 {
             let detail = if number == first + 3 { 1.0 } else { 1.0 + number as f32 };
             let line = format!("case isoline integer line ruler 3f800000 {:08x}", detail.to_bits());

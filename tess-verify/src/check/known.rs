@@ -1,4 +1,4 @@
-//! Differences that are known: a baseline, under which a documented deviation is no mismatch.
+//! Known differences: a baseline of documented deviations, which are not mismatches.
 //!
 //! ```text
 //! # remarks, and cases that may differ in any way and for ever
@@ -19,19 +19,19 @@ use std::io::BufRead;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The expectation of a case without an answer.
+/// The expectation of a case that has no answer.
 pub(super) const MISSING: &str = "missing";
 
-/// The cases and rules that may differ, and what became of each. Threads may share it.
+/// The cases and rules that may differ, with the outcome of each. Threads may share it.
 ///
-/// The default has none, so it excuses nothing.
+/// The default is empty and excuses nothing.
 #[derive(Debug, Default)]
 pub struct Known {
-    /// Name of the file.
+    /// The name of the file.
     file: String,
-    /// Each subject once, in the order in which they were given.
+    /// Each subject once, in the order of the file.
     entries: Vec<Entry>,
-    /// Where each subject stands among the entries.
+    /// The index of each subject's entry.
     places: HashMap<KnownSubject, usize>,
 }
 
@@ -41,22 +41,22 @@ enum KnownSubject {
     Rule(Rule),
 }
 
-/// A line, and what was seen of it.
+/// A line, and what has been observed for it.
 #[derive(Debug)]
 struct Entry {
     subject: KnownSubject,
-    /// Number of the line, from 1.
+    /// The number of the line, from 1.
     line: u64,
-    /// Without them, the case may differ in any way but by having no answer.
+    /// Without terms, the case may differ in any way, except by having no answer.
     terms: Option<Terms>,
     equal: AtomicBool,
     /// It differed as expected.
     different: AtomicBool,
-    /// It differed in this way, which was not expected.
+    /// The first unexpected way in which it differed.
     other: OnceLock<String>,
 }
 
-/// How, for how long and why something may differ, and who answers for it.
+/// How, until when and why something may differ, and who is responsible.
 #[derive(Debug)]
 struct Terms {
     expected: String,
@@ -89,7 +89,7 @@ impl Entry {
             }
             [a, b, c, d] if fields.iter().all(|field| !field.is_empty()) => [a, b, c, d],
             _ => {
-                let form = "behind the case or rule stand | EXPECTED | OWNER | UNTIL | REASON";
+                let form = "after a case or rule, write | EXPECTED | OWNER | UNTIL | REASON";
                 return Err(error("terms", form.to_owned()));
             }
         };
@@ -99,7 +99,7 @@ impl Entry {
             return Err(error("expected", message));
         }
         if !is_date(until) {
-            let message = format!("{} is no date such as 2027-06-30", quoted(until));
+            let message = format!("{} is not a date such as 2027-06-30", quoted(until));
             return Err(error("until", message));
         }
         let is_expired = until < today;
@@ -115,7 +115,7 @@ impl Entry {
         }
     }
 
-    /// Notes a difference, or that there is none. True if there is one as expected.
+    /// Notes a difference, or that there is none. Returns true for an expected difference.
     fn excuses(&self, difference: Option<&dyn Display>) -> bool {
         let Some(text) = difference.map(ToString::to_string) else {
             self.equal.store(true, Ordering::Relaxed);
@@ -134,7 +134,7 @@ impl Entry {
         is_expected
     }
 
-    /// The fault of the line's terms, if the `whole` of the work was done or a part of it.
+    /// The fault in the line's terms. `whole` says whether all the work was done, or only a part.
     fn fault(&self, terms: &Terms, whole: bool) -> Option<String> {
         let Terms { expected, until, .. } = terms;
         let is = |flag: &AtomicBool| flag.load(Ordering::Relaxed);
@@ -142,13 +142,15 @@ impl Entry {
             _ if terms.is_expired => Some(format!("expired on {until}")),
             Some(other) => Some(format!("expects {}, not {}", quoted(expected), quoted(other))),
             None if is(&self.different) => None,
-            None if whole || is(&self.equal) => Some("is unused, nothing differs so".to_owned()),
+            None if whole || is(&self.equal) => {
+                Some("is unused: nothing differs this way".to_owned())
+            }
             None => None,
         }
     }
 }
 
-/// Whether a text is a date such as 2027-06-30. Dates compare as texts.
+/// Whether a text is a date such as 2027-06-30. Such dates compare as texts.
 fn is_date(text: &str) -> bool {
     let numbers: Vec<&str> = text.split('-').collect();
     let is_number = |text: &str, digits, range: std::ops::RangeInclusive<u32>| {
@@ -160,7 +162,7 @@ fn is_date(text: &str) -> bool {
         if is_number(year, 4, 1..=9999) && is_number(month, 2, 1..=12) && is_number(day, 2, 1..=31))
 }
 
-/// The line, without what is around its fields.
+/// The line in normal form, with single spaces around its separators.
 impl Display for Entry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.subject {
@@ -173,13 +175,14 @@ impl Display for Entry {
 }
 
 impl Known {
-    /// Reads a baseline: lines, or a vector file of cases. If a standard is judged by, these are
-    /// its rules and the cases without an answer; else all cases. The other lines are left out.
-    /// `today` is such as `2027-06-30`.
+    /// Reads a baseline: lines, or a vector file of cases. When outputs are judged by a standard
+    /// (`rules`), only rules and cases without an answer are kept; otherwise, only cases. `today`
+    /// is a date such as `2027-06-30`.
     ///
     /// # Errors
-    /// A line that is malformed, or has terms for a subject that stands in two lines; a file
-    /// without a line or remark.
+    /// - A line is malformed.
+    /// - A subject is on two lines, and at least one of them has terms.
+    /// - The file has neither a line nor a remark. without a line or remark.
     pub fn read(
         name: &str,
         reader: impl BufRead,
@@ -194,13 +197,13 @@ impl Known {
             let first = known.places.get(&entry.subject).map(|&place| &known.entries[place]);
             match first.filter(|first| first.terms.is_some() || entry.terms.is_some()) {
                 Some(first) => {
-                    let message = format!("stands in line {} too", first.line);
+                    let message = format!("is also on line {}", first.line);
                     Err(CaseError { field: "subject", message })
                 }
                 None => Ok(entry),
             }
         })? {
-            // Without terms, a case that is given twice counts once.
+            // Without terms, a repeated case counts once.
             let next = known.entries.len();
             if *known.places.entry(entry.subject).or_insert(next) == next {
                 known.entries.push(entry);
@@ -212,12 +215,12 @@ impl Known {
         Ok(known)
     }
 
-    /// Notes how a case differs, if it does. True if it does and may.
+    /// Notes how a case differs, if it does. Returns true if it differs and may.
     pub fn excuses(&self, case: &Case, difference: Option<&dyn Display>) -> bool {
         self.note(KnownSubject::Case(*case), difference)
     }
 
-    /// Notes how often a rule is broken. True if it is, and may be so often.
+    /// Notes how often a rule is broken. Returns true if it is broken and may be, this often.
     pub fn excuses_rule(&self, rule: Rule, broken: u64) -> bool {
         self.note(KnownSubject::Rule(rule), (broken > 0).then_some(&broken as _))
     }
@@ -226,13 +229,13 @@ impl Known {
         self.places.get(&subject).is_some_and(|&place| self.entries[place].excuses(difference))
     }
 
-    /// The lines, without remarks and what is around their fields.
+    /// The lines in normal form, without remarks.
     pub fn lines(&self) -> impl Iterator<Item = String> {
         self.entries.iter().map(ToString::to_string)
     }
 
-    /// The fate of the lines. If the `whole` of the work was done, lines are also unused that were
-    /// not asked.
+    /// The outcome of the lines. `whole` says that all the work was done: then a line with terms
+    /// also counts as unused if its subject was not compared.
     #[must_use]
     pub fn outcome(&self, whole: bool) -> KnownOutcome {
         let KnownOutcome { mut met, mut gone, mut faults } = KnownOutcome::default();
@@ -253,16 +256,16 @@ impl Known {
     }
 }
 
-/// The fate of the lines of a baseline.
+/// The outcome of a baseline's lines.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct KnownOutcome {
-    /// How many were met: something differed as they expect.
+    /// The number of lines that were met: something differed as they expect.
     pub met: u64,
-    /// The lines without terms whose cases were asked and no longer differ.
+    /// The lines without terms whose cases were compared and no longer differ.
     pub gone: Vec<String>,
-    /// The lines with terms that have expired, or expect what did not happen: each with its place
-    /// and why.
+    /// The lines with terms that have expired, or whose expectation was not met; each with its
+    /// place and the reason.
     pub faults: Vec<String>,
 }
 
@@ -301,12 +304,13 @@ mod tests {
         assert!(!known.excuses(&other, Some(&1)), "it may not differ");
         assert!(!known.excuses(&unasked, Some(&MISSING)), "that is to be said");
         assert_eq!(known.lines().count(), 4, "each case once");
-        // Neither what differed once nor what was not asked is gone, and nothing has terms.
+        // A case that differed once is not gone, nor is one that was not compared. No line has
+        // terms.
         let gone = vec![gone.to_string()];
         assert_eq!(known.outcome(true), KnownOutcome { met: 2, gone, faults: vec![] });
     }
 
-    /// A line holds through its last day.
+    /// A line is valid through its last day.
     #[test]
     fn lines_end_after_their_last_day() {
         let case: Case = "case isoline integer line ruler 3f800000 40000000".parse().expect("one");

@@ -1,4 +1,4 @@
-//! The kinds whose records are patches: single ones, and sequences with one digest.
+//! The kinds whose records are patches: single ones, and sequences with one digest each.
 
 use super::sequences;
 use super::{Found, How, Tested, device, stages};
@@ -63,8 +63,8 @@ fn compare_one(
     }
 }
 
-/// Compares an output with recorded counts and digests; a difference is narrowed down to the
-/// first element that is not the model's.
+/// Compares an output with recorded counts and digests. A difference is narrowed down to the first
+/// element that differs from the model's.
 fn sizes(
     backend: &mut dyn Backend,
     case: &Case,
@@ -90,7 +90,7 @@ fn sizes(
         }))
 }
 
-/// Compares the model's factor preparation, which no backend has, with the recorded one.
+/// Compares the model's factor preparation with the recorded one; no backend implements it.
 fn prepared(row: &PreparationRow) -> Option<Mismatch> {
     let observed = prepare(row.config.partitioning, row.reduction, row.request);
     let results = [

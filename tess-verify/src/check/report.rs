@@ -1,4 +1,4 @@
-//! The report of a check.
+//! The report of a comparison.
 
 mod group;
 
@@ -13,62 +13,61 @@ use crate::vectors::{Header, Kind, Record, VectorError};
 use group::Groups;
 use std::fmt;
 
-/// How many differences a report shows in full.
+/// The number of differences that a report shows in full.
 pub const MAX_DIFFERENCES: usize = 20;
 
 /// The verdict on a vector file.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Report {
-    /// Records that were checked: all of the file.
+    /// Records that were checked, plus asked cases that have no record.
     pub cases: u64,
-    /// Records that differ, and are not [`Known`](crate::check::Known).
+    /// Those that differ, and are not [`Known`](crate::check::Known).
     pub mismatches: u64,
-    /// Records that differ and are known.
+    /// Those that differ in a known way.
     pub known: u64,
     /// The first differences, at most [`MAX_DIFFERENCES`], in the order of the file.
     pub differences: Vec<Difference>,
     groups: Groups,
     numbers: Numbers,
-    /// The explanations of every difference so far; `None` if there is no difference.
+    /// The explanations common to all differences so far; `None` if there are no differences.
     explained: Option<Explained>,
 }
 
-/// For each of [`Way::ALL`], whether it explains an output.
+/// For each of [`Way::ALL`], whether it explains the output.
 pub(super) type Explained = [bool; Way::ALL.len()];
 
 impl Report {
-    /// The explanations of every difference, each on its own: freedoms that were not granted first
-    /// ([`Way::options`] says how to grant them), then mistakes that turn outputs round.
+    /// The explanations that each account for every difference: first the freedoms that were not
+    /// granted ([`Way::options`] has the options that grant them), then systematic mistakes.
     #[must_use]
     pub fn ways(&self) -> Vec<Way> {
         let all = Way::ALL.into_iter().zip(self.explained.into_iter().flatten());
         all.filter(|(_, explains)| *explains).map(|(way, _)| way).collect()
     }
 
-    /// The differences by stage and configuration, the one with the smallest case first.
+    /// The differences by stage and configuration; the group with the smallest case comes first.
     #[must_use]
     pub fn groups(&self) -> Vec<MismatchGroup> {
         self.groups.sorted()
     }
 
-    /// The largest distance, of 8 or more, that the numbers of all records that differ are
-    /// multiples of apart, if there are three or more: a device that keeps something between
-    /// patches may fail at every so many.
+    /// The greatest common divisor of the distances between the records that differ, if it is 8 or
+    /// more and at least three records differ. A device that keeps state between patches may fail
+    /// at such a period.
     #[must_use]
     pub const fn period(&self) -> Option<u64> {
         let Numbers { gap, .. } = self.numbers;
         if self.mismatches >= 3 && gap >= 8 { Some(gap) } else { None }
     }
 
-    /// Adds what explains a difference.
+    /// Adds the explanations of a difference.
     pub(super) fn explain(&mut self, explained: Explained) {
         let before = self.explained.unwrap_or([true; Way::ALL.len()]);
         self.explained = Some(std::array::from_fn(|i| before[i] && explained[i]));
     }
 
-    /// Whether a difference is one of those that are shown in full: of the first, or the smallest
-    /// of a group.
+    /// Whether a difference is shown in full: it is one of the first, or the smallest of its group.
     pub(super) fn shows(&self, difference: &Difference) -> bool {
         self.differences.len() < MAX_DIFFERENCES || self.groups.has_smallest(difference)
     }
@@ -83,7 +82,7 @@ impl Report {
         }
     }
 
-    /// Adds what another worker found.
+    /// Adds another worker's findings.
     pub(super) fn add(&mut self, other: Self) {
         if let Some(explained) = other.explained {
             self.explain(explained);
@@ -101,11 +100,11 @@ impl Report {
     }
 }
 
-/// The numbers of records that differ: one of them, and what the distances between them are
-/// multiples of.
+/// The numbers of the records that differ: one of them, and the greatest common divisor of their
+/// distances.
 #[derive(Clone, Copy, Debug, Default)]
 struct Numbers {
-    /// From 1; 0 if there is none.
+    /// A number from 1; 0 if no record differs.
     first: u64,
     gap: u64,
 }
@@ -134,18 +133,18 @@ impl fmt::Display for Report {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Difference {
-    /// Number of the record, from 1.
+    /// The number of the record, from 1.
     pub number: u64,
-    /// The line of the file that it starts on, if there is a file.
+    /// The line of the file on which it starts, if there is a file.
     pub line: Option<u64>,
     /// The first wrong element.
     pub mismatch: Mismatch,
-    /// The patch that shows it, if one does.
+    /// The patch that shows the difference, if there is one.
     pub case: Option<Case>,
-    /// The record alone as a vector file; `None` for a listing, which may be long.
+    /// The record by itself as a vector file; `None` for a listing, which may be long.
     pub file: Option<String>,
-    /// Whether it is right when the backend is asked for it again by itself: what came before
-    /// matters. A device that only gave a file is not asked.
+    /// Whether the backend is right when it repeats the record by itself, so that earlier work
+    /// matters. False for a device that only supplied a file, because it cannot be asked.
     pub passes_alone: bool,
 }
 
@@ -159,8 +158,8 @@ impl Difference {
         Self { number, line, mismatch, case, file: None, passes_alone: false }
     }
 
-    /// Shell commands that show the same again: the record alone through `tess check`, and the
-    /// patch through `tess patch`.
+    /// Shell commands that reproduce the difference: the record by itself through `tess check`, and
+    /// the patch through `tess patch`.
     #[must_use]
     pub fn commands(&self, backend: &str) -> Vec<String> {
         let check = self.file.as_ref().map(|file| {
@@ -173,13 +172,13 @@ impl Difference {
     }
 }
 
-/// A record alone as a vector file; `None` for a listing, which may be long.
+/// A record by itself as a vector file; `None` for a listing, which may be long.
 pub(super) fn file_of(header: &Header, record: &Record) -> Option<String> {
     let header = Header { count: Some(1), ..header.clone() };
     record.text().map(|row| format!("{}{row}\n", header.head()))
 }
 
-/// Number, line, patch and the first wrong element.
+/// The number, line and patch, and the first wrong element.
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "record {}", self.number)?;
@@ -197,7 +196,7 @@ impl fmt::Display for Difference {
 }
 
 impl CheckError {
-    /// A file that is malformed after the records of this report.
+    /// The error of a file that is malformed after the records of this report.
     pub(super) fn malformed(error: VectorError, before: Report) -> Self {
         match before.cases {
             0 => Self::Vectors(error),
@@ -206,22 +205,23 @@ impl CheckError {
     }
 }
 
-/// Why there is no verdict.
+/// The reason why there is no verdict.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckError {
-    /// The file is malformed, truncated, too long or empty, from its beginning on.
+    /// The file is malformed at its first record or before, truncated, too long or empty.
     #[error("{0}")]
     Vectors(#[from] VectorError),
-    /// So it is from some record on. The records before were checked, which is no verdict.
+    /// The file is malformed after some records. Those were checked; the report of them is not a
+    /// verdict.
     #[error("{error}")]
     Malformed {
         /// The fault and its place.
         error: VectorError,
-        /// The report of the records before.
+        /// The report of the earlier records.
         before: Box<Report>,
     },
-    /// Listings were to be tested, and the file's records are of another kind.
+    /// Listings were to be tested, but the file's records are of another kind.
     #[error("a device is tested by its listings; this file's kind is {}", .0.name())]
     NoListings(Kind),
     /// The backend could not run.

@@ -1,5 +1,5 @@
-//! The model a second time, by other ways to the same numbers: what the model itself is verified
-//! with.
+//! The second formulation of the model, which reaches the same numbers by other ways and verifies
+//! the model.
 
 use crate::backend::{Answers, Backend, BackendError};
 use crate::generate::from_fixed;
@@ -9,8 +9,9 @@ use tess_core::{
     Patch, PatchFactors, Primitive, ProcessedPatch, SplitOrder, Tessellation,
 };
 
-/// `tess-core` against itself: patches by random access, contexts through whole patches, the front
-/// door; and against factors and locations in binary64, in which no number of theirs is rounded.
+/// Tests `tess-core` against itself: patches by random access, and contexts through the public
+/// interface, by whole patches. Factors and locations are computed in binary64, in which none of
+/// their values is rounded.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SecondFormulation;
 
@@ -76,7 +77,7 @@ impl Backend for SecondFormulation {
     }
 }
 
-/// The lower end of the range (spec section 3, step 2).
+/// The lower end of the range of outer factors (spec section 3, step 2).
 const fn low(partitioning: Partitioning) -> f64 {
     match partitioning {
         Partitioning::FractionalEven => 2.0,
@@ -84,7 +85,7 @@ const fn low(partitioning: Partitioning) -> f64 {
     }
 }
 
-/// The lower end for an inside factor beside a factor of 3 (step 4).
+/// The lower end of the range of an inside factor, if another factor is 3 (step 4).
 #[expect(clippy::float_arithmetic, reason = "the second formulation is in binary64")]
 fn low_inside(partitioning: Partitioning) -> f64 {
     match partitioning {
@@ -93,7 +94,7 @@ fn low_inside(partitioning: Partitioning) -> f64 {
     }
 }
 
-/// Steps 2, 3 and 7: `x` clamped, rounded and in multiples of 2^-16; NaN becomes the low end.
+/// Steps 2, 3 and 7: `x` clamped, rounded, and as a multiple of 2^-16. NaN becomes the lower end.
 #[expect(
     clippy::float_arithmetic,
     clippy::cast_possible_truncation,
@@ -111,7 +112,8 @@ fn fixed(partitioning: Partitioning, low: f64, x: f32) -> u32 {
 }
 
 /// The location of point `p < context.points` (spec section 5): the weighted mean of its places in
-/// both subdivisions, rounded half up; one minus that of its mirror image on the second half.
+/// the two subdivisions, rounded half up. In the second half, it is one minus the location of the
+/// mirror image.
 #[expect(
     clippy::float_arithmetic,
     clippy::cast_possible_truncation,

@@ -1,5 +1,5 @@
-//! The patches behind the chained rows of `sweep.csv` and `uniform.csv`, and the values behind
-//! the exhaustive rows of `factor.csv` and `place.csv`, as `golden/README.md` describes them.
+//! The patches of the chained rows of `sweep.csv` and `uniform.csv`, and the values of the
+//! exhaustive rows of `factor.csv` and `place.csv`, as `golden/README.md` describes them.
 #![expect(
     clippy::float_arithmetic,
     clippy::cast_possible_truncation,
@@ -10,9 +10,11 @@ use tess_core::{Domain, FixedFactor, Parity, Partitioning, PatchFactors};
 
 /// The 64 patches of row `row` (1..=64) of a systematic sweep.
 ///
-/// Isoline: density `row`, detail 1..=64. Triangle: inside factor 1..=64 with outer factors that
-/// vary with both. Quad: inside factors (`row`, 1..=64) likewise. Fractional triangles and quads
-/// lie 0.25 and 0.625 below the integers.
+/// - Isoline: density `row`, detail 1..=64.
+/// - Triangle: inside factor 1..=64, and outer factors that vary with both.
+/// - Quad: inside factors (`row`, 1..=64), and outer factors likewise.
+///
+/// The factors of fractional triangles and quads are 0.25 and 0.625 below these integers.
 #[must_use]
 pub(crate) fn sweep(domain: Domain, partitioning: Partitioning, row: u8) -> Vec<PatchFactors> {
     let below = match domain {
@@ -34,8 +36,8 @@ pub(crate) fn sweep(domain: Domain, partitioning: Partitioning, row: u8) -> Vec<
     (1..=64).filter_map(patch).collect()
 }
 
-/// The patches of row `row` (0..=65) with all factors equal: i / 100 for i in 100 `row` ..
-/// 100 `row` + 99; row 65 is 65.00 alone.
+/// The patches of row `row` (0..=65), each with all factors equal: i / 100 for i from 100 `row` to
+/// 100 `row` + 99. Row 65 has only 65.00.
 #[must_use]
 pub(crate) fn uniform(domain: Domain, row: u8) -> Vec<PatchFactors> {
     let first = 100 * u32::from(row);
@@ -44,7 +46,7 @@ pub(crate) fn uniform(domain: Domain, row: u8) -> Vec<PatchFactors> {
     (first..first + count).map(patch).collect()
 }
 
-/// How many binary32 numbers a binade has.
+/// The number of binary32 numbers in a binade.
 pub(crate) const BINADE_SIZE: u32 = 1 << 23;
 
 /// Numbers `range` of the binade [2^`exponent`, 2^(`exponent` + 1)), ascending; `exponent` is in
@@ -54,8 +56,8 @@ pub(crate) fn binade(exponent: i32, range: std::ops::Range<u32>) -> impl Iterato
     range.map(move |mantissa| f32::from_bits((biased << 23) | mantissa))
 }
 
-/// The fixed-point factors with integer part `bucket`, ascending: all 65536 fractions, or the
-/// integer alone for the highest factor of a parity, 63 (odd) or 64 (even).
+/// The fixed-point factors with integer part `bucket`, ascending: all 65536 fractions. The highest
+/// factor of a parity, 63 (odd) or 64 (even), has only the fraction 0.
 pub(crate) fn bucket(parity: Parity, bucket: u32) -> impl Iterator<Item = FixedFactor> {
     let highest = 64 - parity.odd();
     let fractions = if bucket == highest { 1 } else { 1 << 16 };
@@ -66,7 +68,7 @@ pub(crate) fn bucket(parity: Parity, bucket: u32) -> impl Iterator<Item = FixedF
 mod tests {
     use super::*;
 
-    /// Patches 1 of row 3: only fractional triangles and quads lie below the integers.
+    /// The first patch of row 3: only fractional triangles and quads are below the integers.
     #[test]
     fn sweeps_are_as_described() {
         let first = |domain, partitioning| -> Vec<f32> {

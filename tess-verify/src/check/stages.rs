@@ -1,4 +1,4 @@
-//! Which stage of a backend goes wrong on a patch that it gets wrong.
+//! Finds the stage of a backend that goes wrong on a patch.
 
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::Case;
@@ -6,13 +6,15 @@ use crate::check::compare::{Mismatch, SpecStage};
 use crate::core_backend::CoreBackend;
 use tess_core::{FactorContext, ProcessedFactor};
 
-/// The same mismatch with the earliest stage that the backend gets wrong on this patch, asked one
-/// by one; the stage stays if all of them are right on their own, or the backend does not answer.
+/// The mismatch with the earliest stage that the backend gets wrong on this patch, when asked for
+/// its stages one by one. The stage stays as it is if the backend gets all of them right, or does
+/// not answer.
 pub(super) fn trace(backend: &mut dyn Backend, case: &Case, mismatch: Mismatch) -> Mismatch {
     let patch = case.patch();
     let processed: Vec<_> =
         patch.processed().factors().into_iter().flat_map(|f| f.iter()).collect();
-    // A backend that failed, rather than gives whole patches alone, fails on its next patch again.
+    // An error is ignored: a backend that has no stages returns one, and one that failed will fail
+    // again on its next patch.
     let is_wrong = |agree: Result<bool, BackendError>| agree.is_ok_and(|agree| !agree);
     let stage = if is_wrong(factors_agree(backend, case)) {
         SpecStage::Factors

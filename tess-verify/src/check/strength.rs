@@ -1,8 +1,8 @@
-//! How closely another implementation is compared with the model (spec section 13).
+//! How closely another implementation must agree with the model (spec section 13).
 //!
-//! The model is exact, and the public specification leaves some freedom to hardware. [`Strength`]
-//! says which of that freedom counts as equal. `check::device` compares each answer of a device in
-//! a strength, and [`super::Way`] tries stronger and weaker ones to explain a difference.
+//! The model is exact, but the public specification leaves hardware some freedom. [`Strength`]
+//! selects which freedoms count as equal. `check::device` compares each answer of a device at a
+//! strength, and [`super::Way`] tries stronger and weaker ones to explain a difference.
 //!
 //! ```text
 //!  case ──► Alternatives ──► cases with each legal conversion ──► model ──► expected outputs
@@ -15,9 +15,9 @@
 //!
 //! # A worked patch
 //!
-//! `QUAD` has one outer factor of 3 + 2^-17. Times 65536 that is 196608.5, halfway between
-//! `0x30000` and `0x30001`. The model takes the even one; a device within 0.6 units may take
-//! either.
+//! `QUAD` has one outer factor of 3 + 2^-17. Multiplied by 65536 that is 196608.5, halfway between
+//! `0x30000` and `0x30001`. The model takes the even number; a device that converts within 0.6
+//! units may take either.
 //!
 //! ```
 //! use tess_verify::Case;
@@ -27,7 +27,7 @@
 //! let case: Case = quad("40400020").parse()?; // 3 + 2^-17
 //! let above: Case = quad("40400040").parse()?; // 3 + 2^-16, which is 0x30001
 //!
-//! // A device that rounds up, and lists its triangles in another order.
+//! // A device that rounds up and lists its triangles in another order.
 //! let mut device = above.patch().tessellate();
 //! device.indices.rotate_left(3);
 //!
@@ -41,16 +41,17 @@
 //!
 //! # What callers rely on
 //!
-//! - The default strength accepts the model's output alone, bit for bit and in order.
-//! - What `Exact` accepts, `Sequence` accepts; what `Sequence` accepts, `Any` accepts.
-//! - Every strength accepts the model.
+//! - The default strength accepts only the model's output, bit for bit and in order.
+//! - Whatever `Exact` accepts, `Sequence` accepts; whatever `Sequence` accepts, `Any` accepts.
+//! - Every strength accepts the model's output.
 //! - A point counts even if no primitive uses it, so an output with stray points is never equal.
 //!
 //! # Why not a tolerance
 //!
-//! Comparing coordinates with a tolerance of one unit is simpler. It would accept a device that
-//! converts one value in two ways, and such a device has cracks between neighbouring patches. So
-//! each legal conversion is tessellated exactly (at most 64 per patch) and compared bit for bit.
+//! Comparing coordinates with a tolerance of one unit would be simpler. It would also accept a
+//! device that converts one value in two ways, and such a device has cracks between neighbouring
+//! patches. So each legal conversion is tessellated exactly (at most 64 per patch) and compared bit
+//! for bit.
 
 mod conversions;
 mod unordered;
@@ -69,12 +70,13 @@ pub enum ListOrder {
     /// The model's order, index for index.
     #[default]
     Exact,
-    /// The model's order of primitives and of their vertices, each vertex by its coordinates:
-    /// however points are numbered. The places of points are compared as in [`ListOrder::Any`], so
-    /// an output that this order accepts is accepted in any order too. Points alone are compared in
-    /// the model's order.
+    /// The model's order of primitives and of their vertices, with each vertex identified by its
+    /// coordinates, so the numbering of points is free. The places of points are compared as in
+    /// [`ListOrder::Any`], so that `Any` accepts every output that this order accepts. If only
+    /// points are compared, they must be in the model's order.
     Sequence,
-    /// Any order, and any leading vertex of a triangle; its orientation counts.
+    /// Any order of primitives, and any leading vertex of a triangle. The orientation of a triangle
+    /// must be right.
     Any,
 }
 
@@ -85,33 +87,33 @@ pub enum Elements {
     /// Points and the primitives made of them.
     #[default]
     Primitives,
-    /// The domain points alone; in any order, each distinct point once.
+    /// Only the domain points. In any order, each distinct point counts once.
     Points,
 }
 
-/// How factors may become fixed-point numbers.
+/// How factors may be converted to fixed-point numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Conversion {
-    /// To the nearest, ties to even.
+    /// To the nearest number, ties to even.
     #[default]
     Exact,
     /// With an error of up to 0.6 units in the last place (D3D11.3 3.2.4.1).
     Within06Ulp,
 }
 
-/// The fate of a positive denormal outer factor before the cull test.
+/// What happens to a positive denormal outer factor before the cull test.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Denormals {
-    /// It is greater than zero.
+    /// It counts as greater than zero.
     #[default]
     Keep,
     /// It may be flushed to zero, which culls the patch (D3D11.3 3.1.3).
     Flush,
 }
 
-/// All four together. The default is the strictest: identical sequences.
+/// The four parts of a comparison's strength. The default is the strictest: identical sequences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Strength {
     /// Order.
@@ -125,16 +127,16 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// Whether this strength accepts an output for a case, looking at nothing but the case.
+    /// Whether this strength accepts an output for a case, judged by this case only.
     ///
-    /// [`super::check`] demands more of a whole file: with [`Conversion::Within06Ulp`], one
-    /// conversion for each value.
+    /// [`super::check`] demands more of a whole file: with [`Conversion::Within06Ulp`], each value
+    /// must be converted in the same way throughout.
     #[must_use]
     pub fn accepts(self, case: &Case, observed: &Tessellation) -> bool {
         self.explain(case, observed).is_some()
     }
 
-    /// Whether two outputs of the same case count as equal, as far as order and elements go.
+    /// Whether two outputs of the same case count as equal; only order and elements are considered.
     #[must_use]
     pub fn equal(self, case: &Case, observed: &Tessellation, expected: &Tessellation) -> bool {
         match (self.order, self.elements) {

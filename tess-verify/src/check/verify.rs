@@ -1,7 +1,7 @@
-//! Every backend against the model: over generated levels, or over everything that is finite.
+//! Compares every backend with the model, over generated levels or over everything that is finite.
 //!
-//! The work is cut into units that are compared independently, so that threads, and shards on
-//! different machines, can take disjoint parts of it.
+//! The work is cut into units that are compared independently. Threads, and shards on different
+//! machines, can take disjoint parts of it.
 
 mod run;
 mod subject;

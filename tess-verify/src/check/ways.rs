@@ -1,5 +1,5 @@
 //! Explanations of a device that differs: freedoms that the specification leaves (spec section 13),
-//! and mistakes that every output shows in the same way.
+//! and mistakes that show in every output in the same way.
 
 use crate::case::Case;
 use crate::check::strength::{Conversion, Denormals, ListOrder, Strength};
@@ -20,44 +20,43 @@ const LARGEST: u32 = 64;
 pub enum Way {
     /// Primitives and points come in another order.
     Order,
-    /// Positive denormal outer factors are flushed to zero, which culls.
+    /// Positive denormal outer factors are flushed to zero, which culls the patch.
     Flush,
     /// Factors are converted to fixed point within 0.6 units in the last place.
     Conversion,
-    /// Both of these.
+    /// Both `Flush` and `Conversion`.
     FlushAndConversion,
-    /// Factors above the model's largest, which the device need not clamp there.
+    /// Factors above the model's largest are not clamped to it; a device need not do so.
     Clamping,
     /// Every triangle turns the other way.
     Reversed,
-    /// u and v are exchanged, and triangles turn as they should.
+    /// u and v are exchanged, and triangles turn the right way.
     Transposed,
-    /// u and v are exchanged, and each triangle has its vertices in the same order, so it turns the
-    /// other way.
+    /// u and v are exchanged, and each triangle keeps its order of vertices, so it turns the other
+    /// way.
     TransposedReversed,
-    /// u runs backwards, and triangles turn as they should.
+    /// u runs backwards, and triangles turn the right way.
     MirroredU,
-    /// u runs backwards, and each triangle has its vertices in the same order.
+    /// u runs backwards, and each triangle keeps its order of vertices.
     MirroredUReversed,
-    /// v runs backwards, and triangles turn as they should.
+    /// v runs backwards, and triangles turn the right way.
     MirroredV,
-    /// v runs backwards, and each triangle has its vertices in the same order.
+    /// v runs backwards, and each triangle keeps its order of vertices.
     MirroredVReversed,
-    /// On triangle patches, v and w are exchanged, and triangles turn as they should.
+    /// On triangle patches, v and w are exchanged, and triangles turn the right way.
     ExchangedVW,
-    /// On triangle patches, v and w are exchanged, and each triangle has its vertices in the same
-    /// order.
+    /// On triangle patches, v and w are exchanged, and each triangle keeps its order of vertices.
     ExchangedVWReversed,
-    /// An isoline patch takes its density for its detail, and the detail for its density.
+    /// The density and the detail of isoline patches are exchanged.
     IsolineFactors,
-    /// A quad patch takes each inside factor for the other one.
+    /// The two inside factors of quad patches are exchanged.
     InsideFactors,
     /// Factors are rounded to binary16, as Metal stores them.
     HalfFactors,
 }
 
 impl Way {
-    /// Every way, those that the specification allows first.
+    /// Every way; those that the specification allows come first.
     pub const ALL: [Self; 17] = [
         Self::Flush,
         Self::Conversion,
@@ -78,7 +77,7 @@ impl Way {
         Self::HalfFactors,
     ];
 
-    /// Whether the specification leaves this to a device.
+    /// Whether the specification leaves this choice to a device.
     #[must_use]
     pub const fn is_allowed(self) -> bool {
         matches!(
@@ -91,7 +90,7 @@ impl Way {
         )
     }
 
-    /// The options of `tess check` under which this counts as equal; empty if there are none.
+    /// The options of `tess check` with which this counts as equal; empty if there are none.
     #[must_use]
     pub const fn options(self) -> &'static str {
         match self {
@@ -103,7 +102,7 @@ impl Way {
         }
     }
 
-    /// The device's way, in words.
+    /// A description of the device's way.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
@@ -137,8 +136,8 @@ impl Way {
         }
     }
 
-    /// Whether this explains an output that differs in a strength. `max_level` is the largest
-    /// factor that the device takes, 64 if it is not known to be larger.
+    /// Whether this explains an output that differs at a strength. `max_level` is the largest
+    /// factor that the device supports; pass 64 if it is unknown.
     #[must_use]
     pub fn explains(
         self,
@@ -168,7 +167,7 @@ impl Way {
         }
     }
 
-    /// The move of points that makes an output right again, and the case that it is right for then.
+    /// The move of points that corrects an output, and the case that the moved output answers.
     fn turns(self, case: &Case) -> Option<(Turn, Case)> {
         let (turn, is_reversed): (Turn, bool) = match self {
             Self::Reversed => (|uv| uv, true),
@@ -190,7 +189,7 @@ impl Way {
         Some((turn, if is_reversed { reverse(case) } else { *case }))
     }
 
-    /// The case that a device takes this one for.
+    /// The case that the device tessellated in place of this one.
     fn taken_for(self, case: &Case) -> Option<Case> {
         let factors = match (self, case.factors) {
             (Self::IsolineFactors, PatchFactors::Isoline(f)) => {
@@ -208,10 +207,10 @@ impl Way {
     }
 }
 
-/// A move of points by their 16.16 bits.
+/// A move of points, on their 16.16 bits.
 type Turn = fn([u32; 2]) -> [u32; 2];
 
-/// Whether a device cuts finer than the model: it has more distinct points.
+/// Whether the output has more distinct points than the model's, as if its factors were larger.
 fn has_more_places(case: &Case, observed: &Tessellation) -> bool {
     let places = |output: &Tessellation| {
         let place = |point: &DomainPoint| (point.u.to_bits(), point.v.to_bits());
@@ -220,7 +219,7 @@ fn has_more_places(case: &Case, observed: &Tessellation) -> bool {
     places(observed) > places(&case.patch().tessellate())
 }
 
-/// The case with triangles that turn the other way.
+/// The case with the other orientation of triangles.
 const fn reverse(case: &Case) -> Case {
     let output = match case.config.output {
         OutputPrimitive::TriangleCw => OutputPrimitive::TriangleCcw,
@@ -230,7 +229,7 @@ const fn reverse(case: &Case) -> Case {
     Case { config: Config { output, ..case.config }, factors: case.factors }
 }
 
-/// An output with every point moved.
+/// The output with every point moved.
 fn turn_round(output: &Tessellation, turn: Turn) -> Tessellation {
     let point = |point: &DomainPoint| {
         let [u, v] = turn([point.u.to_bits(), point.v.to_bits()]);
@@ -247,8 +246,8 @@ mod tests {
     use super::*;
     use tess_core::{Domain, Partitioning, PatchFactors};
 
-    /// The outputs are the model's for factor 100, which it clamps to 64, with a point more or
-    /// none.
+    /// The outputs are the model's for factor 100, which it clamps to 64: as they are, or with one
+    /// more point.
     #[test]
     fn larger_factors_explain_more_points() {
         let case = |factor: f32| {

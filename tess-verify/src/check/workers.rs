@@ -1,11 +1,11 @@
-//! Work on as many threads as can be started.
+//! Runs work on as many threads as can be started.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::{Builder, scope};
 
-/// Runs `work` for each worker: the first on this thread, each other one on its own. A worker whose
-/// thread cannot be started does nothing, so that the others must be able to do all the work.
-/// `None` stands for a panic.
+/// Runs `work` for each worker: for the first on this thread, for each other one on a thread of its
+/// own. If a thread cannot be started, its worker and those after it do nothing, so the remaining
+/// workers must be able to do all the work. `None` stands for a panic.
 pub(crate) fn run<W: Send, T: Send>(
     workers: &mut [W],
     work: impl Fn(&mut W) -> T + Sync,

@@ -1,4 +1,4 @@
-//! Every bin there is, and which of them a configuration can hit.
+//! Every bin, and which of them a configuration can hit.
 
 use super::boundary;
 use super::observe::{quad_centre, sequence_values, triangle_centre};
@@ -14,12 +14,12 @@ pub(super) fn all() -> &'static [String] {
     &ALL
 }
 
-/// The paths of the bins that the patches of configurations can hit: each of them and no other, in
-/// alphabetical order.
+/// The paths of exactly those bins that patches of these configurations can hit, in alphabetical
+/// order.
 pub(super) fn of(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Vec<String> {
     let mut bins = Vec::new();
     let mut stitched = Vec::new();
-    // The values of each field of a stream's patches.
+    // The values that each field can have in the patches of a stream.
     let mut values: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     for (domain, config) in configurations {
         bins.extend(of_settings(domain, config));
@@ -49,12 +49,12 @@ pub(super) fn of(configurations: impl IntoIterator<Item = (Domain, Config)>) -> 
     bins
 }
 
-/// Factors of `fractional_even` are at least 2.
+/// Whether a patch can be minimum. Factors of `fractional_even` are at least 2.
 fn can_be_minimum(domain: Domain, config: Config) -> bool {
     domain != Domain::Isoline && config.partitioning != Partitioning::FractionalEven
 }
 
-/// Those of a patch's settings and of single factors.
+/// The bins of a patch's settings and of single factors.
 fn of_settings(domain: Domain, config: Config) -> Vec<String> {
     let mut bins = Vec::new();
     configuration(&mut bins, domain, config);
@@ -67,7 +67,8 @@ fn of_settings(domain: Domain, config: Config) -> Vec<String> {
     bins
 }
 
-/// Those of rings, transitions and centres, by far the most, which the output does not change.
+/// The bins of rings, transitions and centres, which are most of the bins. They do not depend on
+/// the output.
 fn of_stitches(domain: Domain, partitioning: Partitioning, split: SplitOrder) -> Vec<String> {
     let mut bins = Vec::new();
     if domain != Domain::Isoline {
@@ -77,8 +78,8 @@ fn of_stitches(domain: Domain, partitioning: Partitioning, split: SplitOrder) ->
     bins
 }
 
-/// The roles that factors have, each with the partitioning that it is processed by: an isoline's
-/// density is an integer.
+/// The roles of factors, each with the partitioning by which it is processed. An isoline's density
+/// is always an integer.
 fn roles(domain: Domain, partitioning: Partitioning) -> [(&'static str, Partitioning); 2] {
     match domain {
         Domain::Isoline => [("outer", Partitioning::Integer), ("outer", partitioning)],
@@ -138,7 +139,7 @@ fn factors(bins: &mut Vec<String>, role: &str, partitioning: Partitioning) {
     }
 }
 
-/// The contexts of factors that are processed by this partitioning.
+/// The bins of contexts of factors that this partitioning produces.
 fn contexts(bins: &mut Vec<String>, config: Config, partitioning: Partitioning) {
     let split = config.split.name();
     let has_fractions = !partitioning.has_integer_factors();
@@ -165,20 +166,20 @@ fn stitches(bins: &mut Vec<String>, domain: &str, partitioning: Partitioning, sp
         bins.push(format!("parities/{split}/{domain}/{}/{parities}", partitioning.name()));
         bins.push(format!("middle/{split}/{parities}"));
         for outer in points(outer) {
-            // An inside row has a picture frame, so at least three points.
+            // An inside row belongs to a picture frame, so it has at least three points.
             let inside = points(inside).filter(|inside| *inside >= 3);
             bins.extend(inside.map(|inside| format!("transition/{split}/{outer}x{inside}")));
         }
     }
 }
 
-/// The numbers of points that an edge can have: an edge of even parity has a point in its middle.
+/// The possible numbers of points on an edge. An edge of even parity has a point in its middle.
 fn points(parity: Parity) -> impl Iterator<Item = u32> {
     let first = if parity == Parity::Even { 3 } else { 2 };
     (first..=65).step_by(2)
 }
 
-/// How many rings there are, and what a patch ends with.
+/// The bins of the number of rings, and of the shape at the centre of a patch.
 fn centres(bins: &mut Vec<String>, domain: Domain, parities: &[Parity]) {
     let name = domain.name();
     let mut add = |points: u32, centre: &str| {
@@ -204,8 +205,8 @@ mod tests {
     use crate::generate::{GenLevel, Selection, boundary_factors, thresholds};
     use tess_core::{OutputPrimitive, PatchFactors};
 
-    /// Factors that hit what a domain's patches can hit: each boundary in each position, every pair
-    /// of an outer and an inside number of points, and the interiors of level 1.
+    /// Factors that hit everything that a domain's patches can hit: each boundary in each position,
+    /// every pair of an outer and an inside number of points, and the interiors of level 1.
     fn witnesses(domain: Domain) -> Vec<PatchFactors> {
         let mut all = Vec::new();
         let values = boundary_factors();
@@ -241,7 +242,7 @@ mod tests {
         all
     }
 
-    /// The values that patches of a stream have, by field.
+    /// The values that the fields of a stream's patches have.
     fn values_of(cases: impl Iterator<Item = Case>) -> BTreeMap<&'static str, BTreeSet<String>> {
         let mut values: BTreeMap<_, BTreeSet<String>> = BTreeMap::new();
         for (field, value) in cases.flat_map(|case| sequence_values_of(&case)) {
@@ -250,7 +251,8 @@ mod tests {
         values
     }
 
-    /// The words beside a bin's path are of no use if a patch hits more, or nothing hits it.
+    /// Each configuration hits exactly the bins declared for it: none is beyond reach, and none is
+    /// undeclared.
     #[test]
     fn configurations_hit_these_bins_and_no_others() {
         for domain in Domain::ALL {
@@ -277,14 +279,14 @@ mod tests {
         }
     }
 
-    /// The output decides nothing but the bins that name it.
+    /// The output changes only the bins that name it.
     #[test]
     fn outputs_differ_in_their_own_bins_alone() {
         for (domain, config) in configurations() {
             let line = Config { output: OutputPrimitive::Line, ..config };
             let name = format!("/{}", config.output.name());
             let renamed = of([(domain, line)]).into_iter().map(|bin| bin.replace("/line", &name));
-            // Which are in alphabetical order again.
+            // The set restores the alphabetical order.
             let renamed: BTreeSet<String> = renamed.collect();
             let own: BTreeSet<String> = of([(domain, config)]).into_iter().collect();
             assert_eq!(own, renamed, "{domain:?} {config:?}");

@@ -45,7 +45,8 @@ pub(super) fn bins(domain: Domain, partitioning: Partitioning) -> Vec<String> {
     bins
 }
 
-/// Sends what lies beside a threshold to `hit`; `factors` are those of a patch that is not culled.
+/// Sends the bins of thresholds that the case is next to to `hit`. `factors` are the processed
+/// factors; `None` for a culled patch.
 pub(super) fn observe(
     case: &Case,
     factors: Option<&PatchFactors<ProcessedFactor>>,
@@ -120,13 +121,13 @@ fn rounding(factor: &ProcessedFactor, hit: &mut impl FnMut(&str)) {
     }
 }
 
-/// The exponent of a clamped factor: 0 to 6.
+/// The exponent of a clamped factor, 0 to 6.
 const fn exponent(factor: &ProcessedFactor) -> u32 {
     (factor.clamped >> 23) - 127
 }
 
 fn conversion(factor: &ProcessedFactor, hit: &mut impl FnMut(&str)) {
-    // Bits of less than 2^-16; 64 has none that are set.
+    // The bits below 2^-16. For the factor 64 they are all 0.
     let half = (1 << (7 - exponent(factor))) / 2;
     match i64::from(factor.clamped & (2 * half - 1)) - i64::from(half) {
         -1 if half > 1 => hit("conversion/below"),
@@ -147,8 +148,8 @@ fn conversion(factor: &ProcessedFactor, hit: &mut impl FnMut(&str)) {
     }
 }
 
-/// The distances of a triangle's rings from its edges. Their products are even, so 0x7FFE is just
-/// below the middle.
+/// The distances of a triangle's rings from its edges. Their products are even, so 0x7FFE is the
+/// largest value below the middle.
 fn rings(inside: &FactorContext, hit: &mut impl FnMut(&str)) {
     for ring in 1..inside.points / 2 {
         let product = place(inside, ring).to_bits() * TWO_THIRDS;
@@ -163,8 +164,8 @@ fn beside_middle(sum: u32, below: u32, names: [&str; 2], hit: &mut impl FnMut(&s
     }
 }
 
-/// The comparisons that decide whether a triangle or quad has a picture frame, or is a minimum
-/// patch.
+/// The comparisons that decide whether a triangle or quad has a picture frame, and whether it is a
+/// minimum patch.
 fn largest(case: &Case, hit: &mut impl FnMut(&str)) {
     let bits = || case.factors.iter().map(f32::to_bits);
     let largest = bits().filter(|bits| *bits < FIRST_NAN).max();

@@ -1,19 +1,19 @@
-//! Bins that a device cannot hit, so that they are no holes.
+//! Bins that a device cannot hit and that therefore are not holes.
 
 use super::{Coverage, bins};
 use crate::quote::quoted;
 use std::collections::{BTreeSet, HashSet};
 use tess_core::{Config, Domain};
 
-/// Bins that are left out of what a device has to hit. The default has none.
+/// Bins that a device need not hit. The default is empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Exclusions {
     bins: BTreeSet<&'static str>,
 }
 
 impl Exclusions {
-    /// Every bin that no patch of these configurations can hit, as those of a device that has no
-    /// others.
+    /// Excludes every bin that no patch of these configurations can hit, for a device that has only
+    /// these.
     #[must_use]
     pub fn outside(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Self {
         let within = bins::of(configurations);
@@ -21,12 +21,12 @@ impl Exclusions {
         Self { bins: bins::all().iter().filter(is_outside).map(String::as_str).collect() }
     }
 
-    /// Adds the bins of a pattern: a bin's path, or its first parts, of which each may be `*` for
-    /// any. So `transition` is a group, and `configuration/*/pow2` all of its bins with that
-    /// partitioning.
+    /// Adds the bins of a pattern: a bin's path, or its first parts, where each part may be `*` for
+    /// any. So `transition` is a whole group, and `configuration/*/pow2` is all of the bins of
+    /// `configuration` with that partitioning.
     ///
     /// # Errors
-    /// No bin begins with it.
+    /// No bin fits the pattern.
     pub(super) fn add(&mut self, pattern: &str) -> Result<(), UnknownBinError> {
         let fits = |bin: &str| {
             let mut found = bin.split('/');
@@ -34,8 +34,8 @@ impl Exclusions {
                 .split('/')
                 .all(|part| found.next().is_some_and(|own| part == "*" || own == part))
         };
-        // The bins are sorted: those that begin as the pattern does before its first `*` stand
-        // together.
+        // The bins are sorted, so those that begin like the pattern, up to its first `*`, are
+        // adjacent.
         let literal = pattern.split('*').next().unwrap_or_default();
         let from = bins::all().partition_point(|bin| bin.as_str() < literal);
         let near = bins::all()[from..].iter().take_while(|bin| bin.starts_with(literal));
@@ -47,11 +47,11 @@ impl Exclusions {
         Ok(())
     }
 
-    /// Reads patterns, one a line: a bin's path, or its first parts, of which each may be `*` for
-    /// any. Empty lines and what follows a `#` are left out.
+    /// Reads patterns, one per line: a bin's path, or its first parts, where each part may be `*`
+    /// for any. Empty lines are ignored, as is anything after a `#`.
     ///
     /// # Errors
-    /// A pattern of no bin, with its line.
+    /// A pattern that fits no bin; the error has its line.
     pub fn read(text: &str) -> Result<Self, UnknownBinError> {
         let mut exclusions = Self::default();
         let mut read = HashSet::new();
@@ -65,13 +65,13 @@ impl Exclusions {
         Ok(exclusions)
     }
 
-    /// Adds what others exclude.
+    /// Adds the exclusions of `other`.
     pub fn merge(&mut self, other: &Self) {
         self.bins.extend(&other.bins);
     }
 
-    /// The exclusions without the bins that were hit: for vectors beside those of other
-    /// configurations.
+    /// The exclusions without the bins that were hit, for vectors that are merged with those of
+    /// other configurations.
     #[must_use]
     pub fn not_hit(&self, coverage: &Coverage) -> Self {
         let is_hit = |bin: &str| coverage.hits(bin).is_some_and(|hits| hits > 0);
@@ -89,7 +89,7 @@ impl Exclusions {
     }
 }
 
-/// A pattern of no bin.
+/// A pattern that fits no bin.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{}no bin begins with {}; a bin is a path such as middle/ruler/oddxeven, and * is any part of one",
@@ -98,7 +98,7 @@ impl Exclusions {
 )]
 #[non_exhaustive]
 pub struct UnknownBinError {
-    /// Line of the text, from 1, if it was read from one.
+    /// The line of the text, from 1, if the pattern was read from one.
     pub line: Option<usize>,
     /// The pattern.
     pub pattern: String,
@@ -110,7 +110,8 @@ mod tests {
     use crate::generate::{GenLevel, Selection, configurations};
     use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 
-    /// Quads, integer, clockwise, ruler: 1789 of the bins are holes of such a device.
+    /// The device has quads, integer, clockwise, ruler; without exclusions, 1789 of its bins would
+    /// be holes.
     #[test]
     fn a_device_with_one_configuration_has_no_holes() {
         let partitioning = Partitioning::Integer;

@@ -1,4 +1,4 @@
-//! Which bins a case hits, read off the model's intermediate values.
+//! The bins that a case hits, read off the model's intermediate values.
 
 use super::boundary;
 use crate::case::Case;
@@ -8,7 +8,7 @@ use tess_core::{
     ProcessedPatch, SplitOrder, place,
 };
 
-/// Sends the bins of a case to `hit`; a bin may come more than once.
+/// Sends the bins of a case to `hit`; a bin may be sent more than once.
 pub(super) fn observe(case: &Case, mut hit: impl FnMut(String)) {
     let config = case.config;
     let (domain, partitioning) = (case.domain().name(), config.partitioning.name());
@@ -29,13 +29,13 @@ pub(super) fn observe(case: &Case, mut hit: impl FnMut(String)) {
     }
 }
 
-/// What a patch may leave behind for the next, a name and a value each: its kind, which is its
-/// domain and the way that it takes, and the fields of its configuration.
+/// The state that a patch may leave behind for the next one, as names and values: its kind, which
+/// is its domain and the path that it takes, and the fields of its configuration.
 pub(super) fn sequence_values_of(case: &Case) -> [(&'static str, String); 4] {
     sequence_values(case.domain(), case.config, way_of(&case.patch()))
 }
 
-/// Those of a patch of this domain and configuration that takes this way.
+/// The same for any patch of this domain and configuration that takes this path.
 pub(super) fn sequence_values(
     domain: Domain,
     config: Config,
@@ -62,7 +62,7 @@ fn culled(case: &Case, hit: &mut impl FnMut(String)) {
     }
 }
 
-/// The bins of spec sections 3 to 5, which each factor hits.
+/// The bins of spec sections 3 to 5, by factor.
 fn processing(case: &Case, factors: &PatchFactors<ProcessedFactor>, hit: &mut impl FnMut(String)) {
     let domain = case.domain();
     for (i, (raw, factor)) in case.factors.iter().zip(factors.iter()).enumerate() {
@@ -136,7 +136,7 @@ fn picture_frame(
     }
 }
 
-/// The bins of spec sections 4 and 5, which one factor hits.
+/// The bins of spec sections 4 and 5 for one factor.
 pub(super) fn context(split: SplitOrder, context: &FactorContext, hit: &mut impl FnMut(String)) {
     let (split, parity) = (split.name(), context.parity.name());
     let kind = if context.fraction == 0 { "whole" } else { "split" };
@@ -150,13 +150,13 @@ pub(super) fn context(split: SplitOrder, context: &FactorContext, hit: &mut impl
     }
 }
 
-/// The bins of spec section 7, which point counts and parities hit.
+/// The bins of spec section 7, which depend on point counts and parities.
 fn connectivity(
     case: &Case,
     factors: &PatchFactors<ProcessedFactor>,
     hit: &mut impl FnMut(String),
 ) {
-    // For each outer edge, the inside factor of the axis that it runs along.
+    // For each outer edge, the inside factor of the axis along which it runs.
     let (outer, along): (Vec<_>, Vec<_>) = match factors {
         PatchFactors::Isoline(_) => return,
         PatchFactors::Triangle(f) => (f.outer().to_vec(), vec![f.inside; 3]),
@@ -187,7 +187,7 @@ fn connectivity(
     hit(format!("centre/{domain}/{centre}"));
 }
 
-/// The centre of a triangle patch.
+/// The centre of a triangle patch, by the parity of its inside factor.
 pub(super) const fn triangle_centre(inside: Parity) -> &'static str {
     match inside {
         Parity::Even => "point",
@@ -212,8 +212,8 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    /// The bins that a case hits, but for those that `tests/thresholds.rs` is about, in
-    /// alphabetical order, each with how often.
+    /// The bins that a case hits, in alphabetical order and each with its number of hits. Those
+    /// that `tests/thresholds.rs` covers are left out.
     fn bins(line: &str) -> Vec<String> {
         let case: Case = line.parse().expect("a case");
         let mut hits: BTreeMap<String, u32> = BTreeMap::new();
@@ -222,12 +222,12 @@ mod tests {
         hits.into_iter().map(|(bin, hits)| format!("{bin} {hits}")).collect()
     }
 
-    /// Those of one group.
+    /// The bins of one group.
     fn group(line: &str, group: &str) -> Vec<String> {
         bins(line).iter().filter_map(|bin| Some(bin.strip_prefix(group)?.to_owned())).collect()
     }
 
-    /// Every bin of a case, and no other.
+    /// The case hits exactly these bins.
     fn expect(line: &str, expected: &str) {
         let expected: Vec<&str> = expected.lines().map(str::trim).collect();
         assert_eq!(bins(line), expected, "{line}");
@@ -299,7 +299,7 @@ mod tests {
         );
     }
 
-    /// Inside factors whose shorter axis is odd or even, along either axis.
+    /// Inside factors whose shorter axis is odd or even; the longer axis is u or v.
     #[test]
     fn centres_of_quads() {
         for (inside, expected) in [
@@ -328,7 +328,7 @@ mod tests {
         }
     }
 
-    /// 3 + 2^-17 and 3 + 3 * 2^-17 lie in the middle between two numbers; the inside of a picture
+    /// 3 + 2^-17 and 3 + 3 * 2^-17 are in the middle between two numbers. The inside of a picture
     /// frame is raised.
     #[test]
     fn fractional_triangles() {
@@ -368,7 +368,7 @@ mod tests {
         );
     }
 
-    /// The density is processed as integer whatever the partitioning.
+    /// The density is processed as an integer, whatever the partitioning.
     #[test]
     fn isolines() {
         expect(

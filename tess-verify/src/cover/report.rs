@@ -3,7 +3,7 @@
 use super::{BinGroup, Coverage, Exclusions};
 use std::fmt::Write;
 
-/// The stages on a patch's way with their sections of the specification, and the groups of each.
+/// The stages of a patch in order, with their sections of the specification and their groups.
 pub(super) const STAGES: [(&str, &str, &[&str]); 7] = [
     ("configuration", "1", &["configuration"]),
     (
@@ -18,13 +18,13 @@ pub(super) const STAGES: [(&str, &str, &[&str]); 7] = [
     ("streams", "3", &["sequence"]),
 ];
 
-/// The stage that a group's bins tell of.
+/// The stage that a group's bins cover.
 pub(super) fn stage(group: &str) -> &'static str {
     let found = STAGES.iter().find(|(_, _, groups)| groups.contains(&group));
     found.map_or("", |(stage, _, _)| stage)
 }
 
-/// The groups of each stage, in the order of a patch's way, with their sum.
+/// The groups of each stage in order, with their sum and the section of the specification.
 pub(super) fn by_stage(
     coverage: &Coverage,
     exclusions: &Exclusions,
@@ -39,7 +39,7 @@ pub(super) fn by_stage(
     STAGES.iter().map(of_stage).collect()
 }
 
-/// All groups as one, `all`.
+/// The sum of groups, as a group named `all`.
 pub(super) fn sum(groups: &[BinGroup]) -> BinGroup {
     let mut sum = BinGroup { name: "all".to_owned(), stage: "", hit: 0, bins: 0, excluded: 0 };
     for group in groups {
@@ -50,8 +50,8 @@ pub(super) fn sum(groups: &[BinGroup]) -> BinGroup {
     sum
 }
 
-/// How much of what is not excluded was hit, in percent with one digit behind the point; `-` if
-/// nothing is left. It is rounded down, so 100.0 is all of it.
+/// The percentage of the bins that are not excluded and were hit, with one decimal; `-` if all are
+/// excluded. It is rounded down, so 100.0 means all of them.
 pub(super) fn percent(group: &BinGroup) -> String {
     match (1000 * group.hit).checked_div(group.bins - group.excluded) {
         Some(tenths) => format!("{}.{}", tenths / 10, tenths % 10),
@@ -60,8 +60,8 @@ pub(super) fn percent(group: &BinGroup) -> String {
 }
 
 impl Coverage {
-    /// The report as text: a line for each group by stage, with sums, then every bin that was
-    /// missed and is not excluded.
+    /// The report as text: a line per group, by stage, with sums; then every bin that was missed
+    /// and is not excluded.
     #[must_use]
     pub fn report(&self, exclusions: &Exclusions) -> String {
         let mut text = format!(
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
     use crate::case::Case;
 
-    /// A quad of three by five, whose every other configuration is excluded.
+    /// The coverage of a quad of three by five, with all other configurations excluded.
     fn example() -> (Coverage, Exclusions) {
         let line =
             "case quad integer line ruler 40400000 40400000 40400000 40400000 40a00000 40400000";
@@ -142,7 +142,7 @@ mod tests {
         assert_eq!([of(2999, 3000, 0), of(1, 3, 1), of(4, 4, 0)], ["99.9", "50.0", "100.0"]);
     }
 
-    /// One row a group, one more for each stage with several groups, and one for all.
+    /// One row per group, one more for each stage with several groups, and one for all.
     #[test]
     fn stages_with_several_groups_have_a_sum() {
         let text = Coverage::default().report(&Exclusions::default());

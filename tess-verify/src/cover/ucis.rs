@@ -1,9 +1,8 @@
 //! Coverage as a file: UCIS XML (Accellera's Unified Coverage Interoperability Standard 1.0).
 //!
-//! A group is a coverpoint, a bin a bin of it. Everything but the hits is the same in every file,
-//! so that equal coverage gives equal bytes; the required date is a constant. The reader takes what
-//! the writer writes and nothing else: it compares line by line, and a file with other bins is an
-//! error.
+//! A group is a coverpoint, and a bin is a bin of it. Apart from the hits, all files are the same,
+//! so equal coverage gives equal bytes; the required date is a constant. The reader accepts only
+//! what the writer writes: it compares line by line, and a file with other bins is an error.
 
 use super::Coverage;
 use crate::quote::quoted;
@@ -28,8 +27,7 @@ const TAIL: &str = "</cgInstance>\n</covergroupCoverage>\n</instanceCoverages>\n
 const HITS: &str = "<contents coverageCount=\"";
 
 impl Coverage {
-    /// The coverage as UCIS XML, which the tools of verification read. Equal coverage gives equal
-    /// bytes.
+    /// The coverage as UCIS XML, a format of verification tools. Equal coverage gives equal bytes.
     #[must_use]
     pub fn to_ucis(&self) -> String {
         let mut text = format!("{HEAD}\n");
@@ -52,11 +50,12 @@ impl Coverage {
         text + "</coverpoint>\n" + TAIL + "\n"
     }
 
-    /// Reads what [`Coverage::to_ucis`] gave. A file that is longer is not read to its end.
+    /// Reads the output of [`Coverage::to_ucis`]. It stops at a bound; a file that goes on beyond
+    /// it is an error.
     ///
     /// # Errors
-    /// The reader's; [`io::ErrorKind::InvalidData`] for any other text, and for files of a version
-    /// with other bins, with the line.
+    /// Those of the reader; [`io::ErrorKind::InvalidData`], with the line, for any other text and
+    /// for files of a version with other bins.
     pub fn read_ucis(reader: impl Read) -> io::Result<Self> {
         let mut bytes = Vec::new();
         reader.take(MOST_BYTES).read_to_end(&mut bytes)?;
@@ -65,12 +64,12 @@ impl Coverage {
     }
 }
 
-/// More bytes than any file has: a longer one is wrong in them.
+/// A bound above the size of any correct file: a longer one has its fault before this.
 const MOST_BYTES: u64 = 1 << 21;
 
-/// Reads such a file: as a file without hits, but for the numbers.
+/// Reads a file by comparing it with a file without hits, except for the numbers.
 fn read(text: &str) -> Result<Coverage, String> {
-    const NONE: &str = "no coverage file of tess with the bins of this version";
+    const NONE: &str = "not a coverage file of tess with the bins of this version";
     let mut coverage = Coverage::default();
     let (empty, none) = (coverage.to_ucis(), coverage.clone());
     let (mut bins, mut found) = (none.bins(), text.lines());
@@ -79,7 +78,7 @@ fn read(text: &str) -> Result<Coverage, String> {
         line += 1;
         let error = |expected: String| format!("line {line}: {NONE}: {expected}");
         let Some(text) = found.next() else {
-            return Err(error("the file goes on: it is truncated".into()));
+            return Err(error("the file ends early; it is truncated".into()));
         };
         let Some((before, after)) = expected.split_once(HITS) else {
             if expected != text {
@@ -118,7 +117,7 @@ mod tests {
         coverage
     }
 
-    /// A file with the largest hits fits the bound, and what is endless ends there.
+    /// A file with the largest hits is within the bound, and an endless one is read only up to it.
     #[test]
     fn files_are_bounded() {
         let mut full = Coverage::default();
@@ -169,7 +168,7 @@ mod tests {
         }
     }
 
-    /// The bins of a coverpoint are numbered from 0, and each group is one coverpoint.
+    /// Each group is one coverpoint, whose bins are numbered from 0.
     #[test]
     fn bins_are_numbered_within_their_coverpoint() {
         let text = Coverage::default().to_ucis();

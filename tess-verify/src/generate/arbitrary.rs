@@ -1,4 +1,4 @@
-//! Cases from a fuzzer's bytes.
+//! Cases made from a fuzzer's bytes.
 
 use super::random::Draw;
 use crate::case::Case;
@@ -9,9 +9,9 @@ use arbitrary::{Arbitrary, Result, Unstructured};
 use std::sync::LazyLock;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 
-/// Any configuration, with the factors of [`crate::generate::random_patch`]; a quarter of them are
-/// boundaries of level 1. Most patches are small. No bytes are refused: where none are left, zeros
-/// come.
+/// Any configuration, with the factors of [`crate::generate::random_patch`]; a quarter of the
+/// factors are boundaries of level 1. Most patches are small. No bytes are refused: when none are
+/// left, zeros take their place.
 impl<'a> Arbitrary<'a> for Case {
     fn arbitrary(bytes: &mut Unstructured<'a>) -> Result<Self> {
         let draw = &mut Bytes(bytes);
@@ -29,12 +29,13 @@ impl<'a> Arbitrary<'a> for Case {
     }
 
     fn size_hint(_: usize) -> (usize, Option<usize>) {
-        // Four bytes choose the configuration, two the shape, up to ten each of six factors.
+        // Four bytes choose the configuration, two the shape, and up to ten each of six factors.
         (0, Some(4 + 2 + 6 * 10))
     }
 }
 
-/// Every finite boundary of level 1, ascending: the special ones are a kind of [`factor_up_to`].
+/// Every finite boundary of level 1, ascending, without the special ones, which [`factor_up_to`]
+/// draws itself.
 static BOUNDARIES: LazyLock<Vec<f32>> = LazyLock::new(|| {
     let mut factors = [ordinary_factors(), exceptional_factors()].concat();
     factors.sort_by(f32::total_cmp);
@@ -117,7 +118,7 @@ mod tests {
         assert!(most.is_some_and(|most| taken <= most), "{taken} bytes were taken");
     }
 
-    /// Raw bits are among the factors: each sign with each exponent.
+    /// Raw bits are among the factors: every sign with every exponent.
     #[test]
     fn any_bits_come() {
         let factors = cases(200_000).flat_map(|case| case.factors.iter().collect::<Vec<_>>());

@@ -1,16 +1,16 @@
-//! The factors at which something changes.
+//! The factors at which the result changes.
 
 use super::from_fixed;
 
-/// Every factor at which something changes: boundaries of levels 1 and 2, exceptional and special
-/// ones.
+/// Every factor at which the result changes: the boundaries of levels 1 and 2, exceptional factors
+/// and special ones.
 #[must_use]
 pub fn boundary_factors() -> Vec<f32> {
     [ordinary_factors(), exceptional_factors(), special_factors()].concat()
 }
 
-/// Every integer and half from 1 to 64, each with its neighbours at 2^-16 and at one unit in the
-/// last place, and the ties of the fixed-point conversion beside every integer.
+/// Every integer and half-integer from 1 to 64, each with its neighbours at 2^-16 and at one unit
+/// in the last place, and the ties of the fixed-point conversion next to every integer.
 pub(super) fn ordinary_factors() -> Vec<f32> {
     let mut factors = Vec::new();
     for half in 2..=128 {
@@ -25,20 +25,22 @@ pub(super) fn ordinary_factors() -> Vec<f32> {
         ]);
     }
     for integer in 1..=63 {
-        // Half a unit beyond an even and an odd multiple of 2^-16: ties that round down and up.
+        // Half a unit above an even and above an odd multiple of 2^-16: ties that round down and
+        // up.
         factors.extend([tie_above(integer << 16), tie_above((integer << 16) + 1)]);
     }
     factors
 }
 
-/// The number halfway between two neighbouring 15.16 values of at least 1, exact in binary32.
+/// The number halfway between a 15.16 number and the next, both at least 1; it is exact in
+/// binary32.
 fn tie_above(fixed: u32) -> f32 {
     let low = from_fixed(fixed).to_bits();
     let high = from_fixed(fixed + 1).to_bits();
     f32::from_bits(low + (high - low) / 2)
 }
 
-/// Numbers that are no factors, and those at the edges of the format.
+/// Values that are not usable factors, and values at the limits of the format.
 pub(super) fn special_factors() -> Vec<f32> {
     [
         0x0000_0000, // 0
@@ -65,7 +67,7 @@ pub(super) fn special_factors() -> Vec<f32> {
 }
 
 /// Factors just above an integer, where rounded reciprocals make neighbouring locations coincide
-/// or, further up, change places (spec section 12).
+/// or, for larger factors, change places (spec section 12).
 pub(super) fn exceptional_factors() -> Vec<f32> {
     let mut factors = Vec::new();
     for integer in 2..=62 {

@@ -1,11 +1,11 @@
-//! The values that a selection leaves open, and configurations made of them.
+//! The values that a selection leaves open, and the configurations made of them.
 
 use super::configurations_among;
 use crate::case::Case;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
-/// The selected values of each part of a configuration: one or all, in the order of the
-/// specification; never none.
+/// The selected values of each part of a configuration: one value or all, in the order of the
+/// specification. No list is empty.
 #[derive(Clone, Debug)]
 pub(super) struct Choices {
     pub(super) domains: Vec<Domain>,
@@ -15,7 +15,7 @@ pub(super) struct Choices {
 }
 
 impl Choices {
-    /// Everything.
+    /// All values.
     pub(super) fn all() -> Self {
         Self {
             domains: Domain::ALL.to_vec(),
@@ -36,8 +36,8 @@ impl Choices {
         configurations_among(&self.domains, &self.partitionings, &self.outputs, &self.splits)
     }
 
-    /// A configuration that changes with `turn`: triangles three times in five, split orders by
-    /// fours.
+    /// A configuration that varies with `turn`: three of five have triangles, and the split order
+    /// changes every four turns.
     pub(super) fn config(&self, partitioning: Partitioning, turn: usize) -> Config {
         let output = match turn % 5 {
             0 | 3 => OutputPrimitive::TriangleCw,
@@ -49,15 +49,15 @@ impl Choices {
         Config { partitioning, output, split: self.splits[(turn / 4) % self.splits.len()] }
     }
 
-    /// A configuration with an output that shows a patch's inside: clockwise triangles, where they
-    /// are selected.
+    /// A configuration whose output shows a patch's inside: clockwise triangles, if they are
+    /// selected.
     pub(super) fn surface_config(&self, partitioning: Partitioning, split: SplitOrder) -> Config {
         let triangles = OutputPrimitive::TriangleCw;
         let output = if self.outputs.contains(&triangles) { triangles } else { self.outputs[0] };
         Config { partitioning, output, split }
     }
 
-    /// A patch in such a configuration.
+    /// A patch in the configuration of [`Self::surface_config`].
     pub(super) fn surface(
         &self,
         partitioning: Partitioning,
@@ -67,13 +67,15 @@ impl Choices {
         Case { config: self.surface_config(partitioning, split), factors }
     }
 
-    /// The first of these that is selected, or else the first that is.
+    /// The first of the `preferred` partitionings that is selected; if none is, the first selected
+    /// one.
     pub(super) fn partitioning(&self, preferred: &[Partitioning]) -> Partitioning {
         let found = preferred.iter().find(|one| self.partitionings.contains(one));
         found.copied().unwrap_or(self.partitionings[0])
     }
 
-    /// The partitionings without `pow2` beside `integer`: a tessellator treats both alike.
+    /// The partitionings, without `pow2` if `integer` is selected too: a tessellator treats both
+    /// the same.
     pub(super) fn distinct_partitionings(&self) -> impl Iterator<Item = Partitioning> {
         let has_integer = self.partitionings.contains(&Partitioning::Integer);
         let is_distinct = move |one: &Partitioning| !(has_integer && *one == Partitioning::Pow2);

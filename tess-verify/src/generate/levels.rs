@@ -1,23 +1,22 @@
 //! The systematic parts of levels 1 and 2.
 //!
-//! Every part asks only what is selected, and asks all of it: where one split order or one
-//! partitioning is selected, its cases are not the few that another selection would give it, but a
-//! whole level of its own.
+//! Every part covers exactly what is selected. If one split order or one partitioning is selected,
+//! the result is a whole level of its own, not the few cases that a larger selection has for it.
 
 use super::choices::Choices;
 use super::{boundary_factors, exceptional_factors, from_fixed, ordinary_factors, special_factors};
 use crate::case::Case;
 use tess_core::{Config, Domain, Partitioning, PatchFactors, QuadFactors};
 
-/// Factors for the positions that a case is not about, small enough to keep it short.
+/// Factors for the positions that a case does not test, small enough to keep its output short.
 const PLAIN: [f32; 8] = [3.0, 1.0, 4.5, 2.0, 7.25, 5.0, 1.5, 6.0];
 
-/// Factors whose split points differ between the split orders, and whose counts between all
-/// partitionings but integer and pow2, which are the same to a tessellator.
+/// Factors whose split points differ between the split orders, and whose counts differ between all
+/// partitionings. Integer and pow2 are the exception: a tessellator treats them the same.
 const TELLING: [f32; 6] = [6.75, 10.25, 8.5, 12.75, 9.25, 7.5];
 
 /// Every boundary once: special and boundary factors in rotating positions, special factors in
-/// every position, every transition in each split order, small and large interiors, patches beside
+/// every position, every transition in each split order, small and large interiors, patches next to
 /// minimum ones, both sides of every comparison, and every value of a configuration after every
 /// other.
 pub(super) fn one(choices: &Choices) -> Vec<Case> {
@@ -36,14 +35,14 @@ pub(super) fn one(choices: &Choices) -> Vec<Case> {
     cases
 }
 
-/// Every boundary in every position and both split orders, every interior there is.
+/// Every boundary in every position and both split orders, and every interior.
 pub(super) fn two(choices: &Choices) -> Vec<Case> {
     let mut cases = one(choices);
     for (domain, partitioning) in choices.combinations() {
         let values = boundary_factors();
         for position in 0..domain.factors() {
             for (i, &value) in values.iter().enumerate() {
-                // Turns that are four apart have the other split order.
+                // Turns that are four apart have different split orders.
                 for turn in [i, i + 4].into_iter().take(choices.splits.len()) {
                     cases.push(one_value(choices, domain, partitioning, turn, position, value));
                 }
@@ -54,7 +53,7 @@ pub(super) fn two(choices: &Choices) -> Vec<Case> {
     cases
 }
 
-/// One factor is `value`, the others are plain.
+/// A case in which one factor is `value` and the others are plain.
 fn one_value(
     choices: &Choices,
     domain: Domain,
@@ -68,7 +67,7 @@ fn one_value(
     Case { config: choices.config(partitioning, turn), factors }
 }
 
-/// Each boundary as an outer factor and as an inside one, in rotating positions; of isolines as the
+/// Each boundary as an outer and as an inside factor, in rotating positions. For isolines: as the
 /// density and as the detail.
 fn boundaries(
     cases: &mut Vec<Case>,
@@ -99,7 +98,7 @@ fn specials_everywhere(
     }
 }
 
-/// All factors equal: minimum patches and what lies next to them, and values in between.
+/// All factors equal: minimum patches, those next to them, and values in between.
 fn all_equal(cases: &mut Vec<Case>, choices: &Choices, domain: Domain, partitioning: Partitioning) {
     let near_one = [0x3F80_0000u32, 0x3F80_0001, 0x3F80_0040, 0x3F80_0041, 0x3F80_0080];
     let near_one = near_one.map(f32::from_bits).into_iter();
@@ -112,7 +111,7 @@ fn all_equal(cases: &mut Vec<Case>, choices: &Choices, domain: Domain, partition
     }
 }
 
-/// All factors 1 but one: a patch that is no minimum patch because of that factor alone.
+/// All factors 1 except one, which alone keeps the patch from being a minimum one.
 fn beside_minimum(
     cases: &mut Vec<Case>,
     choices: &Choices,
@@ -126,8 +125,8 @@ fn beside_minimum(
     }
 }
 
-/// Every pair of an outer and an inside number of points that a partitioning has, in each split
-/// order. Beside quads, triangles have each pair in one of the orders.
+/// Every pair of an outer and an inside number of points of a partitioning, in each split order. If
+/// quads are selected too, triangles have each pair in only one of the orders.
 fn transitions(cases: &mut Vec<Case>, choices: &Choices) {
     let partitioning = choices.partitioning(&[Partitioning::Integer]);
     let counts = segments(partitioning);
@@ -154,8 +153,8 @@ fn transitions(cases: &mut Vec<Case>, choices: &Choices) {
     }
 }
 
-/// Factors of which each gives another number of points, ascending: all of them there are.
-/// Fractional ones lie between two whole numbers.
+/// All factors that give different numbers of points, ascending. Fractional ones are between two
+/// whole numbers.
 fn segments(partitioning: Partitioning) -> Vec<f32> {
     let whole = |n: u32| from_fixed(n << 16);
     let below = |n: u32| from_fixed((n << 16) - 0x6000);
@@ -166,8 +165,8 @@ fn segments(partitioning: Partitioning) -> Vec<f32> {
     }
 }
 
-/// Quads with these four outer factors against an inside factor, each along both axes. A quad is
-/// narrow along its other axis, which keeps it short.
+/// Quads in which these four outer factors meet an inside factor, each along both axes. A quad is
+/// narrow along its other axis, which keeps its output short.
 fn quads_with(outer: &[f32], inside: f32, turn: usize) -> [QuadFactors; 4] {
     let [a, b, c, d] = [0, 1, 2, 3].map(|k| outer[k]);
     let (wide, narrow) = (inside, [1.0, 2.0, 3.0, 4.0][turn % 4]);
@@ -180,8 +179,8 @@ fn quads_with(outer: &[f32], inside: f32, turn: usize) -> [QuadFactors; 4] {
     ]
 }
 
-/// Pairs of inside factors on quads, with the fractional partitionings a little below, and each
-/// inside factor on triangles; split orders in turn.
+/// Pairs of inside factors on quads, and each inside factor on triangles. In fractional
+/// partitionings the factors are slightly lower. The split orders take turns.
 fn interiors(cases: &mut Vec<Case>, choices: &Choices, wanted: impl Fn(u8, u8) -> bool) {
     for partitioning in choices.distinct_partitionings() {
         let shift = if partitioning.has_integer_factors() { 0 } else { 0x6000 };
@@ -209,7 +208,7 @@ fn interiors(cases: &mut Vec<Case>, choices: &Choices, wanted: impl Fn(u8, u8) -
     }
 }
 
-/// Each configuration of each domain: an ordinary patch, a minimum one and a culled one.
+/// Each configuration of each domain, with an ordinary patch, a minimum one and a culled one.
 fn every_configuration(cases: &mut Vec<Case>, choices: &Choices) {
     for (domain, config) in choices.configurations() {
         let ordinary = PatchFactors::from_fn(domain, |p| PLAIN[p]);
@@ -218,8 +217,9 @@ fn every_configuration(cases: &mut Vec<Case>, choices: &Choices) {
     }
 }
 
-/// Pairs of patches of which the first may leave its state to the second: every kind after every
-/// kind, and each value of a configuration after each other one, while all else stays.
+/// Pairs of patches in which the first may leave its state to the second: every kind after every
+/// kind, and each value of a configuration after each other one while everything else stays the
+/// same.
 fn sequences(cases: &mut Vec<Case>, choices: &Choices) {
     kinds(cases, choices);
     for &domain in &choices.domains {
@@ -239,10 +239,10 @@ fn sequences(cases: &mut Vec<Case>, choices: &Choices) {
     }
 }
 
-/// Every kind of patch after every kind: of each domain one that is culled, one that is minimum and
-/// one that is neither.
+/// Every kind of patch after every kind. Each domain has a culled one, a minimum one and one that
+/// is neither.
 fn kinds(cases: &mut Vec<Case>, choices: &Choices) {
-    // The one that has picture frames.
+    // The partitioning that has picture frames.
     let partitioning = choices.partitioning(&[Partitioning::FractionalOdd]);
     let mut kinds = Vec::new();
     for &domain in &choices.domains {
@@ -256,7 +256,7 @@ fn kinds(cases: &mut Vec<Case>, choices: &Choices) {
     }
 }
 
-/// Every ordered pair, also of a value with itself.
+/// Every ordered pair, including each value with itself.
 fn pairs<T: Copy>(values: &[T]) -> impl Iterator<Item = [T; 2]> {
     values.iter().flat_map(|&first| values.iter().map(move |&then| [first, then]))
 }

@@ -4,32 +4,33 @@ use super::random::{Draw, SplitMix64};
 use super::{exceptional_factors, from_fixed, pick, special_factors};
 use tess_core::{Domain, PatchFactors};
 
-/// The largest factor there is.
+/// The largest factor.
 const MAXIMUM: u16 = 64;
-/// Where most factors of [`random_patch`] end.
+/// The upper end of the range of most factors of [`random_patch`].
 const SMALL: u16 = 6;
-/// Factors that clamp to 1 in every partitioning that has it: 1, just below it, a half, the
-/// smallest normal number and the smallest of all.
+/// Factors that clamp to 1 in every partitioning that includes 1: 1, the number just below it, a
+/// half, the smallest normal number and the smallest denormal.
 const UP_TO_ONE: [f32; 5] =
     [1.0, f32::from_bits(0x3F7F_FFFF), 0.5, f32::MIN_POSITIVE, f32::from_bits(1)];
 
-/// A factor drawn from what finds faults: anywhere in range, small, at and near integers and
-/// halves, special, and any bits at all.
+/// A factor drawn from kinds that find faults: anywhere in range, small, at and near integers and
+/// halves, special, and arbitrary bits.
 pub(super) fn random_factor(random: &mut SplitMix64) -> f32 {
     factor_up_to(MAXIMUM, random)
 }
 
-/// A random patch whose output is small in the mean, for comparing many of them.
+/// A random patch whose output is small on average, for comparing many patches.
 ///
-/// Factors of every kind in every position. Those in range are at most 6, except for one
-/// position of every eighth patch and all of every 64th, which take them from the whole range.
-/// Another 64th has nothing above 1, as minimum patches do.
+/// Factors of every kind occur in every position. Those in range go up to 6. Exceptions are one
+/// position of every eighth patch and all positions of every 64th, which use the whole range. In
+/// another 64th nothing is above 1, as in minimum patches.
 #[must_use]
 pub fn random_patch(domain: Domain, random: &mut SplitMix64) -> PatchFactors {
     patch_of(domain, random, factor_up_to)
 }
 
-/// The shape of [`random_patch`], with factors of which those in range end at the number given.
+/// A patch with the shape of [`random_patch`], whose factors come from `factor` with the upper end
+/// of their range.
 pub(crate) fn patch_of<D: Draw>(
     domain: Domain,
     random: &mut D,
@@ -45,7 +46,7 @@ pub(crate) fn patch_of<D: Draw>(
     })
 }
 
-/// The kinds of [`random_factor`], those in range from 1 to `top`, which is 3 to 64.
+/// A factor of the kinds of [`random_factor`]; the range goes from 1 to `top`, which is 3 to 64.
 pub(crate) fn factor_up_to(top: u16, random: &mut impl Draw) -> f32 {
     let top = u32::from(top);
     match random.below(20) {
@@ -74,7 +75,7 @@ mod tests {
     use crate::generate::SplitMix64;
     use crate::vectors::Fnv1a;
 
-    /// A seed means the same patches on every machine and in every release that does not say
+    /// A seed gives the same patches on every machine, and in every release unless its notes say
     /// otherwise.
     #[test]
     fn random_patches_are_the_recorded_ones() {

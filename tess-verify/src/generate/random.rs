@@ -1,8 +1,8 @@
 //! A tiny seeded generator: same seed, same numbers, on every machine.
 
-/// Where random choices come from.
+/// A source of random choices.
 pub(crate) trait Draw {
-    /// Any 32 bits.
+    /// Arbitrary 32 bits.
     fn bits(&mut self) -> u32;
 
     /// A number in `0..bound`; a bound of 0 gives 0.
@@ -19,8 +19,8 @@ impl Draw for SplitMix64 {
     }
 }
 
-/// `SplitMix64`: a counter that grows by a constant, finished by two multiply-xor-shift rounds
-/// (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
+/// `SplitMix64`: a counter that grows by a constant, finished by two rounds of multiply and
+/// xor-shift (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
 ///
 /// ```
 /// use tess_verify::generate::SplitMix64;
@@ -38,7 +38,7 @@ pub struct SplitMix64 {
 const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl SplitMix64 {
-    /// The generator of a seed. Every seed is as good as any other.
+    /// The generator of a seed. All seeds are equally good.
     #[must_use]
     pub const fn new(seed: u64) -> Self {
         Self { state: seed }
@@ -63,8 +63,8 @@ impl SplitMix64 {
         (self.next_u64() >> 32) as u32
     }
 
-    /// A number in `0..bound`, from 32 bits scaled, so the lower numbers are the least bit
-    /// likelier. A bound of 0 gives 0.
+    /// A number in `0..bound`, scaled from 32 bits, so a few numbers are very slightly likelier
+    /// than others. A bound of 0 gives 0.
     pub const fn below(&mut self, bound: u32) -> u32 {
         ((self.next_u32() as u64 * bound as u64) >> 32) as u32
     }

@@ -1,15 +1,16 @@
-//! Patches that belong together: what the rules of the standards compare.
+//! Families of related patches, which the rules of the standards compare.
 
 use super::{from_fixed, pick};
 use crate::case::Case;
 use crate::generate::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
-/// Levels in a relative of a patch: neither above 0 nor a number, or not above 1.
+/// Levels of a patch's relatives that discard: 0, below 0, or NaN.
 const NOT_ABOVE_ZERO: [f32; 4] = [0.0, -1.0, f32::NAN, f32::NEG_INFINITY];
+/// Inner levels of a patch's relatives: 1, below 1, or NaN.
 const NOT_ABOVE_ONE: [f32; 5] = [1.0, 0.5, 0.0, -3.0, f32::NAN];
 
-/// Levels of the systematic families: integers, what lies just above them, and fractions of both
+/// The levels of the systematic families: integers, levels just above them, and fractions of both
 /// parities.
 fn levels() -> Vec<f32> {
     let just_above = |n: u32| {
@@ -29,8 +30,8 @@ fn levels() -> Vec<f32> {
     levels
 }
 
-/// A family for each level of each domain and spacing, and patches beside the least that has an
-/// inside.
+/// A family for each level of each domain and spacing, and the patches next to the smallest one
+/// with an inside.
 pub(super) fn systematic() -> Vec<Case> {
     let levels = levels();
     let mut cases = Vec::new();
@@ -59,8 +60,8 @@ pub(super) fn systematic() -> Vec<Case> {
             }
         }
     }
-    // Only where all other levels are 1 does one that is barely above 1 decide whether there is an
-    // inside.
+    // A level that is barely above 1 decides whether there is an inside only if all other levels
+    // are 1.
     let frames = super::thresholds().into_iter().filter(|(side, _)| side.starts_with("frame/"));
     cases.extend(frames.map(|(_, case)| case));
     powers_of_two(&mut cases);
@@ -69,7 +70,7 @@ pub(super) fn systematic() -> Vec<Case> {
     cases
 }
 
-/// Families under pow2, which a device may take for more than integer spacing.
+/// Families with pow2, which a device might not treat like integer spacing.
 fn powers_of_two(cases: &mut Vec<Case>) {
     let (output, split) = (OutputPrimitive::TriangleCw, SplitOrder::Ruler);
     let config = Config { partitioning: Partitioning::Pow2, output, split };
@@ -84,8 +85,8 @@ fn powers_of_two(cases: &mut Vec<Case>) {
     }
 }
 
-/// Each level alone among others, at the ends of what is a positive number, and beyond the
-/// spacing's range.
+/// Each position in turn with a level at the limits of positive numbers or beyond the spacing's
+/// range; the other levels are ordinary.
 fn unusual_levels(cases: &mut Vec<Case>) {
     let (output, split) = (OutputPrimitive::TriangleCw, SplitOrder::Ruler);
     let smallest = f32::from_bits(1);
@@ -101,7 +102,7 @@ fn unusual_levels(cases: &mut Vec<Case>) {
                 let others = Case { config, factors: PatchFactors::uniform(domain, 3.5) };
                 cases.extend(levels.map(|level| others.with_factor(position, level)));
             }
-            // Only the inside tells this patch from one whose levels are all 1.
+            // This patch differs from one whose levels are all 1 only in its inside.
             let inner = [2.5, 4.5];
             let level = |p: usize| p.checked_sub(domain.outer_factors()).map_or(1.0, |k| inner[k]);
             let factors = PatchFactors::from_fn(domain, level);
@@ -110,8 +111,8 @@ fn unusual_levels(cases: &mut Vec<Case>) {
     }
 }
 
-/// Patches of which each has another domain than the one before it, and every third and ninth
-/// another output and spacing.
+/// Patches that each have another domain than the one before; the output changes every three
+/// patches, and the spacing every nine.
 fn changing_state(cases: &mut Vec<Case>) {
     let outputs =
         [OutputPrimitive::TriangleCcw, OutputPrimitive::TriangleCw, OutputPrimitive::Point];
@@ -131,7 +132,7 @@ fn changing_state(cases: &mut Vec<Case>) {
     }
 }
 
-/// Random families without end, of these domains, partitionings and split orders.
+/// An endless sequence of random families in these domains, partitionings and split orders.
 pub(super) fn random(
     mut random: SplitMix64,
     domains: Vec<Domain>,
@@ -155,7 +156,7 @@ pub(super) fn random(
     })
 }
 
-/// A level that is mostly small: near an integer, or anywhere.
+/// A level that is usually small: near an integer, or anywhere.
 fn random_level(random: &mut SplitMix64) -> f32 {
     let top = if random.below(16) == 0 { 64 } else { 9 };
     match random.below(4) {
@@ -165,9 +166,9 @@ fn random_level(random: &mut SplitMix64) -> f32 {
     }
 }
 
-/// A patch with its relatives: the same again, the other winding, its points; one outer level
-/// changed, the outer levels exchanged, the inner levels changed or not above 1, and an outer level
-/// that discards.
+/// A patch and its relatives: the same patch again, with the other winding, as points and as lines;
+/// with one level changed; with the outer levels rotated; with an inner level that is not above 1;
+/// and with an outer level that discards.
 fn family(base: Case, turn: usize, cases: &mut Vec<Case>) {
     let with_output = |output| Case { config: Config { output, ..base.config }, ..base };
     let (outer, all) = (base.domain().outer_factors(), base.domain().factors());

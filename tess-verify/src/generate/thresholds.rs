@@ -1,8 +1,8 @@
-//! Cases on each side of every comparison of the specification that a patch can show.
+//! Cases on each side of every comparison of the specification, where the output shows the
+//! difference.
 //!
-//! A comparison may be hidden: where all factors are equal, one that lies just above the threshold
-//! of the picture frame changes nothing. In these cases the neighbouring threshold changes the
-//! output:
+//! A comparison may be hidden: if all factors are equal, a factor just above the threshold of the
+//! picture frame changes nothing. In these cases, moving the threshold by one changes the output:
 //!
 //! ```text
 //!                     below              above
@@ -10,9 +10,8 @@
 //! round               40000000           40000001           2 segments, or 3
 //! ```
 //!
-//! Each entry is a comparison with a side of it, and a case that lies exactly there. The bins
-//! `boundary/*` of the coverage have the same names; what lies there is said where they are
-//! observed.
+//! Each entry is a comparison with one of its sides, and a case exactly there. The bins
+//! `boundary/*` of the coverage have the same names; `cover/boundary.rs` describes them.
 
 use super::choices::Choices;
 use super::from_fixed;
@@ -21,23 +20,22 @@ use tess_core::{Domain, FixedFactor, Partitioning, PatchFactors};
 
 type Threshold = (&'static str, Case);
 
-/// The smallest binary32 that is not a number, which lies just above infinity.
+/// The smallest binary32 that is not a number, just above infinity.
 pub(crate) const FIRST_NAN: u32 = 0x7F80_0001;
-/// 1 + 2^-17 and what is just above it: only the latter makes a picture frame, and is more than one
-/// in fixed point.
+/// 1 + 2^-17, and the next number. Only the latter makes a picture frame, and is more than 1 in
+/// fixed point.
 pub(crate) const FRAME: [u32; 2] = [0x3F80_0040, 0x3F80_0041];
 pub(crate) const SIGN: u32 = 0x8000_0000;
 const ONE: f32 = 1.0;
 
-/// Every entry, in the order of the specification: a bin of the group `boundary` without the group,
-/// such as `frame/above`, and a case.
+/// Every entry, in the order of the specification: a bin of the group `boundary`, such as
+/// `frame/above`, without the name of the group, and a case.
 #[must_use]
 pub fn thresholds() -> Vec<(&'static str, Case)> {
     of(&Choices::all())
 }
 
-/// The entries of a selection, whose patches have both sides of each comparison that they can be
-/// beside.
+/// The entries of a selection. They have both sides of each comparison that its patches can reach.
 pub(super) fn of(choices: &Choices) -> Vec<Threshold> {
     let mut list = Thresholds { choices, list: Vec::new() };
     for &domain in &choices.domains {
@@ -64,19 +62,19 @@ pub(super) fn of(choices: &Choices) -> Vec<Threshold> {
     list.list
 }
 
-/// The list as it grows.
+/// The list under construction.
 struct Thresholds<'a> {
     choices: &'a Choices,
     list: Vec<Threshold>,
 }
 
-/// One factor among others that are equal.
+/// Factors that are all `others`, except one.
 fn alone(domain: Domain, position: usize, bits: u32, others: f32) -> PatchFactors {
     let factor = |p| if p == position { f32::from_bits(bits) } else { others };
     PatchFactors::from_fn(domain, factor)
 }
 
-/// Whether a factor is processed as an integer: an isoline's density always is.
+/// Whether a factor is processed as an integer; an isoline's density always is.
 fn is_integer(domain: Domain, partitioning: Partitioning, position: usize) -> bool {
     partitioning.has_integer_factors() || (domain, position) == (Domain::Isoline, 0)
 }
@@ -98,7 +96,7 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Each outer factor alone at the ends of what is greater than zero.
+    /// Each outer factor by itself at the limits of the numbers greater than zero.
     fn cull(&mut self, domain: Domain) {
         let infinity = f32::INFINITY.to_bits();
         let partitionings = &self.choices.partitionings;
@@ -117,8 +115,8 @@ impl Thresholds<'_> {
         }
     }
 
-    /// All factors at the lower end of the range; outer factors at the upper end, then inside
-    /// factors, of isolines the density, then the detail.
+    /// All factors at the lower end of the range. Then outer factors at the upper end, and inside
+    /// factors; for isolines the density, and the detail.
     fn clamp(&mut self, domain: Domain, partitioning: Partitioning) {
         let of = |p| match is_integer(domain, partitioning, p) {
             true => Partitioning::Integer,
@@ -133,7 +131,7 @@ impl Thresholds<'_> {
             let low = |p| units(of(p).range().0, offset);
             self.push(side, partitioning, PatchFactors::from_fn(domain, low));
         }
-        // Rounding up sees what a conversion to fixed point would not.
+        // Rounding up detects a difference that a conversion to fixed point would not.
         let beyond = |p| match of(p).range().1 {
             high if of(p).has_integer_factors() => f32::from_bits(high.to_bits() + 1),
             high => units(high, 1),
@@ -149,15 +147,15 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Powers of two from 1 to 32, in each position that is rounded: exact, one pattern more, and
-    /// the last pattern before the next.
+    /// Powers of two from 1 to 32 in each position that is rounded: exact, the next bit pattern,
+    /// and the last pattern before the next integer.
     fn round(&mut self, domain: Domain, partitioning: Partitioning) {
         if !is_integer(domain, partitioning, 0) {
             return;
         }
         for turn in 0..6 {
             let power = |p: usize| [127_u32, 128, 129, 130, 131, 132][(p + turn) % 6];
-            // The exponent's neighbour and the bits to add tell the three sides.
+            // The three sides differ in the exponent and in the bits that are added.
             for (side, next, more) in
                 [("round/below", 0, 0), ("round/above", 0, 1), ("round/last", 1, -1)]
             {
@@ -170,7 +168,7 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Each factor alone beside what makes a picture frame.
+    /// Each factor by itself at the threshold of a picture frame.
     fn frame(&mut self, domain: Domain) {
         let odd = Partitioning::FractionalOdd;
         if domain == Domain::Isoline || !self.choices.partitionings.contains(&odd) {
@@ -188,7 +186,7 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Each factor alone beside what makes a patch more than a minimum one.
+    /// Each factor by itself at the threshold of a minimum patch.
     fn minimum(&mut self, domain: Domain) {
         if domain == Domain::Isoline {
             return;
@@ -212,7 +210,7 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Each factor alone is 1 or 2: only an inside factor of 1 counts as even.
+    /// Each factor by itself is 1 or 2: a factor of 1 counts as even only inside.
     fn parity(&mut self, domain: Domain, partitioning: Partitioning) {
         for position in 0..domain.factors() {
             if is_integer(domain, partitioning, position) {
@@ -224,7 +222,7 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Halfway between two 15.16 numbers, and one pattern to each side, in each position and
+    /// Halfway between two 15.16 numbers, and one bit pattern to each side, in each position and
     /// binade.
     fn conversion(&mut self, domain: Domain, partitioning: Partitioning) {
         let moves = match partitioning {
@@ -248,7 +246,7 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Factors of which a ring lies just below the middle between two 16.16 numbers, or in it.
+    /// Factors that put a ring just below the middle between two 16.16 numbers, or exactly in it.
     fn rings(&mut self) {
         for (side, partitioning, inside) in [
             ("ring/below", Partitioning::FractionalOdd, 0x2_8011),
@@ -263,8 +261,8 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Quads of every size whose inside factors differ by at most two, either being the larger. An
-    /// inside factor of 1 is 2.
+    /// Quads of every size whose inside factors differ by at most two, in either direction. An
+    /// inside factor of 1 becomes 2.
     fn wider(&mut self) {
         let partitioning = self.choices.partitioning(&[Partitioning::Integer]);
         for u in 2..=64u8 {
@@ -281,7 +279,7 @@ impl Thresholds<'_> {
         }
     }
 
-    /// A patch with a factor in whose context the split order shows: an isoline's detail, else an
+    /// A patch with one factor whose context shows the split order: an isoline's detail, or an
     /// outer factor.
     fn push_detail(&mut self, side: &'static str, partitioning: Partitioning, detail: u32) {
         let domain = self.choices.domains[0];
@@ -290,8 +288,8 @@ impl Thresholds<'_> {
         self.push_in_each_order(side, partitioning, factors);
     }
 
-    /// Factors that are whole, and those by a unit above: the least that splits a point off, in
-    /// both orders.
+    /// Whole factors, and factors one unit above them, which is the smallest excess that splits a
+    /// point off. In both orders.
     fn whole(&mut self) {
         for whole in 1..=62u32 {
             let partitioning = match whole % 2 {
@@ -305,7 +303,8 @@ impl Thresholds<'_> {
         }
     }
 
-    /// Factors of which a location lies just below the middle between two 16.16 numbers, or in it.
+    /// Factors that put a location just below the middle between two 16.16 numbers, or exactly in
+    /// it.
     fn locations(&mut self) {
         use Partitioning::{FractionalEven as Even, FractionalOdd as Odd};
         for (side, partitioning, detail) in [
@@ -321,7 +320,7 @@ impl Thresholds<'_> {
     }
 }
 
-/// Even 15.16 numbers in each binade from 1 or 2 on, whose odd successor moves a point on an outer
-/// edge and inside.
+/// Even 15.16 numbers, one in each binade from 1 or 2 upwards, whose odd successor moves a point on
+/// an outer edge and inside.
 const ODD_MOVES: [u32; 6] = [0x1_0200, 0x2_0204, 0x4_0204, 0x8_0202, 0x10_0210, 0x20_0200];
 const EVEN_MOVES: [u32; 5] = [0x2_0204, 0x4_0202, 0x8_0206, 0x10_0202, 0x20_0216];

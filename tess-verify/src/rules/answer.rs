@@ -1,11 +1,11 @@
-//! An output by places, and the rules that need no more.
+//! A patch's output as vertices by place, and the rules that need nothing else.
 
 use super::Judged;
 use crate::case::Case;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, OutputPrimitive, Tessellation};
 
-/// 16.16 numbers of u and v.
+/// A vertex's u and v as 16.16 numbers.
 pub(super) type Place = [u32; 2];
 
 /// A patch's primitives by the places of their vertices.
@@ -22,7 +22,7 @@ impl Answer {
     /// Looks up the vertices of the primitives.
     ///
     /// # Errors
-    /// An index without a point, or a primitive that is not whole, in words.
+    /// A description of an index without a point, or of a primitive that is not whole.
     pub(super) fn new(case: &Case, output: &Tessellation) -> Result<Self, String> {
         let vertex = |&index: &u32| {
             let point = output.points.get(index as usize);
@@ -46,7 +46,7 @@ impl Answer {
         self.vertices.len()
     }
 
-    /// Whether there is no primitive.
+    /// Whether there are no primitives.
     pub(super) const fn is_empty(&self) -> bool {
         self.vertices.is_empty()
     }
@@ -81,8 +81,8 @@ impl Answer {
         })
     }
 
-    /// No primitive if an outer level is not above 0, and some if all are. A denormal may be
-    /// either.
+    /// A patch has no primitives if an outer level is not above 0, and has some if all are above 0.
+    /// With a denormal level, either is allowed.
     pub(super) fn discard(&self) -> Judged {
         let mut outer = self.case.factors.outer();
         let discards = outer.clone().any(|level| level.is_nan() || level <= 0.0);
@@ -96,7 +96,7 @@ impl Answer {
         })
     }
 
-    /// Positions of the vertices on outer edge `edge`, ascending: see [`position`].
+    /// Positions of the vertices on outer edge `edge`, ascending; see [`position`].
     pub(super) fn along(&self, edge: usize) -> Vec<u32> {
         let domain = self.case.domain();
         let mut along: Vec<u32> =
@@ -117,8 +117,8 @@ impl Answer {
     }
 }
 
-/// The distance of a place along an outer edge from the edge's start in a clockwise walk; `None` if
-/// it is not on the edge. The only outer edge of isolines is u = 0.
+/// The distance of a place along an outer edge, from the edge's start in a clockwise walk; `None`
+/// if the place is not on the edge. The only outer edge of isolines is u = 0.
 pub(super) fn position(domain: Domain, edge: usize, [u, v]: Place) -> Option<u32> {
     match (domain, edge) {
         (_, 0) => (u == 0).then(|| ONE.checked_sub(v)).flatten(),
@@ -132,7 +132,7 @@ pub(super) fn position(domain: Domain, edge: usize, [u, v]: Place) -> Option<u32
     }
 }
 
-/// A place in hex, as listings have it.
+/// A place in hex, as in listings.
 pub(super) fn show([u, v]: Place) -> String {
     format!("({u:05x}, {v:05x})")
 }

@@ -1,4 +1,4 @@
-//! Rules about the vertices of one line.
+//! Rules about the vertices of a single line.
 
 use super::Judged;
 use super::answer::Answer;
@@ -9,19 +9,20 @@ use std::collections::BTreeSet;
 use tess_core::Domain;
 use tess_core::fixed_point::ONE;
 
-/// How far a vertex may be from where equal lengths put it, in units of 2^-16. No standard gives a
-/// number: the model's largest deviation from k/n is 12.26 units, at n = 53. A length has two ends,
-/// so it may be off by twice as much.
+/// The largest allowed distance of a vertex from the place that equal lengths give it, in units of
+/// 2^-16. No standard gives a number; the model's largest deviation from k/n is 12.26 units, at n =
+/// 53. A length has two ends, so it may be off by twice this.
 pub(super) const TOLERANCE: u32 = 16;
 
-/// A level is just above a number of segments up to this many units of 2^-16 above it: the shorter
-/// segments are then at most [`VANISHING`] of a longer one.
+/// A level up to this many units of 2^-16 above a number of segments counts as just above it: the
+/// shorter segments are then at most 1/[`VANISHING`] of a longer one.
 const JUST_ABOVE: u32 = 256;
-/// One part of this many. A length that is proportional to the level's excess has one in 512.
+/// The divisor that bounds a shorter segment just above a number of segments. A length proportional
+/// to the level's excess is at most 1/512 of a longer one there.
 const VANISHING: u32 = 16;
 
-/// Each line has as many segments as its level asks for, or as the specified answer has, if there
-/// is one.
+/// Each line has as many segments as the specified answer, or as its level asks for if there is no
+/// specified answer.
 pub(super) fn segments(
     answer: &Answer,
     specified: Option<&Answer>,
@@ -31,7 +32,7 @@ pub(super) fn segments(
     if is_exact && specified.is_none() {
         return None;
     }
-    // Vertices of the inside that are on the outline cannot be told from its own.
+    // Vertices inside that touch the outline cannot be told from the outline's own.
     let may_be_more = !is_exact && may_touch_outline(&answer.case, specification);
     let lines = outer_lines(answer);
     let specified = specified.map(outer_lines);
@@ -50,7 +51,7 @@ pub(super) fn segments(
     (!lines.is_empty()).then(|| wrong.map_or(Ok(()), Err))
 }
 
-/// On each line with the segments that it should have, they are spaced as its level asks.
+/// Each line with the right number of segments is spaced as its level asks.
 pub(super) fn spacing(answer: &Answer, specification: Specification) -> Judged {
     if may_touch_outline(&answer.case, specification) {
         return None;
@@ -58,7 +59,7 @@ pub(super) fn spacing(answer: &Answer, specification: Specification) -> Judged {
     spaced(&outer_lines(answer))
 }
 
-/// The first fault of the lengths of lines that have the right number of segments.
+/// The first fault in the lengths of those lines that have the right number of segments.
 pub(super) fn spaced(lines: &[Line]) -> Judged {
     let mut right = lines.iter().filter_map(|line| Some((line, line.level_if_right()?))).peekable();
     right.peek()?;
@@ -69,7 +70,7 @@ pub(super) fn spaced(lines: &[Line]) -> Judged {
     Some(wrong.map_or(Ok(()), Err))
 }
 
-/// The fault of a line's lengths.
+/// The fault in a line's lengths, if there is one.
 #[expect(clippy::float_cmp, reason = "a level is the integer itself, or is not")]
 #[expect(clippy::cast_precision_loss, reason = "at most 64")]
 fn unequal(line: &Line, level: Level) -> Option<String> {
@@ -81,19 +82,19 @@ fn unequal(line: &Line, level: Level) -> Option<String> {
     two_lengths(&lengths).or_else(|| not_vanishing(&lengths, level))
 }
 
-/// The first vertex that is too far from k/n.
+/// The first vertex that is too far from its place k/n.
 fn equally_spaced(along: &[u32]) -> Option<String> {
     let n = u64::try_from(along.len().checked_sub(1)?).ok()?;
     (0..).zip(along).find_map(|(k, &x)| {
-        // Times n, so that nothing is rounded.
+        // Multiplied by n, so that nothing is rounded.
         let off = (u64::from(x) * n).abs_diff(k * u64::from(ONE));
         (off > u64::from(TOLERANCE) * n)
             .then(|| format!("vertex {k} of {n} is at {x:05x}, more than 16 units from {k}/{n}"))
     })
 }
 
-/// The fault of a fractional division: it has lengths other than a long one, and a shorter one for
-/// a mirrored pair.
+/// The fault of a fractional division whose segments are not all of one length, except for a
+/// mirrored pair of shorter ones.
 fn two_lengths(lengths: &[u32]) -> Option<String> {
     let longest = *lengths.iter().max()?;
     let short: Vec<usize> =
@@ -110,7 +111,8 @@ fn two_lengths(lengths: &[u32]) -> Option<String> {
     }
 }
 
-/// Shorter segments that are too long for a level just above the next lower number of segments.
+/// The fault of shorter segments that are too long for a level just above the next lower number of
+/// segments.
 fn not_vanishing(lengths: &[u32], level: Level) -> Option<String> {
     let excess = level.fixed().checked_sub((level.segments().checked_sub(2)?) << 16)?;
     let (short, long) = (*lengths.iter().min()?, *lengths.iter().max()?);
@@ -123,14 +125,14 @@ fn not_vanishing(lengths: &[u32], level: Level) -> Option<String> {
     })
 }
 
-/// The length of the shorter pair of a fractional line, which has at least three segments.
+/// The length of the two shorter segments of a fractional line; `None` below three segments.
 pub(super) fn shorter(line: &Line) -> Option<u32> {
     let lengths = line.lengths();
     (lengths.len() >= 3).then(|| lengths.into_iter().min()).flatten()
 }
 
-/// Each outer edge has both ends, and with each vertex its mirror image; isolines have the mirror
-/// images of those at u = 0 except v = 0.
+/// Each outer edge has both of its ends, and the mirror image of each of its vertices. Isolines
+/// have the mirror image of each vertex at u = 0, except of the one at v = 0.
 pub(super) fn symmetric(answer: &Answer, specification: Specification) -> Judged {
     let domain = answer.case.domain();
     if answer.is_empty() || may_touch_outline(&answer.case, specification) {
@@ -155,7 +157,7 @@ pub(super) fn symmetric(answer: &Answer, specification: Specification) -> Judged
 mod tests {
     use super::*;
 
-    /// The sentences of docs/rules.md on lengths.
+    /// The numbers in `docs/rules.md` are those of the code.
     #[test]
     fn the_tolerance_is_the_documented_one() {
         let page = include_str!("../../../docs/rules.md");

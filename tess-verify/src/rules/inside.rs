@@ -1,8 +1,9 @@
-//! Rules about the vertices inside the outline: a quad's columns and rows, and a triangle's rings.
+//! Rules about the vertices inside the outline: the columns and rows of a quad, and the rings of a
+//! triangle.
 //!
-//! Vulkan (22.6, 22.7) and OpenGL divide the domain by the inner levels first: a quad into columns
-//! by the first and rows by the second, a triangle into rings. Every crossing of a column and a row
-//! is a vertex.
+//! Vulkan (22.6, 22.7) and OpenGL first divide the domain by the inner levels: a quad into columns
+//! by the first level and into rows by the second, a triangle into rings. Every crossing of a
+//! column and a row is a vertex.
 //!
 //! ```text
 //!  inner levels 4, 3          3 places between columns, 2 between rows: 6 vertices inside
@@ -22,8 +23,8 @@ use super::standard::Specification;
 use tess_core::Domain;
 use tess_core::fixed_point::ONE;
 
-/// The inside has the columns and rows, or rings, that the inner levels ask for, or that the
-/// specified answer has.
+/// The inside has the columns and rows, or the rings, of the specified answer, or those that the
+/// inner levels ask for.
 pub(super) fn inner_levels(
     answer: &Answer,
     specified: Option<&Answer>,
@@ -34,7 +35,7 @@ pub(super) fn inner_levels(
         return None;
     }
     let case = &answer.case;
-    // Vertices of the inside that are on the outline cannot be told from its own.
+    // Vertices inside that touch the outline cannot be told from the outline's own.
     let may_be_fewer = !is_exact && !is_minimum(case) && may_touch_outline(case, specification);
     match case.domain() {
         Domain::Isoline => None,
@@ -93,8 +94,8 @@ fn vertices_of_rings(answer: &Answer, specified: Option<&Answer>, may_be_fewer: 
     Some(Err(format!("{asks}; there are {found}{like}")))
 }
 
-/// Columns, rows and rings are spaced as the inner levels ask, and vertices of rings are where
-/// these cross.
+/// Columns, rows and rings are spaced as the inner levels ask, and the vertices of rings are at the
+/// crossings.
 pub(super) fn inner_spacing(answer: &Answer, specification: Specification) -> Judged {
     if may_touch_outline(&answer.case, specification) {
         return None;
@@ -111,10 +112,11 @@ pub(super) fn inner_spacing(answer: &Answer, specification: Specification) -> Ju
     Some(spaced(&lines)?.and_then(|()| perpendicular(&rings, n)))
 }
 
-/// Vertices of every ring are on the perpendiculars at the places that the outermost ring shows.
+/// The vertices of every ring are on the perpendiculars at the places of the outermost ring's
+/// vertices.
 fn perpendicular(rings: &Rings, n: u32) -> Result<(), String> {
     let places = rings.outermost();
-    // The first of the places is that of position 1.
+    // `places` starts at position 1.
     let place = |position: u32| places.get(position.checked_sub(1)? as usize).copied();
     for ring in &rings.rings {
         let number = ring.number;
@@ -140,7 +142,8 @@ fn perpendicular(rings: &Rings, n: u32) -> Result<(), String> {
     Ok(())
 }
 
-/// Two thirds of a place of the first half.
+/// The depth of the ring whose corners are at `place`: two thirds of its distance from the nearer
+/// end.
 const fn depth_of(place: u32) -> u32 {
     let nearer = if place > ONE / 2 { ONE - place } else { place };
     nearer * 2 / 3

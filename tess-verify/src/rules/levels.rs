@@ -1,13 +1,13 @@
-//! The number of segments that a standard makes of a level.
+//! The number of segments that a standard derives from a level.
 
 use super::standard::Specification;
 use crate::case::Case;
 use tess_core::{Domain, Partitioning};
 
-/// The largest level. A Vulkan device may have a larger one, and is then given no level above this.
+/// The largest level. A Vulkan device may support larger ones, but is given no level above this.
 const LARGEST: f32 = 64.0;
 
-/// A level of a patch, and the spacing that applies to it. It is a number.
+/// A level of a patch and the spacing that applies to it. The level is not NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Level {
     pub(super) raw: f32,
@@ -16,7 +16,8 @@ pub(super) struct Level {
 }
 
 impl Level {
-    /// Outer level `position`; `None` if it is NaN. The number of isolines has equal spacing.
+    /// Outer level `position`; `None` if it is NaN. The number of isolines always has equal
+    /// spacing.
     pub(super) fn outer(case: &Case, position: usize) -> Option<Self> {
         let raw = case.factors.outer().nth(position).filter(|level| !level.is_nan())?;
         let is_density = case.domain() == Domain::Isoline && position == 0;
@@ -39,8 +40,8 @@ impl Level {
         }
     }
 
-    /// The clamped level rounded up to an integer, of the spacing's parity if it has one. An inner
-    /// level of 1 counts as the next higher number, because the patch has an inside.
+    /// The clamped level, rounded up to an integer of the spacing's parity, if that has one. An
+    /// inner level of 1 counts as the next higher number, because the patch has an inside.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -61,7 +62,7 @@ impl Level {
         !self.spacing.has_integer_factors()
     }
 
-    /// The clamped level, in units of 2^-16, rounded down.
+    /// The clamped level in units of 2^-16, rounded down.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -73,16 +74,16 @@ impl Level {
     }
 }
 
-/// Whether all levels are 1 after clamping: the patch then has no inside.
+/// Whether all levels are 1 after clamping, so that the patch has no inside.
 pub(super) fn is_minimum(case: &Case) -> bool {
     case.domain() != Domain::Isoline
         && case.config.partitioning != Partitioning::FractionalEven
         && case.factors.iter().all(|level| level <= 1.0 || level.is_nan())
 }
 
-/// Whether vertices of the inside may be on the outline: under fractional odd spacing, if an inner
-/// level is not above 1. In Direct3D the locations of levels up to 1 + 8/65536 round to the
-/// outline.
+/// Whether vertices inside may be on the outline: with fractional odd spacing, if an inner level is
+/// not above 1. In Direct3D, levels up to 1 + 8/65536 count too, because their locations round to
+/// the outline.
 pub(super) fn may_touch_outline(case: &Case, specification: Specification) -> bool {
     const ROUNDED: f32 = f32::from_bits(0x3F80_0400);
     let highest = if specification == Specification::D3d11 { ROUNDED } else { 1.0 };
@@ -90,14 +91,14 @@ pub(super) fn may_touch_outline(case: &Case, specification: Specification) -> bo
         && case.factors.inside().any(|level| level <= highest || level.is_nan())
 }
 
-/// Whether Direct3D leaves no choice of each level's 15.16 number (specification, section 13): the
-/// nearest one is the only one within 0.6 units.
+/// Whether Direct3D allows only one 15.16 number for each level (specification, section 13): the
+/// nearest one must be the only one within 0.6 units.
 pub(super) fn has_one_conversion(case: &Case) -> bool {
     let is_clear = |level: f32| {
         let bits = level.to_bits();
         let (exponent, mantissa) = (bits >> 23, bits & 0x7F_FFFF);
         match exponent {
-            // From 1 to 64: 7 to 2 fraction bits below 2^-16.
+            // From 1 to 64, 7 to 2 bits of the fraction are below 2^-16.
             127..=132 => {
                 let below = 134 - exponent;
                 let tenths = 10 * (mantissa & ((1 << below) - 1));
@@ -113,7 +114,8 @@ pub(super) fn has_one_conversion(case: &Case) -> bool {
 mod tests {
     use super::*;
 
-    /// A fraction of 0.4 to 0.6 units has two conversions; rounded levels have one.
+    /// A level that is 0.4 to 0.6 units above a 15.16 number has two legal conversions; where
+    /// levels are rounded to integers, each has one.
     #[test]
     fn conversions_are_counted() {
         let case = |spacing: &str, bits: u32| -> Case {

@@ -1,4 +1,4 @@
-//! The lines of a patch that levels divide.
+//! The lines of a patch that its levels divide.
 //!
 //! ```text
 //! isolines: the patch by its density, each line by the detail
@@ -6,9 +6,9 @@
 //! inside:   a quad's columns and rows, a triangle's rings, by the inner levels
 //! ```
 //!
-//! A quad's inner levels divide the whole domain: its columns are those between u = 0 and u = 1, of
-//! which vertices inside show all places but the ends. A triangle's inner level divides each edge
-//! for the time being; see `rings.rs`.
+//! A quad's inner levels divide the whole domain: its columns run from u = 0 to u = 1, and the
+//! vertices inside show all places except the two ends. A triangle's inner level divides each edge
+//! temporarily, to place the rings; see `rings.rs`.
 
 use super::answer::Answer;
 use super::levels::{Level, is_minimum};
@@ -22,9 +22,9 @@ use tess_core::fixed_point::ONE;
 pub(super) struct Line {
     /// Which line: `edge u0`, `line 0`, `the columns`.
     pub(super) name: String,
-    /// The level that divides it; `None` if that is NaN.
+    /// The level that divides it; `None` if the level is NaN.
     pub(super) level: Option<Level>,
-    /// Places of its vertices, ascending, both ends included: 16.16 numbers from 0 to 1.
+    /// The places of its vertices, ascending and including both ends: 16.16 numbers from 0 to 1.
     pub(super) along: Vec<u32>,
 }
 
@@ -34,7 +34,7 @@ impl Line {
         self.along.len().saturating_sub(1)
     }
 
-    /// Its level, if it has as many segments as that asks for.
+    /// Its level, if the line has as many segments as the level asks for.
     pub(super) fn level_if_right(&self) -> Option<Level> {
         self.level.filter(|level| level.segments() as usize == self.segments())
     }
@@ -45,7 +45,8 @@ impl Line {
     }
 }
 
-/// The lines that outer levels divide: outer edges; for isolines the density's and each line.
+/// The lines that outer levels divide: the outer edges, or for isolines the line of the density and
+/// each isoline.
 pub(super) fn outer_lines(answer: &Answer) -> Vec<Line> {
     let case = &answer.case;
     if answer.is_empty() {
@@ -63,7 +64,7 @@ pub(super) fn outer_lines(answer: &Answer) -> Vec<Line> {
     for &[u, v] in &answer.places {
         by_v.entry(v).or_default().push(u);
     }
-    // No line is drawn at v = 1, the end of the density's line.
+    // No isoline is drawn at v = 1, where the density's line ends.
     let mut along: Vec<u32> = by_v.keys().copied().collect();
     along.push(ONE);
     along.dedup();
@@ -75,8 +76,8 @@ pub(super) fn outer_lines(answer: &Answer) -> Vec<Line> {
     [density].into_iter().chain(by_v.into_values().enumerate().map(line)).collect()
 }
 
-/// The lines that inner levels divide, if vertices inside show them: a quad's columns and rows, and
-/// a triangle's edges by its outermost ring.
+/// The lines that inner levels divide, as far as the vertices inside show them: a quad's columns
+/// and rows, or a triangle's edges as the outermost ring divides them.
 pub(super) fn inner_lines(answer: &Answer) -> Vec<Line> {
     let case = &answer.case;
     if is_minimum(case) || answer.is_empty() {
@@ -104,19 +105,19 @@ pub(super) fn inner_lines(answer: &Answer) -> Vec<Line> {
     }
 }
 
-/// Places between the ends, with the ends.
+/// The places between the ends, with both ends added.
 fn with_ends(inside: Vec<u32>) -> Vec<u32> {
     [0].into_iter().chain(inside).chain([ONE]).collect()
 }
 
-/// The columns and rows of a quad's vertices inside.
+/// The columns and rows that a quad's vertices inside form.
 #[derive(Debug)]
 pub(super) struct Grid {
-    /// Distinct u of vertices inside, ascending.
+    /// The distinct u of vertices inside, ascending.
     pub(super) columns: Vec<u32>,
-    /// Distinct v of vertices inside, ascending.
+    /// The distinct v of vertices inside, ascending.
     pub(super) rows: Vec<u32>,
-    /// How many vertices are inside.
+    /// The number of vertices inside.
     pub(super) vertices: usize,
 }
 

@@ -12,40 +12,43 @@ use std::collections::{BTreeMap, HashMap};
 use tess_core::fixed_point::ONE;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 
-/// How much shorter the shorter segments may become as the level grows, in units of 2^-16: each of
-/// their two ends is rounded.
+/// How much shorter the shorter segments may become as the level grows, in units of 2^-16, because
+/// each of a segment's two ends is rounded.
 const ROUNDING: u32 = 2;
-/// Levels this far apart, in units of 2^-16, have shorter segments of different lengths.
+/// Levels at least this far apart, in units of 2^-16, must have shorter segments of different
+/// lengths.
 const APART: u32 = 1 << 13;
 
-/// The state that every rule keeps equal: domain, spacing and split order.
+/// The state on which every rule depends: domain, spacing and split order.
 type State = (Domain, Partitioning, SplitOrder);
 
-/// Properties that patches may have in common; each says what these must then share.
+/// The properties that two patches may have in common. Each variant names what such patches must
+/// then share.
 #[derive(Debug, PartialEq, Eq, Hash)]
 enum Key {
-    /// Everything equal: the sequence of vertices.
+    /// Equal cases share the sequence of vertices.
     Case(Case),
-    /// Everything but the winding: the set of triangles.
+    /// Cases that differ only in winding share the set of triangles.
     Triangles(Case),
-    /// Everything but the output: the set of places.
+    /// Cases that differ only in the output share the set of places.
     Places(Case),
-    /// An edge and its level: its vertices.
+    /// An edge and its level determine its vertices.
     Edge(State, usize, u32),
-    /// The inner levels: the triangles without a vertex on the outline.
+    /// The inner levels determine the triangles without a vertex on the outline.
     Interior(State, Vec<u32>),
-    /// An edge, its level and the inner levels: the triangles at that edge.
+    /// An edge, its level and the inner levels determine the triangles at that edge.
     Transition(State, usize, u32, Vec<u32>),
 }
 
-/// The edges of earlier patches that have one level, with the first patch of each.
+/// The vertices of earlier patches' edges that have one level, each with the first patch that has
+/// it.
 type Edges = BTreeMap<(Domain, usize), (Vec<u32>, Case)>;
 
-/// The shorter segments by level, in units of 2^-16, with the first patch of each; all levels round
-/// up to one number.
+/// The length of the shorter segments by level, in units of 2^-16, each with the first patch of
+/// that level. All of these levels round up to the same number.
 type Shorter = BTreeMap<u32, (u32, Case)>;
 
-/// The places of vertices on the first line of a level, with its name and its patch.
+/// The first line of a level: the places of its vertices, its name and its patch.
 #[derive(Debug)]
 struct Divided {
     along: Vec<u32>,
@@ -56,12 +59,12 @@ struct Divided {
 /// Properties of earlier patches.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
-    /// A digest of what is shared, and the first patch that has it.
+    /// A digest of the shared property, and the first patch that has it.
     known: HashMap<Key, (u64, Case)>,
     edges: HashMap<(Option<Domain>, Partitioning, SplitOrder, u32), Edges>,
-    /// By spacing, split order and number of segments; of outer levels and of inner levels apart.
+    /// By state, by whether the level is an inner one, and by number of segments.
     shorter: HashMap<(State, bool, u32), Shorter>,
-    /// By spacing, split order and bits of the clamped level.
+    /// By spacing, split order, and bits of the clamped level.
     divided: HashMap<(Partitioning, SplitOrder, u32), Divided>,
 }
 
@@ -70,7 +73,7 @@ fn state(answer: &Answer) -> State {
     (answer.case.domain(), partitioning, split)
 }
 
-/// The case as it is for another output.
+/// The case with another output.
 const fn with_output(case: &Case, output: OutputPrimitive) -> Case {
     Case { config: Config { output, ..case.config }, factors: case.factors }
 }
@@ -84,7 +87,7 @@ fn level(case: &Case, edge: usize) -> u32 {
 }
 
 impl Memory {
-    /// Judges a patch beside each earlier one that it must agree with, and keeps what later
+    /// Judges a patch against each earlier one that it must agree with, and stores what later
     /// patches must agree with.
     pub(super) fn judge(
         &mut self,
@@ -121,8 +124,8 @@ impl Memory {
         }
     }
 
-    /// Compares a digest with the first patch that has the same key; where outputs are free, with
-    /// one of another output.
+    /// Compares a digest with that of the first patch that has the same key. Where the output is
+    /// not part of the key, patches of equal output are not compared.
     fn compare(&mut self, key: Key, digest: u64, answer: &Answer, what: &str) -> Vec<Judgement> {
         match self.known.get(&key) {
             None => {
@@ -152,8 +155,8 @@ impl Memory {
         outer_edges(answer).flat_map(each).collect()
     }
 
-    /// Each edge beside the other edges of the same level, in either direction. Direct3D's depend
-    /// on no domain either.
+    /// Compares each edge with the other edges of the same level, in either direction. In Direct3D,
+    /// edges of different domains must agree too.
     fn every_edge(&mut self, answer: &Answer, specification: Specification) -> Vec<Judgement> {
         let (domain, partitioning, split) = state(answer);
         let own = (specification != Specification::D3d11).then_some(domain);
@@ -183,8 +186,8 @@ impl Memory {
         self.compare(key, digest, answer, "other triangles inside")
     }
 
-    /// Triangles with two vertices on an edge. Those with one are at a corner of two edges, or
-    /// beside one that has two.
+    /// Compares the triangles with two vertices on an edge. Those with one are at a corner of two
+    /// edges, or next to a triangle that has two.
     fn transition(&mut self, answer: &Answer) -> Vec<Judgement> {
         let domain = answer.case.domain();
         let each = |edge| {
@@ -198,8 +201,8 @@ impl Memory {
         outer_edges(answer).flat_map(each).collect()
     }
 
-    /// Lines of one level beside the first line of that level, of whatever patch: an edge, an
-    /// isoline, or the columns, rows or rings inside.
+    /// Compares each line with the first line of its level, in any patch: an edge, an isoline, or
+    /// the columns, rows or rings inside.
     fn equal_levels(&mut self, answer: &Answer) -> Vec<Judgement> {
         let (_, partitioning, split) = state(answer);
         let mut judgements = Vec::new();
@@ -226,8 +229,8 @@ impl Memory {
         judgements
     }
 
-    /// Lines whose levels round up to the same number, beside the next lower and the next higher
-    /// level.
+    /// Compares lines whose levels round up to the same number: each with those of the next lower
+    /// and the next higher level.
     fn monotone(&mut self, answer: &Answer) -> Vec<Judgement> {
         let mut judgements = Vec::new();
         for line in fractional_lines(answer) {
@@ -251,7 +254,8 @@ impl Memory {
     }
 }
 
-/// Whether the shorter segments grow from a level to one that is `apart` units of 2^-16 above it.
+/// Whether the shorter segments grow from one level to another that is `apart` units of 2^-16
+/// higher.
 fn growing(apart: u32, low: u32, high: u32) -> Result<(), String> {
     match () {
         () if low > high + ROUNDING => {
@@ -264,7 +268,7 @@ fn growing(apart: u32, low: u32, high: u32) -> Result<(), String> {
     }
 }
 
-/// The lines whose levels move their vertices.
+/// The lines whose vertices move with the level.
 fn fractional_lines(answer: &Answer) -> impl Iterator<Item = Line> {
     let lines = outer_lines(answer).into_iter().chain(inner_lines(answer));
     lines.filter(|line| line.level.is_some_and(Level::is_fractional))
@@ -278,7 +282,7 @@ fn outer_edges(answer: &Answer) -> std::ops::Range<usize> {
     }
 }
 
-/// A digest of a set of triangles, whatever their order and their vertices' order.
+/// A digest of a set of triangles that does not depend on their order or on that of their vertices.
 fn triangles(triangles: impl Iterator<Item = [Place; 3]>) -> u64 {
     let sorted = |mut triangle: [Place; 3]| {
         triangle.sort_unstable();

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, OutputPrimitive};
 
-/// Twice the signed area, positive for clockwise triangles with v downwards.
+/// Twice the signed area; positive for triangles that are clockwise as seen with v pointing down.
 fn doubled_area([a, b, c]: [Place; 3]) -> i128 {
     let [(au, av), (bu, bv), (cu, cv)] = [a, b, c].map(|[u, v]| (i128::from(u), i128::from(v)));
     (bu - au) * (cv - av) - (cu - au) * (bv - av)
@@ -20,7 +20,7 @@ const fn turn(answer: &Answer) -> i32 {
     if matches!(answer.case.config.output, OutputPrimitive::TriangleCw) { 1 } else { -1 }
 }
 
-/// No triangle turns the other way. One without area turns neither way.
+/// No triangle turns the wrong way. A triangle without area turns neither way.
 pub(super) fn orientation(answer: &Answer) -> Judged {
     let clockwise = i128::from(turn(answer));
     let mut triangles = answer.triangles().peekable();
@@ -32,8 +32,8 @@ pub(super) fn orientation(answer: &Answer) -> Judged {
     }))
 }
 
-/// The triangles cover the domain once, as far as their edges tell: what is left of their directed
-/// edges, after those that go both ways are taken out, is one walk round the outline.
+/// The triangles cover the domain once, as far as their directed edges show: after the edges that
+/// are walked in both directions are removed, the rest is one walk around the outline.
 pub(super) fn cover(answer: &Answer) -> Judged {
     let mut net: BTreeMap<[Place; 2], i32> = BTreeMap::new();
     for [a, b, c] in answer.triangles() {
@@ -70,9 +70,9 @@ pub(super) fn cover(answer: &Answer) -> Judged {
     }))
 }
 
-/// Segments of isolines keep their v and lead from u = 0 to u = 1, none is at v = 1, and the lines
-/// are equally spaced. Each line is walked once; in Direct3D a rounded location may go backwards on
-/// the way.
+/// Each segment of an isoline keeps its v, each line is walked once from u = 0 to u = 1, no line is
+/// at v = 1, and the lines are equally spaced. In Direct3D, rounding may make a line go backwards
+/// on the way.
 pub(super) fn isolines(answer: &Answer, specification: Specification) -> Judged {
     if answer.case.domain() != Domain::Isoline || answer.has_points() {
         return None;
@@ -101,7 +101,7 @@ pub(super) fn isolines(answer: &Answer, specification: Specification) -> Judged 
     (n > 0).then_some(Ok(()))
 }
 
-/// The places at which an odd number of segments ends: both ends of a walk.
+/// The places where an odd number of segments ends, which are the two ends of a walk.
 fn odd_ends(segments: &[[u32; 2]]) -> Vec<u32> {
     let mut ends: BTreeSet<u32> = BTreeSet::new();
     for end in segments.as_flattened() {
@@ -112,7 +112,7 @@ fn odd_ends(segments: &[[u32; 2]]) -> Vec<u32> {
     ends.into_iter().collect()
 }
 
-/// Each place is a point once.
+/// No place has two points.
 pub(super) fn points_once(answer: &Answer, specification: Specification) -> Judged {
     let may_touch = may_touch_outline(&answer.case, specification);
     if !answer.has_points() || answer.is_empty() || may_touch {

@@ -1,9 +1,10 @@
-//! The rule about the triangles between two lines.
+//! The rule about triangles between two lines.
 //!
-//! Vulkan (22.6, 22.7) and OpenGL leave the triangles to the device, but two vertices of each are
-//! neighbours on one line, and the third is on the line beside it: on the same edge of the outline
-//! and of the rectangle or ring inside, or of two rings. A cell of a quad's columns and rows has
-//! two triangles. A triangle's innermost ring is a triangle.
+//! Vulkan (22.6, 22.7) and OpenGL leave the triangles to the device, with one constraint. Two
+//! vertices of each triangle are neighbours on one line, and the third is on the adjacent line,
+//! along the same edge: the outline and the rectangle or ring inside it, or two rings. A cell
+//! between a quad's columns and rows has two triangles. The innermost ring of a triangle may itself
+//! be a triangle.
 
 use super::Judged;
 use super::answer::{Answer, Place, position, show};
@@ -16,7 +17,7 @@ use super::standard::Specification;
 use std::collections::HashMap;
 use tess_core::Domain;
 
-/// A position of a place on a line: the outline's edge has ring 0, the first line inside it ring 1.
+/// The position of a place on a line. Ring 0 is the outline, ring 1 the first line inside it.
 #[derive(Clone, Copy, Debug)]
 struct Spot {
     edge: usize,
@@ -24,11 +25,11 @@ struct Spot {
     index: usize,
 }
 
-/// The spots of each place. A corner has two, a centre one for each edge.
+/// The spots of each place. A corner has two; a centre has one for each edge.
 type Spots = HashMap<Place, Vec<Spot>>;
 
-/// Each triangle joins two neighbours of one line with a vertex of the next one. Patches whose
-/// lines have other numbers of segments than their levels ask for are not judged.
+/// Each triangle joins two neighbours on one line with a vertex of the next line. A patch is not
+/// judged if one of its lines has a wrong number of segments.
 pub(super) fn neighbours(answer: &Answer, specification: Specification) -> Judged {
     let case = &answer.case;
     let is_right = |judged: Judged| judged.is_some_and(|result| result.is_ok());
@@ -82,7 +83,8 @@ fn outline(answer: &Answer) -> Spots {
     spots
 }
 
-/// The four edges of the rectangle of a quad's vertices inside, in the order of outer edges.
+/// Adds the four edges of the rectangle that a quad's vertices inside form, in the order of outer
+/// edges.
 fn rectangle(answer: &Answer, grid: &Grid, spots: &mut Spots) {
     let ends = |along: &[u32]| [along.first().copied(), along.last().copied()];
     let ([first_u, last_u], [first_v, last_v]) = (ends(&grid.columns), ends(&grid.rows));
@@ -111,7 +113,7 @@ fn add_rings(rings: &Rings, spots: &mut Spots) {
     }
 }
 
-/// Whether a triangle is one half of a cell of columns and rows.
+/// Whether a triangle is half of a cell between columns and rows.
 fn in_cell(grid: &Grid, triangle: &[Place; 3]) -> bool {
     let spans_one = |along: &[u32], axis: usize| {
         let [a, b, c] = triangle.map(|place| along.binary_search(&place[axis]).unwrap_or_default());
@@ -120,8 +122,8 @@ fn in_cell(grid: &Grid, triangle: &[Place; 3]) -> bool {
     spans_one(&grid.columns, 0) && spans_one(&grid.rows, 1)
 }
 
-/// Whether two vertices of a triangle are neighbours on a line, and the third one is on the line
-/// before or after it.
+/// Whether two vertices of a triangle are neighbours on a line and the third is on an adjacent
+/// line.
 fn between(spots: &Spots, triangle: &[Place; 3]) -> bool {
     let of = |k: usize| spots.get(&triangle[k]).map_or(&[][..], Vec::as_slice);
     (0..3).any(|first| {
@@ -136,7 +138,8 @@ fn between(spots: &Spots, triangle: &[Place; 3]) -> bool {
     })
 }
 
-/// Whether a triangle has the three corners of the innermost ring, which is not a point.
+/// Whether a triangle's vertices are three distinct ones of the innermost ring, if that is not a
+/// point.
 fn is_innermost(spots: &Spots, triangle: &[Place; 3], ring: u32) -> bool {
     let [a, b, c] = *triangle;
     let is_on = |place: &Place| {

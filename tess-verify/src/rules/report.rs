@@ -1,4 +1,4 @@
-//! The report of the rules.
+//! The report on the rules of one standard.
 
 use super::standard::{Rule, Specification};
 use crate::case::Case;
@@ -6,30 +6,30 @@ use crate::names::{Named, named};
 use std::fmt;
 
 named! {
-    /// The fate of a rule.
+    /// The result of a rule.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum Verdict: "verdict" {
-        /// Every patch or pair that it judged is as it demands.
+        /// Every judged patch or pair meets the demand.
         Held = "held",
-        /// Some are not.
+        /// Some judged patches or pairs do not.
         Broken = "broken",
         /// No patch or pair could show a fault.
         NotExercised = "not exercised",
     }
 }
 
-/// The smallest example of a broken rule.
+/// The smallest example that breaks a rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Example {
-    /// The patches that show it, one or two; each prints as a line that can be run again.
+    /// The patch or the two patches that show it; each prints as a line that can be run again.
     pub cases: Vec<Case>,
-    /// The fault, in words.
+    /// A description of the fault.
     pub what: String,
 }
 
-/// A rule with what it judged.
+/// A rule and its judgements.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RuleRow {
@@ -37,16 +37,16 @@ pub struct RuleRow {
     pub rule: Rule,
     /// The section of the standard that states it, by number and title.
     pub source: &'static str,
-    /// How many patches, or patches beside an earlier one, it judged.
+    /// The number of judgements: of patches, or of pairs of a patch and an earlier one.
     pub judged: u64,
-    /// How many of them break it.
+    /// The number of judgements that found it broken.
     pub broken: u64,
-    /// The broken example with the fewest vertices, the first of equals.
+    /// The broken example with the fewest vertices; the first one, if several have as few.
     pub smallest: Option<Example>,
 }
 
 impl RuleRow {
-    /// The fate of the rule.
+    /// The rule's verdict.
     #[must_use]
     pub const fn verdict(&self) -> Verdict {
         match (self.judged, self.broken) {
@@ -63,20 +63,20 @@ impl RuleRow {
 pub struct RulesReport {
     /// The standard.
     pub specification: Specification,
-    /// Patches that were judged.
+    /// The number of judged patches.
     pub patches: u64,
-    /// The rules that it states, in the order of [`Rule`].
+    /// The rules that the standard states, in the order of [`Rule`].
     pub rows: Vec<RuleRow>,
 }
 
 impl RulesReport {
-    /// How many rules have a verdict.
+    /// The number of rules with this verdict.
     fn count(&self, verdict: Verdict) -> usize {
         self.rows.iter().filter(|row| row.verdict() == verdict).count()
     }
 }
 
-/// A table of the rules, the smallest example below each broken one, and a summary line.
+/// A table of the rules, with the smallest example below each broken one, and a summary line.
 impl fmt::Display for RulesReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for row in &self.rows {
@@ -102,7 +102,7 @@ impl fmt::Display for RulesReport {
 #[derive(Debug)]
 pub(super) struct Tally {
     row: RuleRow,
-    /// Vertices of the smallest example.
+    /// The number of vertices of the smallest example.
     size: usize,
 }
 
@@ -120,7 +120,7 @@ impl Tally {
         self.row.clone()
     }
 
-    /// Counts a judgement on a case of `size` vertices, beside an earlier case if there is one.
+    /// Counts a judgement of a case with `size` vertices, and of an earlier case if there is one.
     pub(super) fn add(
         &mut self,
         case: &Case,

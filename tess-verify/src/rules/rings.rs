@@ -1,9 +1,9 @@
-//! The concentric triangles of a triangle patch, found in its vertices.
+//! The concentric triangles of a triangle patch, reconstructed from its vertices.
 //!
-//! Vulkan (22.6) and OpenGL make them from the inner level's division of an edge, at places t from
-//! 0 to 1. The corner of ring r is where two lines meet that are perpendicular to its edges at the
-//! r-th place; the ring's edge is divided by the perpendiculars at the other places. In
-//! coordinates:
+//! Vulkan (22.6) and OpenGL derive them from the inner level's division of an edge, at places t
+//! from 0 to 1. The corner of ring r is where two lines meet that are perpendicular to the patch's
+//! edges at their r-th places. The ring's edge is divided by the perpendiculars at the other
+//! places. In coordinates:
 //!
 //! ```text
 //!         depth of ring r = 2/3 t(r)            n = 5: t = 0, 1/5, 2/5, 3/5, 4/5, 1
@@ -16,23 +16,23 @@
 //!            v=0
 //! ```
 //!
-//! A vertex is on the ring that its distance from the outline says. Where two rings are so close
-//! that rounding may mix them, there are no [`Rings`], and no rule about them judges the patch.
+//! A vertex belongs to a ring by its distance from the outline. Where two rings are so close that
+//! rounding might mix them up, no [`Rings`] are made, and no rule about rings judges the patch.
 
 use super::answer::Place;
 use super::edge::TOLERANCE;
 use tess_core::fixed_point::ONE;
 
-/// Vertices of one ring.
+/// The vertices of one ring.
 #[derive(Debug)]
 pub(super) struct Ring {
     /// Its number, from 1.
     pub(super) number: u32,
-    /// The least and the largest distance of its vertices from the outline, as the least of u, v
-    /// and w.
+    /// The smallest and the largest distance of its vertices from the outline, where a distance is
+    /// the smallest of u, v and w.
     pub(super) depths: [u32; 2],
-    /// Vertices of each edge in the order of a clockwise walk, both corners included, each with its
-    /// place t.
+    /// The vertices of each edge in the order of a clockwise walk, including both corners, each
+    /// with its place t.
     pub(super) edges: [Vec<(u32, Place)>; 3],
 }
 
@@ -42,17 +42,17 @@ pub(super) struct Rings {
     pub(super) rings: Vec<Ring>,
 }
 
-/// How many vertices n segments of the inner level put inside.
+/// The number of vertices inside for `n` segments of the inner level.
 pub(super) fn vertices_inside(n: u32) -> usize {
     (1..=n / 2).map(|ring| ring_vertices(n, ring)).sum()
 }
 
-/// The number of vertices on a ring; the centre is one.
+/// The number of vertices on a ring; the centre is a ring with one.
 const fn ring_vertices(n: u32, ring: u32) -> usize {
     if 2 * ring == n { 1 } else { 3 * (n - 2 * ring) as usize }
 }
 
-/// The third coordinate of a place in the domain.
+/// The third barycentric coordinate of a place in the domain.
 const fn w([u, v]: Place) -> u32 {
     ONE.saturating_sub(u).saturating_sub(v)
 }
@@ -62,8 +62,8 @@ fn depth(place: Place) -> u32 {
 }
 
 impl Rings {
-    /// The rings of n segments that vertices inside make; `None` if there are fewer or more
-    /// vertices than these have, or rings are too close to tell apart.
+    /// The rings of `n` segments that the vertices inside form. `None` if the number of vertices
+    /// differs from that of `n` segments, or if rings are too close to tell apart.
     pub(super) fn new(mut inside: Vec<Place>, n: u32) -> Option<Self> {
         if inside.len() != vertices_inside(n) {
             return None;
@@ -85,7 +85,7 @@ impl Rings {
         Some(Self { rings })
     }
 
-    /// The places t that the outermost ring shows on its edge beside v = 0.
+    /// The places t of the outermost ring's vertices, from its edge along v = 0.
     pub(super) fn outermost(&self) -> Vec<u32> {
         let edge = self.rings.first().map(|ring| &ring.edges[1]);
         edge.into_iter().flatten().map(|(t, _)| *t).collect()
@@ -107,7 +107,7 @@ impl Ring {
     }
 }
 
-/// The place t on an outer edge from which a perpendicular leads to a vertex.
+/// The place t on an outer edge whose perpendicular leads to a vertex.
 fn along(edge: usize, place: Place) -> u32 {
     let [u, v] = place;
     let half = |distance: u32| distance.div_ceil(2);
@@ -122,7 +122,7 @@ fn along(edge: usize, place: Place) -> u32 {
 mod tests {
     use super::*;
 
-    /// The worked case in the head of this file, and the first numbers of vertices.
+    /// The worked example at the head of this file, and the smallest numbers of vertices.
     #[test]
     fn five_segments() {
         assert_eq!([2, 3, 4, 5, 6].map(vertices_inside), [1, 3, 7, 12, 19]);

@@ -1,9 +1,9 @@
-//! Rules of Direct3D, which says where each vertex is and which primitives there are
-//! (specification, sections 5 to 7).
+//! Rules of Direct3D, which specifies the place of each vertex and the primitives (specification,
+//! sections 5 to 7).
 //!
-//! The order of primitives is free, and so is the vertex that leads a triangle (section 13). The
-//! specified answer is the model's; there is none where a level has two legal conversions, or the
-//! patch may be culled.
+//! The order of primitives is free, and so is the leading vertex of a triangle (section 13). The
+//! specified answer is the model's. There is none if a level has two legal conversions or the patch
+//! is culled.
 
 use super::Judged;
 use super::answer::{Answer, Place, show};
@@ -12,7 +12,7 @@ use crate::case::Case;
 use std::collections::BTreeMap;
 use tess_core::Domain;
 
-/// The answer that Direct3D specifies for a case, if it leaves no choice.
+/// The answer that Direct3D specifies for a case, if it leaves no choice and is not empty.
 pub(super) fn specified(case: &Case) -> Option<Answer> {
     if !has_one_conversion(case) {
         return None;
@@ -21,7 +21,7 @@ pub(super) fn specified(case: &Case) -> Option<Answer> {
     answer.filter(|answer| !answer.is_empty())
 }
 
-/// As many primitives as the specified answer has; coinciding points may be merged.
+/// There are as many primitives as in the specified answer; coinciding points may be merged.
 pub(super) fn counts(answer: &Answer, specified: Option<&Answer>) -> Judged {
     let size = answer.case.primitive_size();
     let (found, asked) = (answer.size() / size, specified?.size() / size);
@@ -32,7 +32,7 @@ pub(super) fn counts(answer: &Answer, specified: Option<&Answer>) -> Judged {
     })
 }
 
-/// Vertices are at the specified places.
+/// The vertices are at the specified places.
 pub(super) fn places(answer: &Answer, specified: Option<&Answer>) -> Judged {
     let specified = specified?;
     if answer.is_empty() {
@@ -52,7 +52,8 @@ pub(super) fn places(answer: &Answer, specified: Option<&Answer>) -> Judged {
     })
 }
 
-/// How often each primitive comes, by its vertices; the smallest leads a triangle.
+/// The number of times that each primitive occurs, by its vertices. A triangle starts with its
+/// smallest vertex.
 fn primitives_of(answer: &Answer) -> BTreeMap<Vec<Place>, usize> {
     let mut times = BTreeMap::new();
     for primitive in answer.vertices.chunks(answer.case.primitive_size()) {
@@ -66,8 +67,8 @@ fn primitives_of(answer: &Answer) -> BTreeMap<Vec<Place>, usize> {
     times
 }
 
-/// Primitives are the specified ones, in any order; coinciding points may be merged. Lines of
-/// triangles and quads join the points in their order, which is free, so they are not compared.
+/// The primitives are the specified ones, in any order; coinciding points may be merged. Lines of
+/// triangles and quads are not compared: they join the points in their order, which is free.
 pub(super) fn primitives(answer: &Answer, specified: Option<&Answer>) -> Judged {
     let is_view = answer.case.primitive_size() == 2 && answer.case.domain() != Domain::Isoline;
     let specified = specified?;

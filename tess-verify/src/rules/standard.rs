@@ -3,7 +3,7 @@
 use crate::names::{Named, named};
 
 named! {
-    /// A standard whose tessellator this is.
+    /// A standard by which a tessellator is judged.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum Specification: "specification" {
@@ -17,52 +17,55 @@ named! {
 }
 
 named! {
-    /// A demand of a standard on output.
+    /// A demand of a standard on a tessellator's output.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Rule: "rule" {
-        /// Equal levels and state give equal primitives in equal order.
+        /// Equal levels and state give the same primitives in the same order.
         Same = "same",
-        /// The vertices of an outer edge depend on the edge's own level and the spacing.
+        /// The vertices of an outer edge depend only on the edge's own level and the spacing.
         EdgeLevel = "edge-level",
-        /// The vertices of an outer edge are mirrored about its middle.
+        /// The vertices of an outer edge are symmetric about its middle.
         Symmetric = "symmetric",
         /// Equal levels give equal vertices on every outer edge.
         EveryEdge = "every-edge",
         /// The winding does not change the set of triangles.
         Winding = "winding",
-        /// Triangles without a vertex on the outline depend on the inner levels and the spacing.
+        /// Triangles without a vertex on the outline depend only on the inner levels and the
+        /// spacing.
         Interior = "interior",
-        /// Triangles at an outer edge depend on its level, the inner levels and the spacing.
+        /// Triangles at an outer edge depend only on its level, the inner levels and the spacing.
         Transition = "transition",
-        /// Vertices exist and lie in the domain.
+        /// Every index names a vertex, and the vertices are in the domain.
         Range = "range",
-        /// A patch has no primitive if and only if an outer level is not above 0, or NaN.
+        /// A patch has no primitives if and only if an outer level is NaN or not above 0.
         Discard = "discard",
         /// An edge has as many segments as its level asks for.
         Segments = "segments",
-        /// Segments are equally long except two, which are symmetric and vanish just above the
-        /// integer below.
+        /// All segments have equal lengths, except two, which are symmetric and vanish just above
+        /// the integer below.
         Spacing = "spacing",
         /// The inner levels give the numbers of columns and rows of a quad, and of rings of a
         /// triangle.
         InnerLevels = "inner-levels",
-        /// The columns, rows and rings of the inside are spaced as edges of their levels are.
+        /// The columns, rows and rings inside are spaced like edges of the same levels.
         InnerSpacing = "inner-spacing",
-        /// Lines of equal levels are divided alike: outer edges, isolines, columns, rows and rings.
+        /// Lines of equal levels are divided equally: outer edges, isolines, columns, rows and
+        /// rings.
         EqualLevels = "equal-levels",
         /// The two shorter segments grow with the level.
         Monotone = "monotone",
-        /// Triangles cover the domain once: every edge within is shared, and the outline is walked
+        /// Triangles cover the domain once: every edge inside is shared, and the outline is walked
         /// once.
         Cover = "cover",
-        /// Each triangle joins two neighbouring vertices of one line with one of the next line.
+        /// Each triangle joins two neighbouring vertices of one line with a vertex of the next
+        /// line.
         Neighbours = "neighbours",
-        /// No triangle turns the other way.
+        /// No triangle turns the wrong way.
         Orientation = "orientation",
-        /// Isolines are equally spaced, none lies at v = 1, and each covers its line once.
+        /// Isolines are equally spaced, none is at v = 1, and each covers its line once.
         Isolines = "isolines",
-        /// Points are drawn once each.
+        /// Each point is drawn once.
         PointsOnce = "points-once",
         /// Points are the vertices that lines or triangles of the same levels have.
         PointsSame = "points-same",
@@ -75,7 +78,7 @@ named! {
     }
 }
 
-/// A section of Vulkan 1.3's chapter about tessellation.
+/// Sections about tessellation in Vulkan 1.3.
 mod vulkan {
     pub(super) const DISCARD: &str = "22.2 Tessellator Patch Discard";
     pub(super) const SPACING: &str = "22.3 Tessellator Spacing";
@@ -85,10 +88,11 @@ mod vulkan {
     pub(super) const POINTS: &str = "22.9 Tessellation Point Mode";
 }
 
-/// The section of OpenGL 4.6 about tessellation without its list of invariance rules.
+/// The section of OpenGL 4.6 about tessellation, without its list of invariance rules.
 const OPENGL: &str = "11.2.2 Tessellation Primitive Generation";
 
-/// The list of invariance rules, which Vulkan and OpenGL share with title and numbers.
+/// A rule of the list of invariance rules, which has the same title and numbers in Vulkan and
+/// OpenGL.
 macro_rules! invariance {
     ($number:literal) => {
         Some(concat!("Tessellation Invariance, rule ", $number))
@@ -141,7 +145,7 @@ const fn vulkan_source(rule: Rule) -> Option<&'static str> {
     }
 }
 
-/// OpenGL's text is the one that Vulkan's was made from: it states the same rules.
+/// Vulkan's text is derived from OpenGL's, so OpenGL states the same rules.
 const fn opengl_source(rule: Rule) -> Option<&'static str> {
     match rule {
         Rule::Same
@@ -157,7 +161,7 @@ const fn opengl_source(rule: Rule) -> Option<&'static str> {
     }
 }
 
-/// Direct3D's locations are exact, so `Places` and `Primitives` include what other standards say of
+/// Direct3D's locations are exact, so `Places` and `Primitives` cover what other standards say of
 /// spacing, winding and the inside.
 const fn d3d11_source(rule: Rule) -> Option<&'static str> {
     match rule {

@@ -1,4 +1,4 @@
-//! The signals of the circuit in `rtl/`: which stage and module gives each, and its value by the
+//! The signals of the circuit in `rtl/`: the stage and module that drive each, and its value in the
 //! model.
 //!
 //! ```
@@ -21,9 +21,9 @@ use tess_core::ProcessedFactor;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Part {
-    /// The patch as a whole: its counts.
+    /// The whole patch: its counts.
     Patch,
-    /// A factor, by its number in the specification's order.
+    /// A factor, by its number in the order of the specification.
     Factor(u32),
     /// A domain point.
     Point(u32),
@@ -31,7 +31,7 @@ pub enum Part {
     Primitive(u32),
 }
 
-/// Such as `factor 3`.
+/// For example `factor 3`.
 impl fmt::Display for Part {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -46,11 +46,11 @@ impl fmt::Display for Part {
 /// A signal of the circuit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Signal {
-    /// The stage, as benches name it.
+    /// The stage, as test benches name it.
     stage: &'static str,
-    /// Its name there.
+    /// Its name in that stage.
     name: &'static str,
-    /// The module that makes it.
+    /// The module that drives it.
     module: &'static str,
 }
 
@@ -58,8 +58,8 @@ const fn signal(stage: &'static str, name: &'static str, module: &'static str) -
     Signal { stage, name, module }
 }
 
-// Those of each part are in the order in which each feeds the next. `rtl/stages.tsv` has the same
-// list for the circuit's benches, which a test compares.
+// The signals of each part are in order: each one feeds those after it. `rtl/stages.tsv` has the
+// same list for the circuit's test benches; a test compares the two.
 const CULLED: Signal = signal("factors", "culled", "tess_factors");
 const FIXED: Signal = signal("factors", "fixed", "tess_factor");
 const ODD: Signal = signal("factors", "odd", "tess_factor");
@@ -87,12 +87,12 @@ const LAST_PRIMITIVE: Signal = signal("connect", "last", "tess_connect");
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct SignalDifference {
-    /// The stage, as benches name it.
+    /// The stage, as test benches name it.
     pub stage: &'static str,
     /// Its name.
     #[cfg_attr(feature = "serde", serde(rename = "signal"))]
     pub name: &'static str,
-    /// The module of `rtl/` that makes it, in a file of that name.
+    /// The module of `rtl/` that drives it; its file has the same name.
     pub module: &'static str,
     /// The circuit's value.
     pub observed: u32,
@@ -110,23 +110,23 @@ impl fmt::Display for SignalDifference {
     }
 }
 
-/// Nothing can be compared.
+/// Signals that cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SignalError {
     /// The patch has no such factor, point or primitive.
     #[error("there is no {0}")]
     NoSuchPart(Part),
-    /// No signal of this part has this name; the names there are.
+    /// No signal of this part has this name; with the names that exist.
     #[error("no signal {} here, expected one of: {}", quoted(.0), .1.join(", "))]
     NoSuchSignal(String, Vec<&'static str>),
 }
 
-/// The signals that differ from the model, in the order in which each feeds the next. What follows
-/// from the first is there too.
+/// The signals that differ from the model, in an order in which each feeds those after it.
+/// Differences that follow from the first one are included.
 ///
 /// # Errors
-/// [`SignalError`]. A culled patch has no signal of its factors but `culled`.
+/// [`SignalError`]. The only signal of a culled patch's factors is `culled`.
 pub fn compare_signals(
     case: &Case,
     part: Part,
@@ -209,8 +209,8 @@ mod tests {
         line.parse().expect("a case")
     }
 
-    /// The list of the circuit's benches, row by row: the option of `tess explain` that chooses the
-    /// part, then the signal. A published package has none.
+    /// The list of the circuit's test benches has the same rows: the option of `tess explain` that
+    /// selects the part, and the signal. A published package has no such list.
     #[test]
     fn the_circuit_has_the_same_signals() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../rtl/stages.tsv");
@@ -233,7 +233,7 @@ mod tests {
         assert_eq!(own.collect::<Vec<_>>(), rows.collect::<Vec<_>>());
     }
 
-    /// The values of a circuit without a fault do not differ; each signal alone is seen.
+    /// The values of a fault-free circuit do not differ; a fault in any single signal is seen.
     #[test]
     fn every_signal_is_compared() {
         let case =

@@ -1,6 +1,6 @@
-//! A patch as a picture: what `tess draw` and the picture formats of `tess patch` show.
+//! A patch as a picture, for `tess draw` and for the picture formats of `tess patch`.
 //!
-//! [`draw`] makes shapes of a listing; [`Drawing::to_svg`] writes them.
+//! [`draw`] turns a listing into shapes; [`Drawing::to_svg`] writes them.
 
 mod colours;
 mod labels;
@@ -16,50 +16,50 @@ use layout::Layout;
 pub use overlay::{Differences, differing, overlay};
 use tess_core::{Domain, OutputPrimitive};
 
-/// The contents of a picture beside the primitives and points themselves.
+/// What a picture shows besides primitives and points, and its size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrawOptions {
-    /// Number the points.
+    /// Whether points are numbered.
     pub indices: bool,
     /// The meaning of the primitives' colours.
     pub colours: Colours,
-    /// Width and height in pixels.
+    /// The width and height, in pixels.
     pub size: u32,
 }
 
 /// The meaning of the primitives' colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Colours {
-    /// Nothing: one colour.
+    /// No meaning: one colour.
     #[default]
     Plain,
-    /// The order of the primitives, which are numbered too.
+    /// The order of the primitives, which are also numbered.
     Order,
-    /// The ring that a triangle is stitched to; one colour where [`has_rings`] is false.
+    /// The ring to which a triangle is stitched; one colour if [`has_rings`] is false.
     Rings,
 }
 
 impl Default for DrawOptions {
-    /// Nothing but primitives and points, on 800 x 800 pixels.
+    /// Only primitives and points, on 800 x 800 pixels.
     fn default() -> Self {
         Self { indices: false, colours: Colours::Plain, size: 800 }
     }
 }
 
-/// Whether the triangles of a patch can be coloured by ring: isolines, points and lines have none.
+/// Whether a patch's triangles can be coloured by ring. Isolines, points and lines cannot.
 #[must_use]
 pub const fn has_rings(domain: Domain, output: OutputPrimitive) -> bool {
     matches!(output, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw)
         && !matches!(domain, Domain::Isoline)
 }
 
-/// A picture and how many numbers it had no room for.
+/// A picture, and the number of labels for which it had no room.
 #[derive(Clone, Debug)]
 pub struct Drawing {
     picture: Picture,
     /// The colour of each primitive: red, green and blue.
     pub fills: Vec<[u8; 3]>,
-    /// Numbers asked for that would have been too small to read.
+    /// The number of requested labels that would have been too small to read.
     pub labels_left_out: usize,
 }
 
@@ -70,7 +70,7 @@ pub fn draw(patch: &Listing, options: &DrawOptions) -> Drawing {
     let points = layout.place_all(&patch.output.points);
     let mut drawing = Drawing::new(patch, options, &layout);
     drawing.primitives(patch, options, &points);
-    // Primitives that are points have their numbers where the points have theirs.
+    // Primitives that are points have their numbers where the points would have theirs.
     let are_points = options.colours == Colours::Order && patch.case.primitive_size() == 1;
     if are_points {
         drawing.ordered_points(patch, options, &points);
@@ -95,7 +95,7 @@ impl Drawing {
     /// The picture as a PNG file.
     ///
     /// # Errors
-    /// A size of 0, or one that memory does not hold.
+    /// The size is 0, or the picture does not fit into memory.
     #[cfg(feature = "png")]
     pub fn to_png(&self) -> std::io::Result<Vec<u8>> {
         png::render(&self.picture)
@@ -112,7 +112,7 @@ impl Drawing {
         Self { picture, fills, labels_left_out: 0 }
     }
 
-    /// Fills first, edges over all of them.
+    /// Draws the fills first, then all edges over them.
     fn primitives(&mut self, patch: &Listing, options: &DrawOptions, points: &[Position]) {
         let fills = colours_of(patch, options.colours);
         let shapes = &mut self.picture.shapes;
@@ -166,7 +166,7 @@ impl Drawing {
         self.discs(points, &vec![PAPER; points.len()], POINT);
     }
 
-    /// The points in the order of the primitives that they are.
+    /// Draws the points in the order of the primitives that they are.
     fn ordered_points(&mut self, patch: &Listing, options: &DrawOptions, points: &[Position]) {
         let (mut places, mut colours) = (Vec::new(), Vec::new());
         for (primitive, fill) in patch.primitives().zip(colours_of(patch, options.colours)) {
@@ -178,7 +178,8 @@ impl Drawing {
         self.discs(&places, &colours, INK);
     }
 
-    /// Numbered discs, as large as their neighbours allow; dots with a rim where there is no room.
+    /// Draws numbered discs, as large as their neighbours allow, and rimmed dots where there is no
+    /// room.
     fn discs(&mut self, places: &[Position], fills: &[Colour], rim: Colour) {
         let dot = layout::dot_radius(places.len());
         let labels: Vec<_> = (0..)

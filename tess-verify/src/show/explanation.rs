@@ -1,4 +1,4 @@
-//! One patch, stage by stage: what `tess explain` prints as text or, with the feature `serde`,
+//! One patch, stage by stage, as `tess explain` prints it: as text or, with the feature `serde`, as
 //! JSON.
 
 mod decisions;
@@ -18,8 +18,8 @@ pub(crate) use primitive::PrimitiveReport;
 use std::fmt;
 use structure::{PointRun, Stitch};
 
-/// Where a part of a patch comes from, or every stage of the patch: text, and JSON with the feature
-/// `serde`.
+/// The origin of one part of a patch, or every stage of the patch: as text, and with the feature
+/// `serde` as JSON.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Explanation(PartReport);
@@ -103,13 +103,13 @@ impl PatchReport {
     }
 }
 
-/// A 16.16 or 15.16 number, exactly: hex bits and decimal value.
+/// A 16.16 or 15.16 number, exact: its bits in hex and its decimal value.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(crate) struct Fixed {
     /// The bits.
     pub(crate) bits: u32,
-    /// `bits / 65536`, exact.
+    /// `bits / 65536`, which is exact.
     pub(crate) value: f64,
 }
 

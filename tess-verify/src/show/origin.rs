@@ -1,13 +1,13 @@
-//! Where the model's side of a difference comes from.
+//! The origin of the model's side of a difference.
 
 use super::{PointReport, PrimitiveReport};
 use crate::check::{Difference, Element};
 use tess_core::{Patch, Tessellation};
 
 impl Difference {
-    /// Where the model's element comes from, with the values that went into it; `None` if the model
-    /// has no such element. An element by its vertices is the first of the model's that has them,
-    /// whichever vertex leads.
+    /// The origin of the model's element, with the values that led to it; `None` if the model has
+    /// no such element. An element given by its vertices is the model's first one that has them,
+    /// whatever its leading vertex.
     #[must_use]
     pub fn origin(&self) -> Option<String> {
         let patch = self.case?.patch();
@@ -41,7 +41,7 @@ fn place_of(output: &Tessellation, i: usize) -> Option<[u32; 2]> {
     output.points.get(i).map(|point| [point.u.to_bits(), point.v.to_bits()])
 }
 
-/// The number of the first primitive with these vertices, whichever leads.
+/// The number of the first primitive with these vertices, whatever its leading vertex.
 fn with_vertices(output: &Tessellation, places: &[[u32; 2]]) -> Option<usize> {
     let size = places.len();
     let is_same = |primitive: &[u32]| {

@@ -1,4 +1,4 @@
-//! A flat drawing: shapes, and the SVG file that they make.
+//! A flat drawing: shapes, and their SVG file.
 
 mod digits;
 #[cfg(feature = "png")]
@@ -7,14 +7,14 @@ pub(super) mod svg;
 
 pub(super) use digits::width as number_width;
 
-/// A position in pixels, y down.
+/// A position in pixels, with y pointing down.
 pub(super) type Position = [f64; 2];
 
-/// A colour, opaque red, green and blue.
+/// An opaque colour: red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Colour(pub(super) u8, pub(super) u8, pub(super) u8);
 
-/// A shape; shapes are drawn in painter's order.
+/// A shape. Later shapes are drawn over earlier ones.
 #[derive(Clone, Debug)]
 pub(super) enum Shape {
     /// A filled polygon.
@@ -28,7 +28,7 @@ pub(super) enum Shape {
     Line {
         /// Its points.
         points: Vec<Position>,
-        /// Width in pixels.
+        /// The width in pixels.
         width: f64,
         /// Its colour.
         stroke: Colour,
@@ -37,11 +37,11 @@ pub(super) enum Shape {
     Disc {
         /// Its centre.
         centre: Position,
-        /// Radius in pixels.
+        /// The radius in pixels.
         radius: f64,
-        /// Colour of the inside.
+        /// The colour of the inside.
         fill: Colour,
-        /// Colour of the rim.
+        /// The colour of the rim.
         rim: Colour,
     },
 }
@@ -49,16 +49,16 @@ pub(super) enum Shape {
 /// A square drawing.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
-    /// Width and height in pixels.
+    /// The width and height in pixels.
     pub(super) size: u32,
-    /// The picture in words, for people who cannot see it.
+    /// A description of the picture for people who cannot see it.
     pub(super) title: String,
     /// The shapes, back to front.
     pub(super) shapes: Vec<Shape>,
 }
 
 impl Picture {
-    /// A number, centred at a position; its digits are `height` pixels high.
+    /// Draws a number, centred at a position, with digits that are `height` pixels high.
     pub(super) fn number(&mut self, number: u32, centre: Position, height: f64, stroke: Colour) {
         let strokes = digits::strokes(number, centre, height);
         let width = digits::stroke_width(height);

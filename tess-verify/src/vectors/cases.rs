@@ -1,4 +1,4 @@
-//! Cases that were asked: the cases of a vector file, or case lines alone.
+//! Cases to answer: those of a vector file, or plain case lines.
 
 use super::header::MAGIC;
 use super::lines::Lines;
@@ -6,14 +6,15 @@ use super::{Emptiness, Header, VectorError, VectorFile};
 use crate::case::{Case, CaseError};
 use std::io::{BufRead, Chain, Cursor, Read};
 
-/// The cases of a text: of a vector file whose records are single patches, or lines that begin with
-/// `case`, between which empty lines and lines that begin with `#` may stand.
+/// The cases of a text: of a vector file whose records are single patches, or of lines that begin
+/// with `case`. Such lines may have empty lines and lines that begin with `#` between them.
 ///
-/// It ends after the first error. A text without a case is an error.
+/// The iterator ends after the first error. A text without a case is an error.
 #[derive(Debug)]
 pub struct Cases<R> {
     source: CaseSource<R>,
-    /// Whether a text without a case is right, if it says so by a header or a remark.
+    /// Whether a text without a case is accepted, if a header or a remark shows that this is
+    /// intended.
     may_be_empty: bool,
     found: bool,
     ended: bool,
@@ -25,14 +26,15 @@ enum CaseSource<R> {
     Lines(Lines<Begun<R>>),
 }
 
-/// A reader with the bytes in front that were taken from it.
+/// A reader, preceded by the bytes that were already taken from it.
 type Begun<R> = Chain<Cursor<Vec<u8>>, R>;
 
-/// Takes the bytes that a text and `expected` begin with, however few the reader has at a time.
+/// Takes from the reader the longest common beginning of its text and `expected`, however few bytes
+/// the reader supplies at a time.
 fn common_beginning(reader: &mut impl BufRead, expected: &[u8]) -> Vec<u8> {
     let mut taken = Vec::new();
     while taken.len() < expected.len() {
-        // What cannot be read is an error of the first line.
+        // A read error is reported later, as an error of the first line.
         let Ok(buffer) = reader.fill_buf() else { break };
         let pairs = buffer.iter().zip(&expected[taken.len()..]);
         let more = pairs.take_while(|(found, expected)| found == expected).count();
@@ -47,16 +49,16 @@ fn common_beginning(reader: &mut impl BufRead, expected: &[u8]) -> Vec<u8> {
 }
 
 impl<R: BufRead> Cases<R> {
-    /// Begins to read. `name` is what errors call the text.
+    /// Begins to read. `name` is the text's name in errors.
     ///
     /// # Errors
-    /// A vector file that begins wrongly, or whose records are no single patches.
+    /// A vector file whose head is wrong, or whose records are not single patches.
     pub fn new(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
         Self::open(name.as_ref(), reader, Emptiness::Refused)
     }
 
-    /// [`Self::new`], for a baseline: it may be a vector file without records, or have only
-    /// remarks. An empty text is still an error.
+    /// Does what [`Self::new`] does, but accepts a vector file without records and a text of only
+    /// remarks, as a baseline may be. An empty text is still an error.
     ///
     /// # Errors
     /// As for [`Self::new`].
@@ -72,7 +74,9 @@ impl<R: BufRead> Cases<R> {
             let file = VectorFile::open(name, reader, emptiness)?;
             if !file.header().kind.has_cases() {
                 let kind = crate::names::Named::name(file.header().kind);
-                let message = format!("{kind} has no single patches; listings and patches have");
+                let message = format!(
+                    "records of the kind {kind} are not single patches; use listings or patches"
+                );
                 return Err(file.lines.error("kind", message));
             }
             CaseSource::File(file)
@@ -83,7 +87,7 @@ impl<R: BufRead> Cases<R> {
         Ok(Self { source, may_be_empty, found: false, ended: false })
     }
 
-    /// The first line of a vector file; `None` of case lines alone.
+    /// The header of a vector file; `None` for plain case lines.
     pub const fn header(&self) -> Option<&Header> {
         match &self.source {
             CaseSource::File(file) => Some(file.header()),
@@ -91,7 +95,8 @@ impl<R: BufRead> Cases<R> {
         }
     }
 
-    /// The next case: what `of_case` makes of a record, or `parse` of a line and its number.
+    /// The next case, through `of_case` from a record, or through `parse` from a line and its
+    /// number.
     pub(crate) fn read<T>(
         &mut self,
         of_case: impl FnOnce(Case) -> T,
@@ -137,7 +142,7 @@ mod tests {
 
     const LINE: &str = "case isoline integer line ruler 40000000 40400000\n";
 
-    /// Only what says that it is empty may be.
+    /// Only a text that says that it is empty may be.
     #[test]
     fn texts_without_a_case() {
         let header = format!("{MAGIC} 1 kind=listings count=0 source=a\n");
@@ -157,7 +162,7 @@ mod tests {
         }
     }
 
-    /// A pipe may give few bytes at a time.
+    /// A pipe may supply few bytes at a time.
     #[test]
     fn the_format_does_not_depend_on_how_much_comes_at_once() {
         let listing = format!("{LINE}points 0\nindices 0\nend\n");

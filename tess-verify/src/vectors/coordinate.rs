@@ -1,8 +1,8 @@
-//! Coordinates as a device gives them, and as 16.16 numbers.
+//! Conversion of a device's coordinates to 16.16 numbers.
 
 use tess_core::fixed_point::ONE;
 
-/// The 16.16 number that a binary32 of these bits is, if it is one in 0..=1.
+/// The 16.16 number that equals the binary32 with these bits; `None` if that is not one in 0..=1.
 #[must_use]
 pub const fn fixed(bits: u32) -> Option<u32> {
     let exponent = bits >> 23;
@@ -19,32 +19,33 @@ pub const fn fixed(bits: u32) -> Option<u32> {
     }
 }
 
-/// The 16.16 number in 0..=1 that a decimal text is, rounded to the digits that it has.
+/// The 16.16 number in 0..=1 that a decimal text stands for; `None` if there is none.
 ///
-/// The text must be the number itself or the number rounded to the text's last digit, and must be
-/// nearer to the number's binary32 than to any other. So `0.333328247` is 21845/65536, and
-/// `0.999999999` and `1e-50` are no numbers: 1 and 0 with as many digits are written otherwise.
+/// The text must be the number itself, or the number rounded to the text's last digit. Its nearest
+/// binary32 must be the number's. So `0.333328247` is 21845/65536, but `0.999999999` and `1e-50`
+/// are not numbers: with as many digits, 1 and 0 are written differently.
 #[must_use]
 pub(crate) fn from_decimal(text: &str) -> Option<u32> {
     let number = fixed(text.parse::<f32>().ok()?.to_bits())?;
     let Decimal { digits, decimals } = Decimal::parse(text)?;
-    // |digits / 10^decimals - number / 2^16| is at most half of 10^-decimals. Both products are below 2^80.
+    // |digits / 10^decimals - number / 2^16| is at most half of 10^-decimals. Both products are < 2^80.
     let unit = 10_u128.checked_pow(decimals)?;
     let is_rounded = (digits << 16).abs_diff(u128::from(number) * unit) <= 1 << 15;
     is_rounded.then_some(number)
 }
 
-/// A number of at most 17 digits: `digits` / 10^`decimals`.
+/// A decimal number of at most 17 digits: `digits` / 10^`decimals`.
 struct Decimal {
     digits: u128,
     decimals: u32,
 }
 
 impl Decimal {
-    /// A multiple of 2^-16 has at most 16 decimals, so a text with more that are not 0 is none.
+    /// The most decimals. A multiple of 2^-16 has at most 16, so a text with more nonzero ones is
+    /// not one.
     const MOST: u32 = 16;
 
-    /// Reads what Rust reads as a finite number, without a minus.
+    /// Parses what Rust reads as a finite number, without a minus sign.
     fn parse(text: &str) -> Option<Self> {
         let (mantissa, exponent) = match text.split_once(['e', 'E']) {
             Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
@@ -83,8 +84,8 @@ mod tests {
         }
     }
 
-    /// With 9 significant digits, as `%.9g` writes them, with 12 decimals and more, and the
-    /// shortest that a reader takes for the binary32.
+    /// With 9 significant digits, as `%.9g` writes them; with 12 and more decimals; and in the
+    /// shortest form that reads back as the binary32.
     #[test]
     fn every_coordinate_in_decimal() {
         for number in (0..=ONE).step_by(7).chain([1, ONE - 1, ONE]) {
@@ -103,8 +104,8 @@ mod tests {
         }
     }
 
-    /// Texts that only round to a coordinate as a binary32, and other forms of numbers that are
-    /// none.
+    /// Texts that become a coordinate only by rounding to binary32, and texts that are not
+    /// coordinates in any form.
     #[test]
     fn decimals_that_are_no_coordinates() {
         for text in [

@@ -1,4 +1,4 @@
-//! Listings by coordinates: the vertices of a patch's primitives in order, as captures have them.
+//! Listings by coordinates: the vertices of a patch's primitives, in order, as in captures.
 
 use super::error::VectorError;
 use super::lines::{Line, Lines};
@@ -16,25 +16,25 @@ use tess_core::{Domain, DomainPoint, MAX_INDICES, Tessellation};
 
 /// A case, and the coordinates of each vertex of each primitive of an output for it.
 ///
-/// Its text is a record of a vector file of the kind `listings`, in the notation `hex`.
+/// Written as text, it is a record of a vector file of the kind `listings`, in the notation `hex`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coordinates {
     /// The line of the file that it starts on.
     pub line: u64,
     /// The tessellated case.
     pub case: Case,
-    /// The vertices, as many for each primitive as it has.
+    /// The vertices, primitive by primitive.
     pub(crate) vertices: Vec<Vertex>,
 }
 
-/// Coordinates of a vertex: 16.16 numbers.
+/// The coordinates of a vertex, as 16.16 numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Vertex {
-    /// First coordinate.
+    /// The first coordinate.
     pub(crate) u: u32,
-    /// Second coordinate.
+    /// The second coordinate.
     pub(crate) v: u32,
-    /// Third coordinate, if it was captured.
+    /// The third coordinate, if it was captured.
     pub(crate) w: Option<u32>,
 }
 
@@ -49,10 +49,10 @@ impl Coordinates {
         }
     }
 
-    /// The output with the model's numbers: each vertex is the model's point at that place, the one
-    /// that the model has in this position if several coincide; places that the model lacks are
-    /// points after the model's. An output that is the model's sequence is the model's, index for
-    /// index.
+    /// The output with the model's point numbers. Each vertex becomes the model's point at its
+    /// place; if several points coincide there, it becomes the one that the model has in this
+    /// position. Places that the model lacks become points after the model's. An output that is the
+    /// model's sequence therefore equals the model's, index for index.
     #[must_use]
     pub fn numbered(&self) -> Listing {
         let model = self.case.patch().tessellate();
@@ -67,8 +67,8 @@ impl Coordinates {
         Listing { line: self.line, case: self.case, output: Tessellation { points, indices } }
     }
 
-    /// The first vertex whose third coordinate is wrong, and what is right there: 1 - u - v on
-    /// triangles, 0 elsewhere.
+    /// The first vertex whose third coordinate is wrong: its number, that coordinate, and the right
+    /// one. On triangles 1 - u - v is right, elsewhere 0.
     pub(crate) fn wrong_third(&self) -> Option<(usize, u32, u32)> {
         self.vertices.iter().enumerate().find_map(|(number, vertex)| {
             let right = match self.case.domain() {
@@ -81,7 +81,7 @@ impl Coordinates {
     }
 }
 
-/// The number of the first point at a place, which is added if there is none.
+/// The number of the first point at a place; the point is added if there is none.
 fn number_of(points: &mut Vec<DomainPoint>, place: DomainPoint) -> u32 {
     let number = points.iter().position(|point| *point == place).unwrap_or(points.len());
     if number == points.len() {
@@ -103,12 +103,12 @@ impl fmt::Display for Coordinates {
 }
 
 named! {
-    /// How coordinates are written.
+    /// The notation of coordinates.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     enum Notation: "notation" {
         /// 16.16 numbers of 5 to 8 hex digits: 10000 is 1.
         Hex = "hex",
-        /// 16.16 numbers, decimal: 65536 is 1.
+        /// 16.16 numbers in decimal: 65536 is 1.
         Decimal = "decimal",
         /// Numbers from 0 to 1, or `0x` and the bits of a binary32.
         Float = "float",
@@ -129,8 +129,8 @@ impl Notation {
 
     const fn right(self) -> &'static str {
         match self {
-            Self::Hex => "5 to 8 hex digits, 10000 being 1",
-            Self::Decimal => "whole numbers of 2^-16, 65536 being 1",
+            Self::Hex => "5 to 8 hex digits, where 10000 is 1",
+            Self::Decimal => "whole numbers of 2^-16, where 65536 is 1",
             Self::Float => {
                 "multiples of 2^-16 from 0 to 1, with 9 digits or as 0x and the bits of a binary32"
             }
@@ -145,7 +145,7 @@ pub(super) fn is_announced(line: &Line<'_>) -> bool {
     line.text.split(' ').next() == Some(WORD)
 }
 
-/// Reads what follows a case, from the line that announces coordinates to `end`.
+/// Reads the part of a record after its case, from the line that announces coordinates to `end`.
 pub(super) fn read<R: BufRead>(
     lines: &mut Lines<R>,
     case: Case,
@@ -173,11 +173,11 @@ pub(super) fn read<R: BufRead>(
     words::end(line)?;
     let (got, size) = (vertices.len(), case.primitive_size());
     if count.is_some_and(|count| count != got) {
-        let message = format!("{} vertices are announced, these are {got}", count.unwrap_or(0));
+        let message = format!("{} vertices are announced, but there are {got}", count.unwrap_or(0));
         return Err(line.error(WORD, message));
     }
     if !got.is_multiple_of(size) {
-        let message = format!("{got} is no multiple of {size}, the size of a primitive");
+        let message = format!("{got} is not a multiple of {size}, the size of a primitive");
         return Err(line.error(WORD, message));
     }
     let numbers = || vertices.iter().flat_map(|vertex| [vertex.u, vertex.v]);
@@ -188,7 +188,7 @@ pub(super) fn read<R: BufRead>(
     Ok(Coordinates { line: start, case, vertices })
 }
 
-/// The notation, and the number of vertices if it is given.
+/// The notation, and the number of vertices if that is given.
 fn announced(line: Line<'_>) -> Result<(Notation, Option<usize>), VectorError> {
     let mut words = line.text.split(' ').skip(1);
     let notation = Notation::from_name(words.next().unwrap_or_default());

@@ -2,7 +2,7 @@
 
 use tess_core::{DomainPoint, FactorContext, Tessellation};
 
-/// FNV-1a with 64 bits over little-endian 32-bit words.
+/// A 64-bit FNV-1a digest of little-endian 32-bit words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fnv1a(u64);
 
@@ -14,7 +14,7 @@ impl Default for Fnv1a {
 }
 
 impl Fnv1a {
-    /// Continues over words.
+    /// Adds words to the digest.
     pub fn words(&mut self, words: impl IntoIterator<Item = u32>) {
         let step = |digest: u64, byte| (digest ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3);
         self.0 = words
@@ -22,13 +22,14 @@ impl Fnv1a {
             .fold(self.0, |digest, word| word.to_le_bytes().into_iter().fold(digest, step));
     }
 
-    /// Continues over points: u, then v of each.
+    /// Adds points to the digest: u, then v of each.
     fn points(&mut self, points: &[DomainPoint]) {
         self.words(points.iter().flat_map(|point| [point.u.to_bits(), point.v.to_bits()]));
     }
 
-    /// Continues over a whole patch, as chained rows do: point count, index count, points, indices.
-    /// An implementation under test may return more than a patch has, never 2^32 elements.
+    /// Adds a whole patch to the digest, as chained rows do: the point count, the index count, the
+    /// points and the indices. An implementation under test may return more elements than a patch
+    /// has, but never 2^32.
     pub fn patch(&mut self, patch: &Tessellation) {
         let count = |elements| u32::try_from(elements).unwrap_or(u32::MAX);
         self.words([patch.points.len(), patch.indices.len()].map(count));
@@ -36,7 +37,7 @@ impl Fnv1a {
         self.words(patch.indices.iter().copied());
     }
 
-    /// Continues over the six numbers of a context, in the order of spec section 4's list.
+    /// Adds the six numbers of a context to the digest, in the order of the list in spec section 4.
     pub(crate) fn context(&mut self, context: &FactorContext) {
         self.words([
             context.inv_floor,
@@ -55,7 +56,7 @@ impl Fnv1a {
     }
 }
 
-/// The digest of points alone.
+/// The digest of points without a count.
 pub(crate) fn points_digest(points: &[DomainPoint]) -> u64 {
     let mut digest = Fnv1a::default();
     digest.points(points);

@@ -1,4 +1,4 @@
-//! The fault of a vector file, and its place.
+//! The error of a vector file, with its place.
 
 use std::sync::Arc;
 
@@ -7,17 +7,17 @@ use std::sync::Arc;
 #[error("{file}:{line}: {field}: {message}")]
 #[non_exhaustive]
 pub struct VectorError {
-    /// Name of the file.
+    /// The name of the file.
     pub file: String,
-    /// Line, from 1.
+    /// The line, from 1.
     pub line: u64,
     /// The field, such as a column name.
     pub field: &'static str,
-    /// The fault and what would be right.
+    /// The fault, and what is expected.
     pub message: String,
 }
 
-/// Where the reader is.
+/// The place of the reader.
 #[derive(Clone, Debug)]
 pub(crate) struct LinePlace {
     pub(crate) file: Arc<str>,

@@ -4,13 +4,14 @@ use super::{Header, Kind, Listing, PatchRow, Sizes};
 use std::fmt::Write;
 
 impl Listing {
-    /// A vector file of the kind `listings` with this one record; `backend` made it.
+    /// The listing as a vector file of the kind `listings` with one record; `backend` is its
+    /// source.
     #[must_use]
     pub fn to_file(&self, backend: &str) -> String {
         format!("{}{self}", header(Kind::Listings, backend).head())
     }
 
-    /// A vector file of the kind `patches` with one row: counts and digests.
+    /// The listing as a vector file of the kind `patches` with one row: its counts and digests.
     #[must_use]
     pub fn to_csv(&self, backend: &str) -> String {
         let row = PatchRow { case: self.case, output: Sizes::of(&self.output) };
@@ -23,7 +24,7 @@ impl Listing {
         let mut text = format!("# {}\n", self.case.command());
         for point in &self.output.points {
             let [u, v] = point.to_f32();
-            // Writing to a String does not fail. 16.16 numbers are exact in 16 decimals.
+            // Writing to a String does not fail. A 16.16 number is exact with 16 decimals.
             _ = writeln!(text, "v {u} {v} 0");
         }
         let element = ["p", "l", "f"][self.case.primitive_size() - 1];
@@ -36,7 +37,7 @@ impl Listing {
     }
 }
 
-/// The first line of a vector file with one record.
+/// The header of a vector file with one record.
 fn header(kind: Kind, backend: &str) -> Header {
     Header { kind, count: Some(1), source: format!("tess-{backend}"), notes: Vec::new() }
 }
@@ -46,7 +47,7 @@ mod tests {
     use super::*;
     use tess_core::DomainPoint;
 
-    /// Wavefront counts from 1.
+    /// Indices in Wavefront files start at 1.
     #[test]
     fn a_patch_as_obj() {
         let line = "case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000";
@@ -57,7 +58,7 @@ mod tests {
         assert_eq!(rest, "v 0 1 0\nv 0 0 0\nv 1 0 0\nf 1 2 3\n");
     }
 
-    /// A device's answer may have any points and indices.
+    /// A device's output may have any points and indices.
     #[test]
     fn a_patch_that_is_none_as_obj() {
         let line = "case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000";

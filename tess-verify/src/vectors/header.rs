@@ -16,13 +16,13 @@ named! {
         Listings = "listings",
         /// Single patches: counts and digests.
         Patches = "patches",
-        /// Rows of 64 patches of a systematic sweep, one chained digest.
+        /// Rows of 64 patches of a systematic sweep, with one chained digest.
         Sweep = "sweep",
-        /// Rows of up to 100 patches with equal factors, one chained digest.
+        /// Rows of up to 100 patches with all factors equal, with one chained digest.
         Uniform = "uniform",
-        /// All fractions of a factor's integer part: digests of contexts and locations.
+        /// All factors with one integer part: digests of contexts and locations.
         Locations = "locations",
-        /// All binary32 of a binade: digests of processed factors.
+        /// All binary32 numbers of a binade: digests of processed factors.
         Factors = "factors",
         /// Factor preparation.
         Preparation = "preparation",
@@ -56,18 +56,18 @@ impl Kind {
     }
 }
 
-/// The first line: `# tess-vectors 1 kind=KIND count=COUNT source=SOURCE KEY=VALUE...`.
+/// The first line of a file: `# tess-vectors 1 kind=KIND count=COUNT source=SOURCE KEY=VALUE...`.
 ///
-/// Its text is that line. Where the count is left out, the last line of the file is `# end`.
+/// It displays as that line. If the count is left out, the last line of the file is `# end`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Header {
     /// The kind of the records.
     pub kind: Kind,
-    /// How many records follow; `None` if the file marks its end instead.
+    /// The number of records that follow; `None` if the file marks its end instead.
     pub count: Option<u64>,
-    /// Where the results come from: a name for people, by which nothing is decided.
+    /// The origin of the results, for people; nothing depends on it.
     pub source: String,
-    /// The producer's notes, key and value, such as a level and a seed.
+    /// The producer's notes as keys and values, such as a level and a seed.
     pub notes: Vec<(String, String)>,
 }
 
@@ -87,7 +87,7 @@ pub(super) const END: &str = "# end";
 const VERSION: &str = "1";
 
 impl Header {
-    /// Everything in front of the records: this line, and the column names of a CSV kind.
+    /// The text before the records: this line, and the column names if the kind is CSV.
     #[must_use]
     pub fn head(&self) -> String {
         let columns = self.kind.columns().map(|columns| format!("{columns}\n"));
@@ -130,7 +130,7 @@ impl Header {
     }
 }
 
-/// The words `KEY=VALUE`, each key once.
+/// The words `KEY=VALUE`; each key may occur once.
 fn pairs<'a>(
     line: Line<'_>,
     words: impl Iterator<Item = &'a str>,

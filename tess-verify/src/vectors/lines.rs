@@ -1,21 +1,22 @@
-//! The lines of a vector file, each bounded, so that no input makes the reader grow.
+//! The lines of a vector file. Their length is bounded, so that no input makes the reader's memory
+//! grow.
 
 use super::error::{LinePlace, VectorError};
 use std::io::{BufRead, Read};
 
-/// The most bytes that a line may have. The longest that this kit writes has about 300.
+/// The largest length of a line in bytes. The longest line that this kit writes has about 300.
 pub(super) const MAX_LINE: usize = 4096;
 
-/// Lines of a text, numbered from 1.
+/// The lines of a text, numbered from 1.
 #[derive(Debug)]
 pub(super) struct Lines<R> {
     reader: R,
-    /// The line that was read last, without its end.
+    /// The last line read, without its line end.
     text: String,
     place: LinePlace,
 }
 
-/// One line without its end, and where it stands.
+/// A line without its line end, and its place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<'a> {
     pub(super) text: &'a str,
@@ -34,27 +35,26 @@ impl<R: BufRead> Lines<R> {
         Self { reader, text: String::new(), place: LinePlace { file: file.into(), line: 0 } }
     }
 
-    /// An error in the line that was read last, or behind the last line.
+    /// An error in the last line read, or after the end of the file.
     pub(super) fn error(&self, field: &'static str, message: impl Into<String>) -> VectorError {
         self.place.error(field, message)
     }
 
     /// The next line; `None` at the end.
     ///
-    /// # Errors
-    /// A line that cannot be read, is longer than [`MAX_LINE`], is not UTF-8 or has control
-    /// characters in it.
+    /// A line that cannot be read, is longer than [`MAX_LINE`], is not UTF-8 or contains control
+    /// characters.
     pub(super) fn next(&mut self) -> Result<Option<Line<'_>>, VectorError> {
         let found = self.read()?;
         Ok(found.then_some(self.last()))
     }
 
-    /// The line that was read last.
+    /// The last line read.
     pub(super) fn last(&self) -> Line<'_> {
         Line { text: &self.text, place: &self.place }
     }
 
-    /// The next line, which must be there.
+    /// The next line, which must exist.
     ///
     /// # Errors
     /// As for [`Self::next`], and the end of the file.
@@ -71,7 +71,8 @@ impl<R: BufRead> Lines<R> {
         if self.read_buffered() { Ok(true) } else { self.read_any() }
     }
 
-    /// Takes a line of plain characters that lies whole in the reader's buffer, as nearly all do.
+    /// Takes a line of plain characters if the reader's buffer holds all of it, which is nearly
+    /// always so.
     fn read_buffered(&mut self) -> bool {
         let Ok(buffer) = self.reader.fill_buf() else { return false };
         let is_plain = |byte: &u8| (b' '..=b'~').contains(byte);
@@ -86,11 +87,11 @@ impl<R: BufRead> Lines<R> {
         true
     }
 
-    /// Reads a line of any kind.
+    /// Reads any line.
     fn read_any(&mut self) -> Result<bool, VectorError> {
         let mut bytes = std::mem::take(&mut self.text).into_bytes();
         bytes.clear();
-        // Two bytes more than a line may have, for its end.
+        // Two bytes more than a line may have, for the line end.
         let mut bounded = self.reader.by_ref().take(MAX_LINE as u64 + 2);
         let read = bounded.read_until(b'\n', &mut bytes);
         read.map_err(|error| self.error("line", format!("cannot be read: {error}")))?;
@@ -99,8 +100,7 @@ impl<R: BufRead> Lines<R> {
             bytes.pop_if(|last| *last == end);
         }
         if bytes.len() > MAX_LINE {
-            let message =
-                format!("longer than {MAX_LINE} bytes, which no line of a vector file is");
+            let message = format!("longer than the {MAX_LINE} bytes that a line may have");
             return Err(self.error("line", message));
         }
         let is_plain = bytes.iter().all(|byte| (b' '..=b'~').contains(byte));
@@ -124,8 +124,8 @@ impl<R: BufRead> Lines<R> {
 mod tests {
     use super::*;
 
-    /// The longest line, whole in the reader's buffer or not, ended in either way; and one byte
-    /// more.
+    /// The longest line with either line end, whether or not the reader's buffer holds it; and a
+    /// line that is one byte longer.
     #[test]
     fn the_longest_line_is_taken() {
         for end in ["\n", "\r\n"] {

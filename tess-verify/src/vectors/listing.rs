@@ -12,7 +12,7 @@ use tess_core::{DomainPoint, MAX_INDICES, Tessellation};
 
 /// A case and an output for it.
 ///
-/// Its text is what a vector file of the kind `listings` has.
+/// Written as text, it is a record of a vector file of the kind `listings`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Listing {
     /// The line of the file that it starts on.
@@ -24,7 +24,7 @@ pub struct Listing {
 }
 
 impl Listing {
-    /// The model's listing of a case; the record stands in no file, so its line is 0.
+    /// The model's listing of a case. It is in no file, so its line is 0.
     #[must_use]
     pub fn of_model(case: Case) -> Self {
         Self { line: 0, case, output: case.patch().tessellate() }
@@ -52,8 +52,8 @@ impl fmt::Display for Listing {
     }
 }
 
-/// Reads the points and primitives of a listing: of its lines, the one that announces the points
-/// was read already.
+/// Reads the points and primitives of a listing. The line that announces the points has already
+/// been read.
 pub(super) fn read<R: BufRead>(
     lines: &mut Lines<R>,
     case: Case,
@@ -65,10 +65,10 @@ pub(super) fn read<R: BufRead>(
     Ok(Listing { line: start, case, output })
 }
 
-/// The points, of which the line that announces them was read already.
+/// Reads the points. The line that announces them has already been read.
 ///
-/// A device without an index buffer lists a point for each vertex of each primitive, so there may
-/// be as many points as indices, not only the model's 4225.
+/// A device without an index buffer lists one point per vertex of each primitive, so there may be
+/// as many points as indices, not only the model's 4225.
 fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorError> {
     let count = announced(lines.last(), "points", MAX_INDICES)?;
     let mut points = Vec::with_capacity(count);
@@ -76,8 +76,9 @@ fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorEr
         let line = lines.expect("points")?;
         let point = parse_point(line.text).ok_or_else(|| {
             let text = quoted(line.text);
-            let message =
-                format!("{text} is not a point: u and v as 5 to 8 hex digits each, 10000 being 1");
+            let message = format!(
+                "{text} is not a point: u and v as 5 to 8 hex digits each, where 10000 is 1"
+            );
             line.error("points", message)
         })?;
         points.push(point);
@@ -88,7 +89,7 @@ fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorEr
 fn indices<R: BufRead>(lines: &mut Lines<R>, size: usize) -> Result<Vec<u32>, VectorError> {
     let count = announced(lines.expect("indices")?, "indices", MAX_INDICES)?;
     if !count.is_multiple_of(size) {
-        let message = format!("{count} is no multiple of {size}, the size of a primitive");
+        let message = format!("{count} is not a multiple of {size}, the size of a primitive");
         return Err(lines.error("indices", message));
     }
     let mut indices = Vec::with_capacity(count);
@@ -107,7 +108,7 @@ fn indices<R: BufRead>(lines: &mut Lines<R>, size: usize) -> Result<Vec<u32>, Ve
     Ok(indices)
 }
 
-/// The number of a line such as `points 17`, of which no patch has more than `most`.
+/// The number in a line such as `points 17`; it may be at most `most`.
 fn announced(line: Line<'_>, what: &'static str, most: usize) -> Result<usize, VectorError> {
     let count = line.text.strip_prefix(what).and_then(|rest| rest.strip_prefix(' '));
     let count: u64 = count.and_then(decimal).ok_or_else(|| {

@@ -20,11 +20,11 @@ use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, PatchFact
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Record {
-    /// Of the kind `listings`.
+    /// A record of the kind `listings`.
     Listing(Listing),
-    /// Of the kind `listings`, by coordinates.
+    /// A record of the kind `listings`, by coordinates.
     Coordinates(Coordinates),
-    /// Of any other kind.
+    /// A record of any other kind.
     Row(CsvRow),
 }
 
@@ -39,7 +39,7 @@ impl Record {
         }
     }
 
-    /// The patch that the record tessellates; `None` for a row of digests over many.
+    /// The record's patch; `None` for a row of digests over many patches.
     #[must_use]
     pub const fn case(&self) -> Option<Case> {
         match self {
@@ -55,7 +55,7 @@ impl Record {
         }
     }
 
-    /// The row as it stands in the file; `None` for a listing, which has no row.
+    /// The row as it is in the file; `None` for a listing.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         match self {
@@ -65,7 +65,7 @@ impl Record {
     }
 }
 
-/// The record as it stands in a file; a listing by coordinates in the notation `hex`.
+/// The record as in a file; a listing by coordinates is in the notation `hex`.
 impl fmt::Display for Record {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -76,8 +76,8 @@ impl fmt::Display for Record {
     }
 }
 
-/// Reads a listing of either form, of which the first line was read already. Errors name it: it is
-/// record `number`.
+/// Reads a listing of either form. Its first line has already been read. Errors mention that line
+/// and the record's `number`.
 pub(super) fn read_listing<R: BufRead>(
     lines: &mut Lines<R>,
     number: u64,
@@ -104,7 +104,7 @@ fn read_output<R: BufRead>(
     listing::read(lines, case, start).map(Record::Listing)
 }
 
-/// Reads one row of a CSV kind.
+/// Reads a row of a CSV kind.
 pub(super) fn read_row(kind: Kind, row: &Row<'_>) -> Result<Record, VectorError> {
     let values = match kind {
         // Listings have no rows.

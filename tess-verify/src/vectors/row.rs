@@ -1,4 +1,4 @@
-//! One line of a CSV kind, its fields by column name.
+//! One line of a CSV kind, with its fields by column name.
 
 use super::error::VectorError;
 use super::lines::Line;
@@ -24,7 +24,7 @@ impl<'a> Row<'a> {
             return Ok(Self { columns, values, line });
         }
         let message = format!("a row has {expected} fields ({columns}), not {found}");
-        // The first column that is missing, or the last one if there are too many.
+        // The first missing column, or the last one if there are too many fields.
         let field = columns.split(',').nth(found.min(expected - 1)).unwrap_or_default();
         Err(line.error(field, message))
     }
@@ -78,7 +78,7 @@ impl<'a> Row<'a> {
         })
     }
 
-    /// Bit patterns of binary32 numbers.
+    /// A list of binary32 numbers by their bit patterns.
     pub(crate) fn floats(&self, column: &'static str) -> Result<Vec<f32>, VectorError> {
         let words: Vec<_> =
             self.field(column)?.split(' ').filter(|word| !word.is_empty()).collect();
@@ -86,7 +86,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// A decimal number without a plus sign, which `parse` alone would take.
+/// A decimal number without a plus sign; `parse` by itself would accept one.
 pub(crate) fn decimal<T: FromStr>(text: &str) -> Option<T> {
     text.parse().ok().filter(|_| !text.starts_with('+'))
 }

@@ -7,7 +7,7 @@ use std::fmt;
 use tess_core::prepare::{Prepared, Reduction, Request};
 use tess_core::{Config, Domain, Parity, Partitioning, SplitOrder, Tessellation};
 
-/// A row of a CSV kind: its values, and the text that they were read from.
+/// A row of a CSV kind: its values, and the text from which they were read.
 #[derive(Clone, Debug)]
 pub struct CsvRow {
     pub(super) line: u64,
@@ -15,7 +15,7 @@ pub struct CsvRow {
     pub(crate) values: Values,
 }
 
-/// The values of a row, by the kind of its file.
+/// The values of a row, by the kind of the file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Values {
     Patch(PatchRow),
@@ -26,30 +26,30 @@ pub(crate) enum Values {
     Preparation(PreparationRow),
 }
 
-/// Counts and digests of a patch's output.
+/// The counts and digests of a patch's output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sizes {
-    /// Number of points.
+    /// The number of points.
     pub(crate) points: u64,
-    /// Number of indices.
+    /// The number of indices.
     pub(crate) indices: u64,
-    /// Digest of the points.
+    /// The digest of the points.
     pub(crate) points_digest: u64,
-    /// Digest of the indices.
+    /// The digest of the indices.
     pub(crate) indices_digest: u64,
 }
 
-/// Counts and digests of one patch.
+/// The counts and digests of one patch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PatchRow {
     /// The tessellated case.
     pub(crate) case: Case,
-    /// Counts and digests of its output.
+    /// The counts and digests of its output.
     pub(crate) output: Sizes,
 }
 
 impl Sizes {
-    /// Counts and digests of an output.
+    /// The counts and digests of an output.
     pub(crate) fn of(output: &Tessellation) -> Self {
         Self {
             points: output.points.len() as u64,
@@ -60,7 +60,7 @@ impl Sizes {
     }
 }
 
-/// The row as it stands in a file of the kind `patches`.
+/// The row as in a file of the kind `patches`.
 impl fmt::Display for PatchRow {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Case { config: Config { partitioning, output, split }, factors } = self.case;
@@ -76,57 +76,57 @@ impl fmt::Display for PatchRow {
 /// A digest chained over a sequence of patches.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ChainRow {
-    /// Domain of the patches.
+    /// The domain of the patches.
     pub(crate) domain: Domain,
-    /// Configuration of the patches; the split order is ruler.
+    /// The configuration of the patches; the split order is ruler.
     pub(crate) config: Config,
-    /// Which sequence: `golden/README.md` in the repository describes them.
+    /// The number of the sequence; `golden/README.md` in the repository describes each.
     pub(crate) row: u8,
     /// The digest.
     pub(crate) chain: u64,
 }
 
-/// Digests over all fractions of a factor's integer part.
+/// Digests over all factors with one integer part.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LocationsRow {
-    /// Split order.
+    /// The split order.
     pub(crate) split: SplitOrder,
-    /// Parity.
+    /// The parity.
     pub(crate) parity: Parity,
-    /// Integer part of the factors.
+    /// The integer part of the factors.
     pub(crate) bucket: u32,
-    /// Digest of the contexts.
+    /// The digest of the contexts.
     pub(crate) contexts_digest: u64,
-    /// Digest of the locations.
+    /// The digest of the locations.
     pub(crate) locations_digest: u64,
-    /// How many locations.
+    /// The number of locations.
     pub(crate) locations: u64,
 }
 
-/// Digests over the processed factors of all binary32 of a binade.
+/// Digests over the processed factors of all binary32 numbers of a binade.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FactorsRow {
-    /// Partitioning.
+    /// The partitioning.
     pub(crate) partitioning: Partitioning,
     /// The binade [2^exponent, 2^(exponent + 1)).
     pub(crate) exponent: i32,
-    /// Digest of the u = 0 factors.
+    /// The digest of the u = 0 factors.
     pub(crate) outer_digest: u64,
-    /// Digest of the inside factors.
+    /// The digest of the inside factors.
     pub(crate) inside_digest: u64,
 }
 
 /// A factor preparation and the tessellation of its rounded factors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PreparationRow {
-    /// Configuration; the split order is ruler.
+    /// The configuration; the split order is ruler.
     pub(crate) config: Config,
-    /// How inside factors are made.
+    /// How the inside factors are derived.
     pub(crate) reduction: Reduction,
     /// The factors to prepare.
     pub(crate) request: Request,
-    /// The factors behind the preparation.
+    /// The prepared factors.
     pub(crate) prepared: Prepared,
-    /// Counts and digests of the tessellator's output.
+    /// The counts and digests of the tessellator's output.
     pub(crate) output: Sizes,
 }

@@ -1,4 +1,4 @@
-//! Every way in which a vector file can be wrong is an error that says where and how.
+//! Every possible fault of a vector file is an error that names its place and cause.
 
 mod mutated;
 
@@ -27,7 +27,7 @@ fn read(text: &str) -> Result<Vec<Record>, VectorError> {
     VectorFile::new("f", text.as_bytes())?.collect()
 }
 
-/// The error of `text` after replacing `from`, which must occur in it, by `to`.
+/// The error of `text` after `from`, which must occur in it, is replaced by `to`.
 fn error(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "the example has {from:?}");
     match read(&text.replacen(from, to, 1)) {
@@ -99,7 +99,7 @@ fn empty_truncated_and_surplus_files() {
     assert!(blank.starts_with("f:5: count: the header announces 2, but"), "{blank}");
 }
 
-/// A file without records is one only where that is asked for.
+/// A file without records is accepted only on request.
 #[test]
 fn files_without_records() {
     let columns = Kind::Patches.columns().expect("a CSV kind");
@@ -121,7 +121,7 @@ fn files_without_records() {
     assert!(file.next().is_some_and(|record| record.is_err()), "truncated is not empty");
 }
 
-/// A listing that is cut after any of its lines, or inside its last, is truncated.
+/// A listing that is cut after any line, or within its last line, is truncated.
 #[test]
 fn listings_cut_anywhere() {
     let lines: Vec<_> = LISTING.lines().collect();
@@ -179,7 +179,7 @@ fn wrong_listings() {
         ("00000 10000", "00000", "f:4: points: `00000` is not a point"),
         ("00000 10000", "00000 1000g", "f:4: points: `00000 1000g` is not a point"),
         ("00000 10000", "00000 123456789", "f:4: points: `00000 123456789` is not a point"),
-        ("indices 3", "indices 4", "f:7: indices: 4 is no multiple of 3"),
+        ("indices 3", "indices 4", "f:7: indices: 4 is not a multiple of 3"),
         ("indices 3", "indices 6", "f:9: indices: `end` is not a primitive"),
         ("0 1 2", "0 1", "f:8: indices: `0 1` is not a primitive: 3 decimal indices"),
         ("0 1 2", "0 1 2 3", "f:8: indices: `0 1 2 3` is not a primitive"),
@@ -194,7 +194,7 @@ fn wrong_listings() {
     }
 }
 
-/// Rows of the exhaustive and chained kinds name sequences that exist.
+/// Rows of the exhaustive and chained kinds must name existing sequences.
 #[test]
 fn numbers_out_of_range() {
     let chain = "domain,partitioning,output,row,cases,chain_fnv1a64\nquad,pow2,line,1,64,";
@@ -234,21 +234,21 @@ fn bytes_that_are_no_text() {
     assert!(file.next().is_none(), "ended");
 }
 
-/// Foreign text is bounded and escaped in errors, whatever a line holds.
+/// Whatever a line holds, errors shorten and escape foreign text.
 #[test]
 fn lines_that_are_too_long_or_not_text() {
     let long = "x".repeat(50_000_000);
     let error_of = |from: &str, to: &str| error(LISTING, from, to);
     assert_eq!(
         error_of("case tri", &long),
-        "f:2: line: longer than 4096 bytes, which no line of a vector file is"
+        "f:2: line: longer than the 4096 bytes that a line may have"
     );
     let fits = "x".repeat(4000);
     let shown = error_of("00000 10000", &fits);
     assert_eq!(
         shown.split(" (record 1, ").next().unwrap_or_default(),
         format!(
-            "f:4: points: `{}...` (4000 bytes) is not a point: u and v as 5 to 8 hex digits each, 10000 being 1",
+            "f:4: points: `{}...` (4000 bytes) is not a point: u and v as 5 to 8 hex digits each, where 10000 is 1",
             &fits[..60]
         )
     );
@@ -260,10 +260,10 @@ fn lines_that_are_too_long_or_not_text() {
     assert!(hidden.contains("`\\u{202e}integer`"), "{hidden}");
 }
 
-/// A file without an end gives an error after its first line.
+/// A file without an end causes an error after its first line.
 #[test]
 fn endless_files() {
     let endless = std::io::BufReader::new(std::io::repeat(0));
     let error = VectorFile::new("zero", endless).expect_err("no header").to_string();
-    assert!(error.starts_with("zero:1: line: longer than 4096 bytes"), "{error}");
+    assert!(error.starts_with("zero:1: line: longer than the 4096 bytes"), "{error}");
 }

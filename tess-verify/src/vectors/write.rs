@@ -1,15 +1,15 @@
-//! Writing vector files whose results come from the model.
+//! Writes vector files with results from the model.
 
 use super::{Header, Kind, Listing, PatchRow, Sizes};
 use crate::case::Case;
 use crate::names::Named;
 use std::io::{self, Write};
 
-/// Writes a vector file of the header's kind: `patches`, a row of counts and digests for each case,
-/// or `listings`, every point and primitive.
+/// Writes a vector file of the header's kind: a row of counts and digests for each case
+/// (`patches`), or every point and primitive (`listings`).
 ///
 /// # Errors
-/// Those of the writer; [`io::ErrorKind::InvalidInput`] for another kind.
+/// Those of the writer, and [`io::ErrorKind::InvalidInput`] for any other kind.
 pub fn write_cases(
     out: &mut dyn Write,
     header: &Header,
@@ -19,7 +19,8 @@ pub fn write_cases(
         Kind::Patches => false,
         Kind::Listings => true,
         other => {
-            let message = format!("cases are no {}: patches or listings", other.name());
+            let message =
+                format!("cases cannot be written as {}; use patches or listings", other.name());
             return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
     };

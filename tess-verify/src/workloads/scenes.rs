@@ -1,5 +1,5 @@
-//! The patches of each workload, built from integers and correctly rounded operations alone, so
-//! that they are the same on every machine.
+//! The patches of each workload. They are built only from integers and correctly rounded
+//! operations, so they are the same on every machine.
 #![expect(
     clippy::float_arithmetic,
     clippy::cast_possible_truncation,
@@ -20,7 +20,7 @@ pub(super) const UNIFORM_FACTORS: [u8; 7] = [1, 2, 4, 8, 16, 32, 64];
 /// The seed of the workloads that are drawn at random.
 const SEED: u64 = 11;
 
-/// `uniform-K`: 4096 quads, all factors `factor`, integer.
+/// `uniform-K`: 4096 quads, with all factors `factor`, integer.
 #[must_use]
 pub(super) fn uniform(factor: u8) -> Workload {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
@@ -28,7 +28,7 @@ pub(super) fn uniform(factor: u8) -> Workload {
     Workload::batch(format!("uniform-{factor}"), config, vec![patch; 4096])
 }
 
-/// `seed-table`: single quads of several sizes, and every integer isoline, one patch at a time.
+/// `seed-table`: single quads of several sizes, and every integer isoline, one patch per call.
 #[must_use]
 pub(super) fn seed_table() -> Vec<Workload> {
     let quads = [
@@ -59,8 +59,9 @@ fn isolines() -> Workload {
     Workload::single("seed-table/isolines", config, patches)
 }
 
-/// `unlike-K`: as `uniform-K`, but every other patch has the factors K - 1/2, which integer rounds
-/// to K. So all patches have the same output, and no two neighbours the same factors.
+/// `unlike-K`: like `uniform-K`, except that every other patch has the factors K - 1/2, which
+/// integer partitioning rounds up to K. So all patches have the same output, but neighbours always
+/// have different factors.
 fn unlike(factor: u8) -> Workload {
     let alike = uniform(factor);
     let other = quad([f32::from(factor) - 0.5; 6]);
@@ -69,8 +70,8 @@ fn unlike(factor: u8) -> Workload {
     Workload { name: format!("unlike-{factor}"), patches, ..alike }
 }
 
-/// `single/...`: one patch at a time, of small patches, and of the workloads in which neighbours
-/// are unlike.
+/// `single/...`: one patch per call; with small patches, and with the workloads in which neighbours
+/// differ.
 #[must_use]
 pub(super) fn single() -> Vec<Workload> {
     let uniforms = [1, 2, 4, 8].map(uniform);
@@ -89,14 +90,14 @@ pub(super) fn single() -> Vec<Workload> {
 
 /// `terrain`: a flat ground of 64 x 64 quads seen by a camera, `fractional_even`.
 ///
-/// Patch (x, z) covers the unit square from (x, z), u along x and v along z. The camera stands at
-/// (32, 0), 3 units above the ground: the middle of the border z = 0. An edge's factor is 192
-/// divided by the distance from the camera to the edge's midpoint, so from 63 under the camera to
-/// 2.7 in the far corners; patches on both sides of an edge see the same midpoint and so agree.
-/// Both inside factors are the mean of the four edges.
+/// Patch (x, z) covers the unit square from (x, z), with u along x and v along z. The camera is at
+/// (32, 0), 3 units above the ground: over the middle of the border z = 0. An edge's factor is 192
+/// divided by the distance from the camera to the edge's midpoint: from 63 below the camera to 2.7
+/// in the far corners. Patches on both sides of an edge use the same midpoint, so they agree. Both
+/// inside factors are the mean of the four edges' factors.
 #[must_use]
 pub(super) fn terrain() -> Workload {
-    /// Coordinates in half units, so that midpoints are whole numbers.
+    /// Coordinates are in half units, so that midpoints are whole numbers.
     fn edge_factor(x_halves: i32, z_halves: i32) -> f64 {
         let (x, z) = (f64::from(x_halves) / 2.0 - 32.0, f64::from(z_halves) / 2.0);
         192.0 / (x * x + z * z + 9.0).sqrt()
@@ -116,7 +117,7 @@ pub(super) fn terrain() -> Workload {
 
 /// `character`: 20000 triangles with edge factors log-uniform in 1..8, `fractional_odd`.
 ///
-/// The inside factor is the mean of the three edges.
+/// The inside factor is the mean of the three edge factors.
 #[must_use]
 pub(super) fn character() -> Workload {
     let mut random = SplitMix64::new(SEED);
@@ -125,8 +126,8 @@ pub(super) fn character() -> Workload {
     Workload::batch("character", config, patches)
 }
 
-/// `mosaic`: 20000 quads, every factor 1, 2, 3 or 4 at random on its own, integer. Hardly any two
-/// neighbours are alike.
+/// `mosaic`: 20000 quads, integer, with every factor drawn from 1, 2, 3 and 4 independently. Hardly
+/// any two neighbours are equal.
 #[must_use]
 pub(super) fn mosaic() -> Workload {
     let mut random = SplitMix64::new(SEED);
@@ -136,7 +137,7 @@ pub(super) fn mosaic() -> Workload {
     Workload::batch("mosaic", config, patches)
 }
 
-/// `mosaic-even`: 20000 quads, every factor uniform in 1..6 on its own, `fractional_even`.
+/// `mosaic-even`: 20000 quads, `fractional_even`, with every factor uniform in 1..6 independently.
 #[must_use]
 pub(super) fn mosaic_even() -> Workload {
     let mut random = SplitMix64::new(SEED);
@@ -147,16 +148,16 @@ pub(super) fn mosaic_even() -> Workload {
     Workload::batch("mosaic-even", config, patches)
 }
 
-/// `meshes/...`: 256 meshes of 40 to 400 patches, `fractional_odd`, their edge factors as in
-/// `character`; an inside factor is the mean of the edges. Of `triangles` and of `quads`, each mesh
-/// a call, and (`-at-once`) all of them in one call.
+/// `meshes/...`: 256 meshes of 40 to 400 patches, `fractional_odd`, with edge factors as in
+/// `character`. Inside factors are the mean of the edge factors. There are `triangles` and `quads`,
+/// with one mesh per call or (`-at-once`) all of them in one call.
 #[must_use]
 pub(super) fn meshes() -> Vec<Workload> {
     let triangles = meshes_of("triangles", character_triangle);
     triangles.into_iter().chain(meshes_of("quads", character_quad)).collect()
 }
 
-/// The two workloads of the same meshes.
+/// The two workloads with the same meshes.
 fn meshes_of(name: &str, patch: fn(&mut SplitMix64) -> PatchFactors) -> [Workload; 2] {
     let mut random = SplitMix64::new(SEED);
     let (mut groups, mut patches) = (Vec::new(), Vec::new());
@@ -187,7 +188,7 @@ fn character_quad(random: &mut SplitMix64) -> PatchFactors {
     quad([u0, v0, u1, v1, mean, mean].map(|factor| factor as f32))
 }
 
-/// `worst`: 1024 quads, every factor uniform in 1..64 on its own, `fractional_odd`.
+/// `worst`: 1024 quads, `fractional_odd`, with every factor uniform in 1..64 independently.
 #[must_use]
 pub(super) fn worst() -> Workload {
     let mut random = SplitMix64::new(SEED);
@@ -202,7 +203,7 @@ fn quad(factors: [f32; 6]) -> PatchFactors {
     QuadFactors::from(factors).into()
 }
 
-/// 2^x for x >= 0, out of square roots, as library powers differ between machines.
+/// 2^x for x >= 0, computed from square roots, because library powers differ between machines.
 ///
 /// Uses the first 24 bits of x's fraction: bit -k contributes the 2^k-th root of two.
 fn power_of_two(mut x: f64) -> f64 {

@@ -1,4 +1,4 @@
-//! The workloads are what their descriptions say, and the same everywhere.
+//! The workloads match their descriptions, and are the same everywhere.
 
 use super::*;
 use std::collections::BTreeSet;
@@ -35,7 +35,7 @@ fn sizes() {
     }
 }
 
-/// Recorded from the model: a change here makes measurements incomparable.
+/// Recorded from the model. A change makes measurements incomparable.
 #[test]
 fn patches_are_the_recorded_ones() {
     let digest_of_factors = |workload: &Workload| {
@@ -85,7 +85,8 @@ fn meshes_are_groups() {
     assert_eq!(mosaic().group_ranges().count(), 0, "no groups");
 }
 
-/// A call with unlike neighbours gives what one with alike neighbours does, from other factors.
+/// A call with unlike neighbours has the same output as one with equal neighbours, from other
+/// factors.
 #[test]
 fn neighbours_are_unlike_where_it_says_so() {
     for factor in [1, 8] {
@@ -105,7 +106,7 @@ fn neighbours_are_unlike_where_it_says_so() {
     for workload in single() {
         let pairs = workload.patches.windows(2).filter(|pair| pair[0] == pair[1]).count();
         let alike = if workload.name.contains("uniform") { workload.patches.len() - 1 } else { 0 };
-        // Of mosaic, one pair of 4096 is alike by chance.
+        // In mosaic, one pair in 4096 is equal by chance.
         let chance = if workload.name.ends_with("mosaic") { 20 } else { 0 };
         assert!(pairs >= alike && pairs <= alike + chance, "{}: {pairs}", workload.name);
     }
@@ -143,7 +144,7 @@ fn terrain_neighbours_agree() {
     assert!((2.6..2.8).contains(&low) && (62.0..64.0).contains(&high), "range {low}..{high}");
 }
 
-/// A quarter of log-uniform factors in 1..8 lies in each of four ratios of 8^(1/4).
+/// Log-uniform factors in 1..8: a quarter is in each of four intervals of ratio 8^(1/4).
 #[test]
 fn character_is_log_uniform() {
     let mut quarters = [0u32; 4];
@@ -188,14 +189,15 @@ fn cache_batches_cover_every_patch_once() {
     }
 }
 
-/// 8 patches of factor 64 have 1 MiB, 125 of factor 16, and more than there are of factor 1.
+/// 8 patches of factor 64 reach 1 MiB, 125 of factor 16 do, and factor 1 does not with all of its
+/// patches.
 #[test]
 fn cache_batches_are_no_larger_than_they_must_be() {
     let batches = |factor| uniform(factor).cache_batches(IndexWidth::U32).len();
     assert_eq!([64, 16, 1].map(batches), [4096 / 8, 4096 / 125, 1]);
 }
 
-/// The digest is that of the model's output, patch by patch; another order has another.
+/// The digest is that of the model's output, patch by patch; another order has another digest.
 #[test]
 fn digests_are_those_of_the_output() {
     let workload = &Workload::named("seed-table/quad-48")[0];

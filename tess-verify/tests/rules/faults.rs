@@ -1,9 +1,9 @@
-//! The fault that each rule alone finds.
+//! Tests of the fault that only one rule finds, for each rule.
 
 use super::*;
 
-/// Judges what a device gives for patches, of which the last has a fault: the rule is the only one
-/// to find it, names the patches, and holds without it.
+/// Judges a device's answers to patches, of which the last has a fault: the rule is the only one
+/// that finds it, names the patches, and holds without the fault.
 fn found_by_alone(specification: Specification, rule: Rule, lines: &[&str], fault: Fault) {
     let mut answers: Vec<_> = lines.iter().map(|line| model(case(line))).collect();
     let report = judge(specification, answers.iter().cloned());
@@ -29,8 +29,8 @@ fn squeeze(output: &mut Tessellation, axis: usize, by: u32) {
     move_point(output, at(0xC000), at(0xC000 - by));
 }
 
-/// Exchanges the diagonal of the first convex pair of triangles that is wanted by the numbers of
-/// its vertices with u = 0 and of those on the outline.
+/// Exchanges the diagonal of the first convex pair of triangles with the wanted numbers of
+/// vertices: those with u = 0, and those on the outline.
 fn flip(output: &mut Tessellation, wanted: [usize; 2]) {
     let triangles = output.indices.as_chunks::<3>().0.to_vec();
     for (i, one) in triangles.iter().enumerate() {
@@ -55,7 +55,7 @@ fn flip(output: &mut Tessellation, wanted: [usize; 2]) {
     }
 }
 
-/// Whether four points are the corners of a cell of columns and rows.
+/// Whether four points are the corners of a cell between columns and rows.
 fn is_rectangle(quad: [DomainPoint; 4]) -> bool {
     let distinct = |of: fn(DomainPoint) -> u32| {
         quad.into_iter().map(of).collect::<std::collections::BTreeSet<_>>().len()
@@ -114,7 +114,7 @@ fn faults_of_vertices() {
     let [low, high] = ["40600000", "40900000"]
         .map(|level| format!("case isoline fractional_odd line ruler 3f800000 {level}"));
     found_by_alone(VULKAN, Rule::Monotone, &[&low, &high], |output| {
-        // As much as 3.0625 has, whose shorter segments are nearly gone.
+        // The output for level 3.0625, whose shorter segments have nearly vanished.
         let line = "case isoline fractional_odd line ruler 3f800000 40440000";
         *output = case(line).patch().tessellate();
     });
@@ -137,16 +137,15 @@ fn faults_of_the_inside() {
         let report = judge(VULKAN, [(case(line), answer(other))]);
         assert_eq!(rules(&report, Verdict::Broken), ["inner-levels"], "{report}");
     }
-    // A row of vertices, and a vertex of a ring, at another place.
+    // A row of vertices at another place, and a vertex of a ring at another place.
     found_by_alone(VULKAN, Rule::InnerSpacing, &[QUAD], |output| move_row(output, 40));
     found_by_alone(VULKAN, Rule::InnerSpacing, &[TRI], |output| {
-        // After 12 vertices of the outline and 4 of the ring: the first one beside v = 0 that is
-        // not a corner.
+        // After 12 vertices of the outline and 4 of the ring: the first vertex next to v = 0 that
+        // is not a corner.
         let vertex = &mut output.points[16];
         *vertex = DomainPoint::from_bits(vertex.u.to_bits() + 40, vertex.v.to_bits());
     });
-    // The shorter segments of one level at two places: split off beside the ends, or beside the
-    // middle.
+    // The shorter segments of one level at two places: next to the ends, or next to the middle.
     let line = "case isoline fractional_even line ruler 3f800000 40a80000";
     found_by_alone(VULKAN, Rule::EqualLevels, &[line, &line.replace(" 3f8", " 400")], |output| {
         let center = "case isoline fractional_even line center 40000000 40a80000";
@@ -156,7 +155,7 @@ fn faults_of_the_inside() {
     found_by_alone(VULKAN, Rule::Neighbours, &[QUAD], |output| flip(output, [2, 3]));
 }
 
-/// Moves the vertices inside that have the smallest v.
+/// Moves the inside vertices that have the smallest v.
 fn move_row(output: &mut Tessellation, by: u32) {
     let inside = output.points.iter().filter(|point| !is_on_outline(**point));
     let least = inside.map(|point| point.v).min();
@@ -173,12 +172,12 @@ fn faults_of_primitives() {
     let last = |output: &mut Tessellation| output.indices.truncate(output.indices.len() - 3);
     found_by_alone(VULKAN, Rule::Cover, &[QUAD], last);
     found_by_alone(VULKAN, Rule::Cover, &[QUAD], |output| output.indices.extend([20, 21, 22]));
-    // Vertices of the inside may be on the outline, so other rules do not ask where they are.
+    // Vertices of the inside may be on the outline here, so other rules do not ask where they are.
     let touching = "case quad fractional_odd triangle_cw ruler 40a00000 40a00000 40a00000 40a00000 \
                     3f800000 3f800000";
     found_by_alone(VULKAN, Rule::Orientation, &[touching], |output| {
-        // The corner of the rectangle inside that is near (0, 0), beyond the diagonal of its two
-        // triangles.
+        // The corner of the inside rectangle that is nearest to (0, 0), moved beyond the diagonal
+        // of the rectangle's two triangles.
         let corner = output.points.len() - 3;
         output.points[corner] = DomainPoint::from_bits(0xF000, 0xF000);
     });
@@ -199,7 +198,7 @@ fn faults_of_exact_places() {
     );
     let example = row(&report, Rule::InnerLevels).smallest.as_ref().map(|row| row.what.as_str());
     assert_eq!(example, Some("inner level 1 is 5 and asks for 5 columns; there are 6"), "{report}");
-    // The view of all points as a line has no primitives that are compared.
+    // When all points are viewed as a line, no primitives are compared.
     let view = QUAD.replace("triangle_cw", "line");
     found_by_alone(D3D11, Rule::Counts, &[&view], |output| output.indices.extend([0, 1]));
     found_by_alone(D3D11, Rule::Places, &[&view], |output| squeeze(output, 1, 4));

@@ -1,5 +1,5 @@
-//! The rules of the standards: what the model holds and breaks, and the fault that each rule alone
-//! finds.
+//! Tests of the rules of the standards: those that the model holds and breaks, and the fault that
+//! only one rule finds, for each rule.
 
 mod faults;
 mod mistakes;
@@ -12,7 +12,8 @@ use tess_verify::rules::{Checker, Rule, RuleRow, RulesReport, Specification, Ver
 use tess_verify::{Case, Named};
 
 const VULKAN: Specification = Specification::Vulkan;
-/// Outer levels 4, 5, 3 and inner level 5; outer levels 4, 6, 7 and inner level 6; 4, 4, 3; 5.
+/// Outer levels 4, 5, 3 and inner level 5; outer levels 4, 6, 7 and inner level 6; outer levels
+/// 4, 4, 3 and inner level 5.
 const TRI: &str = "case tri integer triangle_cw ruler 40800000 40a00000 40400000 40a00000";
 const OTHER_TRI: &str = "case tri integer triangle_cw ruler 40800000 40c00000 40e00000 40c00000";
 const EQUAL_TRI: &str = "case tri integer triangle_cw ruler 40800000 40800000 40400000 40a00000";
@@ -22,7 +23,7 @@ const QUAD: &str =
 const OTHER_QUAD: &str =
     "case quad integer triangle_cw ruler 40800000 40c00000 40e00000 3f800000 40a00000 40c00000";
 const POINTS: &str = "case tri integer point ruler 40800000 40a00000 40400000 40a00000";
-/// 3 lines of 4 segments, and none.
+/// 3 lines of 4 segments.
 const LINES: &str = "case isoline integer line ruler 40400000 40800000";
 
 fn case(line: &str) -> Case {
@@ -54,8 +55,8 @@ fn row(report: &RulesReport, rule: Rule) -> &RuleRow {
     report.rows.iter().find(|row| row.rule == rule).expect("a rule of the standard")
 }
 
-/// The systematic families with the standard split order, of which docs/rules.md has the counts;
-/// behind them come patches beside the thresholds.
+/// The systematic families with the standard split order, whose counts are in docs/rules.md. After
+/// them would come patches next to the thresholds.
 fn population() -> impl Iterator<Item = Case> {
     let split = Some(tess_core::SplitOrder::Ruler);
     Selection { split, ..Selection::level(GenLevel::Rules, 1) }.cases().take(12_150)
@@ -64,7 +65,7 @@ fn population() -> impl Iterator<Item = Case> {
 /// A patch's output after a fault.
 type Fault = fn(&mut Tessellation);
 
-/// Moves every point at a place.
+/// Moves every point that is at `from` to `to`.
 fn move_point(output: &mut Tessellation, from: [u32; 2], to: [u32; 2]) {
     let [from, to] = [from, to].map(|[u, v]| DomainPoint::from_bits(u, v));
     output.points.iter_mut().filter(|point| **point == from).for_each(|point| *point = to);
@@ -106,18 +107,19 @@ fn the_model_and_the_standards() {
     }
 }
 
-/// A rule, and how many of how many break it.
+/// A rule's name, and how many judged patches break it.
 fn cells(row: &RuleRow) -> [String; 2] {
     [row.rule.name().to_owned(), format!("{} of {}", row.broken, row.judged)]
 }
 
-/// The rules of a column of the table in docs/rules.md, in its order, with what it says of them.
+/// The rules in a column of the table in docs/rules.md, in its order, each with the text of its
+/// cell.
 fn documented(column: usize) -> Vec<[String; 2]> {
     let page = include_str!("../../../docs/rules.md");
     let (_, table) = page.split_once("\n## Who holds what\n").expect("the section of the table");
     let rows = table.lines().map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
     let own = rows.filter(|cells| cells.len() == 7 && cells[column].contains(" of "));
-    // Numbers of five digits have a space, and those of broken rules are bold.
+    // Numbers of five digits contain a space, and the cells of broken rules are bold.
     own.map(|cells| {
         let words = cells[column].replace("**", "");
         let (broken, judged) = words.split_once(" of ").expect("two numbers");
@@ -126,8 +128,8 @@ fn documented(column: usize) -> Vec<[String; 2]> {
     .collect()
 }
 
-/// Direct3D's rules are sections of the specification, by number and title; OpenGL's list of
-/// invariance has Vulkan's numbers.
+/// Direct3D's rules refer to sections of the specification by number and title. OpenGL's list of
+/// invariance rules has Vulkan's numbers.
 #[test]
 fn sources_are_where_rules_stand() {
     let specification = include_str!("../../../docs/specification.md");
@@ -152,15 +154,15 @@ fn sources_are_where_rules_stand() {
     }
 }
 
-/// Known faults of the model, each by the rule that shows it (specification, sections 11 and 12).
+/// Known faults of the model, each with the rule that shows it (specification, sections 11 and 12).
 #[test]
 fn findings_about_the_model() {
     let broken = |lines: &[&str]| {
         let report = judge(VULKAN, lines.iter().map(|line| model(case(line))));
         rules(&report, Verdict::Broken)
     };
-    // The conversion to 16 fraction bits comes before the ceiling: 3.00000024 has 3 segments, not
-    // 5.
+    // The conversion to 16 fraction bits comes before the ceiling, so 3.00000024 has 3 segments,
+    // not 5.
     let above_3 = "case isoline fractional_odd line ruler 3f800000 40400001";
     assert_eq!(broken(&[above_3]), ["segments"], "just above 3");
     // Ring corner (0, 1): an inner level of 1 + 3/65536 puts vertices of the inside on the outline.
@@ -176,7 +178,7 @@ fn findings_about_the_model() {
     assert_eq!(broken(&[corner]), ["segments"], "just above 1");
     let beyond = corner.replace("3f800100", "3f800180");
     assert_eq!(broken(&[&beyond]), [""; 0], "far enough above 1");
-    // Locations that go backwards.
+    // Locations that run backwards.
     let backwards = format!("case quad fractional_even triangle_cw ruler{}", " 41f00238".repeat(6));
     assert!(broken(&[&backwards]).contains(&"orientation"), "30.0010834");
     // Equal spacing: 12.26 units at n = 53 are within the tolerance.
@@ -184,8 +186,8 @@ fn findings_about_the_model() {
     assert_eq!(broken(&[equal]), [""; 0], "53");
 }
 
-/// Just above 1: how far the inside reaches the outline, and an edge's points its corners
-/// (specification, section 11).
+/// Levels just above 1: up to which level the inside touches the outline, and an edge's points
+/// coincide with its corners (specification, section 11).
 #[test]
 fn where_rounding_ends() {
     let odd = |domain: &str, levels: &str| {
@@ -230,8 +232,9 @@ fn equal_spacing_is_rounded() {
     assert_eq!((largest, hundredths(largest)), (53, 1226), "n, and hundredths of a unit");
 }
 
-/// dEQP's demand on 1 - c holds of every binary32 c from 0 to 1: it is no rule of tessellators.
-/// Every exponent, with both ends, the middle and random ones between.
+/// dEQP's condition on 1 - c holds for every binary32 c from 0 to 1, so it is not a rule about
+/// tessellators. Tests every exponent, with both ends of its range, the middle and random values
+/// between them.
 #[test]
 #[expect(clippy::float_cmp, reason = "exactly 1")]
 fn one_minus_a_coordinate_cannot_fail() {
@@ -245,7 +248,7 @@ fn one_minus_a_coordinate_cannot_fail() {
             assert_eq!(c + (1.0 - c), 1.0, "{c}");
         }
     }
-    // Beyond 1 it can: the range is what the rule stands on.
+    // Above 1 it can fail: the condition depends on the range of the coordinates.
     let beyond = f32::from_bits(0x4B80_0001);
     assert_ne!(beyond + (1.0 - beyond), 1.0, "{beyond}");
 }

@@ -1,4 +1,4 @@
-//! The limits of each rule, and the words for what is beyond them.
+//! Tests of the limits of each rule, and the text for what is beyond them.
 
 use super::*;
 
@@ -6,7 +6,7 @@ use super::*;
 const FOURS: &str =
     "case quad integer triangle_cw ruler 40800000 40800000 40800000 40800000 40800000 40800000";
 
-/// The words on one output that breaks a rule.
+/// The text on an output that breaks a rule.
 fn said(line: &str, rule: Rule, fault: impl FnOnce(&mut Tessellation)) -> Option<String> {
     let (case, mut output) = model(case(line));
     fault(&mut output);
@@ -14,14 +14,14 @@ fn said(line: &str, rule: Rule, fault: impl FnOnce(&mut Tessellation)) -> Option
     row(&report, rule).smallest.as_ref().map(|example| example.what.clone())
 }
 
-/// Moves the points of a line, which begin with `first`, to another v.
+/// Moves the points of a line, the first of which is number `first`, to another v.
 fn move_line(output: &mut Tessellation, first: usize, v: u32) {
     for point in &mut output.points[first..] {
         *point = DomainPoint::from_bits(point.u.to_bits(), v);
     }
 }
 
-/// Each coordinate alone, and the sum on triangles; the domain's corners belong to it.
+/// Each coordinate by itself, and the sum on triangles; the corners belong to the domain.
 #[test]
 fn where_the_domain_ends() {
     let outside = |place: &str| Some(format!("vertex ({place}) is outside the domain"));
@@ -49,7 +49,8 @@ fn where_the_domain_ends() {
     }
 }
 
-/// A denormal level may discard or not; with a level that discards beside it, it may not.
+/// A patch with a denormal level may be discarded or not; with another level that discards it, it
+/// must be.
 #[test]
 fn denormals_beside_levels_that_discard() {
     let judged = |first: &str| {
@@ -63,7 +64,7 @@ fn denormals_beside_levels_that_discard() {
     assert_eq!(judged("80000000"), [Verdict::Held, Verdict::Broken], "no primitive");
 }
 
-/// The words for what a level counts.
+/// The text for what a level counts.
 #[test]
 fn lines_and_segments_are_called_so() {
     let four_lines: Fault =
@@ -81,7 +82,7 @@ fn lines_and_segments_are_called_so() {
     assert_eq!(edge.as_deref(), Some("edge u0 has 6 segments, its level 4 asks for 4"));
 }
 
-/// The words on a mesh, its lines and its points.
+/// The texts on a mesh, its lines and its points.
 #[test]
 fn faults_of_primitives_in_words() {
     let said = |line: &str, rule, fault: Fault| said(line, rule, fault).unwrap_or_default();
@@ -112,11 +113,11 @@ fn faults_of_primitives_in_words() {
     assert_eq!(repeated, "(10000, 10000) is a point twice");
 }
 
-/// The words on an edge whose vertices are not where its level puts them: equal lengths, and two
-/// shorter ones.
+/// The texts on an edge whose vertices are not where its level puts them: equal lengths, and two
+/// shorter segments.
 #[test]
 fn faults_of_edges_in_words() {
-    // The points from the second on are at these places.
+    // The points from the second one on are moved to these places.
     let said_of = |line: &str, places: &[u32]| {
         let moved = said(line, Rule::Spacing, |output| {
             for (point, &u) in output.points[1..].iter_mut().zip(places) {
@@ -129,7 +130,7 @@ fn faults_of_edges_in_words() {
     let moved = said_of(equal, &[0x4011]);
     assert_eq!(moved, "line 0: vertex 1 of 4 is at 04011, more than 16 units from 1/4");
     assert_eq!(said_of(equal, &[0x3FF0]), "", "16 units are rounding");
-    // Five segments; two shorter ones must lie symmetrically. 32 units are rounding.
+    // Five segments; the two shorter ones must be symmetric. 32 units count as rounding.
     let fractional = "case isoline fractional_odd line ruler 3f800000 40800000";
     let unpaired =
         |a, b| format!("line 0: segments {a} and {b} are shorter, and are not a mirrored pair");
@@ -148,8 +149,8 @@ fn faults_of_edges_in_words() {
     }
 }
 
-/// Each end alone, and a vertex without its mirror image, on every edge of a quad; of isolines on
-/// that of the lines.
+/// Each end by itself, and a vertex without its mirror image, on every edge of a quad; on isolines,
+/// on the edge where the lines begin.
 #[test]
 fn edges_are_symmetric_about_their_middles() {
     let ends = [[0, ONE], [0, 0], [ONE, 0], [ONE, ONE]];
@@ -175,7 +176,7 @@ fn edges_are_symmetric_about_their_middles() {
     assert_eq!(moved.as_deref(), Some(other), "the last of four lines");
 }
 
-/// An edge may have the vertices of another one of its level in either direction.
+/// An edge may have the vertices of another edge of the same level in either direction.
 #[test]
 fn edges_may_be_mirrored() {
     let verdict = |edges: &[[u32; 2]]| {
@@ -186,13 +187,13 @@ fn edges_may_be_mirrored() {
         }
         row(&judge(VULKAN, [(case, output)]), Rule::EveryEdge).verdict()
     };
-    // A clockwise walk goes along two edges the way their coordinate grows, and along two the other
-    // way.
+    // A clockwise walk goes along two edges in the direction of growing coordinates, and along two
+    // in the opposite direction.
     assert_eq!(verdict(&[[0, 0], [0, ONE], [1, 0], [1, ONE]]), Verdict::Held, "mirrored");
     assert_eq!(verdict(&[[0, 0], [0, ONE], [1, 0]]), Verdict::Broken, "one is another");
 }
 
-/// From level to level the shorter segments shrink by at most 2 units.
+/// From one level to the next, the shorter segments may shrink by at most 2 units.
 #[test]
 fn shorter_segments_may_shrink_by_rounding() {
     let line =
@@ -217,14 +218,14 @@ fn shorter_segments_may_shrink_by_rounding() {
     assert_eq!(judged(length - 2), (1, None), "rounding");
     let what = format!("the shorter segments shrink from {length:05x} to {:05x}", length - 3);
     assert_eq!(judged(length - 3), (1, Some(what)));
-    // From a level to one that is 1/8 above it they grow.
+    // From a level to one that is 1/8 above it, they must grow.
     let stays = format!("the shorter segments stay {length:05x} from a level to a higher one");
     assert_eq!(judged_at("40840000", length), (1, Some(stays)));
     assert_eq!(judged_at("40840000", length + 1), (1, None), "longer");
     assert_eq!(judged_at("40838000", length), (1, None), "nearer levels");
 }
 
-/// Of examples of one size the first is kept; a smaller one takes its place.
+/// Of examples of equal size the first is kept; a smaller one replaces it.
 #[test]
 fn the_smallest_example_is_kept() {
     let broken = |line: &str| {

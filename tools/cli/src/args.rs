@@ -1,5 +1,5 @@
-//! Arguments of several commands: a patch (domain, factors and configuration), generated cases,
-//! names.
+//! Arguments shared by several commands: a patch (domain, factors and configuration), generated
+//! cases, and names.
 
 use crate::campaign::{Placed, ShardArgs};
 use crate::failure::Failure;
@@ -9,10 +9,10 @@ use tess_core::{Config, Domain, Order, OutputPrimitive, Partitioning, PatchFacto
 use tess_verify::generate::{GenLevel, LEVEL_VERSION, Selection, Shard};
 use tess_verify::{Case, Named, factor};
 
-/// Values by their names on the command line, each with what it means.
+/// Values with their names on the command line and their help texts.
 pub(crate) type Choices<T> = &'static [(&'static str, T, &'static str)];
 
-/// Orders of triangles.
+/// The orders of triangles.
 pub(crate) const ORDERS: Choices<Order> = &[
     ("specification", Order::Specification, "That of the specification"),
     (
@@ -53,8 +53,8 @@ pub(crate) struct PatchArgs {
 }
 
 impl PatchArgs {
-    /// The patch: its configuration and raw factors. Errors: the domain has other numbers of outer
-    /// or inside factors.
+    /// The patch: its configuration and raw factors. Errors: the number of outer or inside factors
+    /// is not the domain's.
     pub(crate) fn case(&self) -> Result<Case, Failure> {
         let config =
             Config { partitioning: self.partitioning, output: self.output, split: self.split };
@@ -93,19 +93,19 @@ pub(crate) struct SelectionArgs {
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u8).range(1..=3))]
     level: u8,
-    /// Seed of everything random
+    /// Seed of the random cases
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Number of random cases at the end
     #[arg(long, value_name = "N")]
     count: Option<u64>,
-    /// One domain only
+    /// Only this domain
     #[arg(long, value_name = "NAME", value_parser = name_of::<Domain>())]
     domain: Option<Domain>,
-    /// One partitioning only
+    /// Only this partitioning
     #[arg(long, value_name = "NAME", value_parser = name_of::<Partitioning>())]
     partitioning: Option<Partitioning>,
-    /// One output primitive only
+    /// Only this output primitive
     #[arg(long, value_name = "NAME", value_parser = name_of::<OutputPrimitive>())]
     output: Option<OutputPrimitive>,
     #[command(flatten)]
@@ -113,7 +113,7 @@ pub(crate) struct SelectionArgs {
 }
 
 impl SelectionArgs {
-    /// The cases of all shards.
+    /// The cases of all shards together.
     pub(crate) const fn selection(&self) -> Selection {
         Selection {
             level: match self.level {
@@ -130,8 +130,8 @@ impl SelectionArgs {
         }
     }
 
-    /// The options that the cases depend on, so that a file says how it was made. Each note has the
-    /// name of its option, but for `--count`, whose note is `random`.
+    /// The options on which the cases depend, so that a file records how it was made. Each note has
+    /// the name of its option, except `random`, which is that of `--count`.
     pub(crate) fn notes(&self, placed: Placed) -> Vec<(String, String)> {
         let pair = |key: &str, value: String| (key.to_owned(), value);
         let mut notes = vec![
@@ -153,7 +153,8 @@ impl SelectionArgs {
     }
 }
 
-/// Says on stderr which factors are larger than a factor can be. They are valid, and count less.
+/// Notes on stderr which factors are above the largest factor. They are valid, but count as the
+/// largest.
 pub(crate) fn note_large_factors(case: &Case) {
     let patch = case.patch();
     let Some(processed) = patch.processed().factors() else { return };
@@ -166,7 +167,7 @@ pub(crate) fn note_large_factors(case: &Case) {
     }
 }
 
-/// A parser of command-line values that takes these names and lists them in help and errors.
+/// A parser of command-line values that accepts these names and lists them in help and errors.
 pub(crate) fn choice<T: Copy + Send + Sync>(all: Choices<T>) -> impl TypedValueParser<Value = T> {
     let names = all.iter().map(|(name, _, help)| PossibleValue::new(name).help(help));
     let find = |name: String| all.iter().find(|(known, ..)| *known == name);
@@ -179,7 +180,7 @@ pub(crate) fn name_in<T: PartialEq>(all: Choices<T>, value: &T) -> &'static str 
     all.iter().find(|(_, known, _)| known == value).map_or("", |(name, ..)| name)
 }
 
-/// A parser of command-line values that takes the names of `T` and lists them in help and errors.
+/// A parser of command-line values that accepts the names of `T` and lists them in help and errors.
 pub(crate) fn name_of<T: Named + Send + Sync>() -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(T::NAMES.iter().map(|(name, _)| *name))
         .try_map(|name| T::from_name(&name))

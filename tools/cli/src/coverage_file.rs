@@ -1,4 +1,4 @@
-//! Coverage files, which commands add to.
+//! Coverage files, to which commands add hits.
 
 use crate::failure::Failure;
 use crate::output::{OutputArgs, Role, create_unless_there};
@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use tess_verify::cover::Coverage;
 
-/// A file of coverage, and hits to add to it.
+/// A coverage file, and hits to add to it.
 #[derive(Debug)]
 pub(crate) struct CoverageFile {
     path: PathBuf,
@@ -16,9 +16,9 @@ pub(crate) struct CoverageFile {
 }
 
 impl CoverageFile {
-    /// Begins to count for a file that has a [`role`]. It need not be there yet. Errors: a place
-    /// that cannot be written; a file that cannot be read, or holds no coverage of this version's
-    /// bins.
+    /// Begins to count for a file that has passed [`role`]. The file need not exist yet. Errors: a
+    /// place that cannot be written; a file that cannot be read, or is not a coverage file with the
+    /// bins of this version.
     pub(crate) fn open(path: PathBuf) -> Result<Self, Failure> {
         OutputArgs { file: path.clone() }.require_writable()?;
         #[cfg(windows)]
@@ -30,9 +30,9 @@ impl CoverageFile {
         Ok(Self { path, coverage: Coverage::default() })
     }
 
-    /// Adds the hits to the file, after `report` took the sum. Processes that add to one file take
-    /// turns, so that no hit is lost. Errors: those of `report`; a file that cannot be locked, read
-    /// or written, which is then as it was.
+    /// Adds the hits to the file, after `report` has received the sum. Processes that add to one
+    /// file take turns, so no hit is lost. Errors: those of `report`; a file that cannot be locked,
+    /// read or written. The file is then unchanged.
     pub(crate) fn add(
         self,
         report: impl FnOnce(&Coverage) -> Result<(), Failure>,
@@ -46,27 +46,27 @@ impl CoverageFile {
     }
 }
 
-/// A coverage file as one of the command's files. Errors: a path that is no regular file: a pipe
-/// would wait, and a device may be endless.
+/// A coverage file as one of the command's files. Errors: a path that is not a regular file,
+/// because a pipe would block and a device may be endless.
 pub(crate) fn role(path: &Path) -> Result<Role<'_>, Failure> {
     let is_other = path.metadata().is_ok_and(|found| !found.is_file());
     if path.as_os_str() == "-" || is_other {
         return Err(Failure::bad_input(format!(
-            "--coverage {} is no regular file; the command reads it and replaces it",
+            "--coverage {} is not a regular file; the command reads it and replaces it",
             path.display()
         )));
     }
     Ok(Role::output("--coverage", path))
 }
 
-/// Writes a coverage file. Errors: the place cannot be written; a file that was there is then as it
-/// was.
+/// Writes a coverage file. Errors: the place cannot be written; an earlier file there is then
+/// unchanged.
 pub(crate) fn write(path: &Path, coverage: &Coverage) -> Result<(), Failure> {
     OutputArgs { file: path.to_owned() }.write(coverage.to_ucis().as_bytes())
 }
 
-/// Reads a coverage file; `-` is stdin. Errors: it cannot be read, or holds no coverage of this
-/// version's bins.
+/// Reads a coverage file; `-` is stdin. Errors: it cannot be read, or is not a coverage file with
+/// the bins of this version.
 pub(crate) fn read_from(path: &Path) -> Result<Coverage, Failure> {
     if path.as_os_str() == "-" {
         return Coverage::read_ucis(io::stdin().lock())
@@ -81,9 +81,11 @@ fn read(path: &Path, file: io::Result<File>) -> Result<Coverage, Failure> {
         .map_err(|error| Failure::bad_input(format!("{}: {error}", path.display())))
 }
 
-/// Locks the file, made empty if it is not there. The lock ends when what is returned is dropped.
+/// Locks the file, which is created empty if it does not exist. The lock ends when the returned
+/// value is dropped.
 ///
-/// Who had the lock before has replaced the file, so that it may be another one after the wait.
+/// The previous holder of the lock has replaced the file, so the path may lead to another file
+/// after the wait.
 #[cfg(not(windows))]
 fn locked(path: &Path) -> io::Result<impl Sized> {
     loop {
@@ -110,9 +112,9 @@ fn locked(path: &Path) -> io::Result<impl Sized> {
     Ok(lock)
 }
 
-/// Windows neither reads a file that another handle has locked nor replaces one that is open. So
-/// the lock is a file beside it, which is in use as long as the lock is held. It stays: one that is
-/// being deleted cannot be opened.
+/// Locks by a second file. Windows cannot read a file that another handle has locked, and cannot
+/// replace an open one. So this file is kept open while the lock is held. It is never deleted,
+/// because a file that is being deleted cannot be opened.
 #[cfg(windows)]
 #[expect(clippy::disallowed_methods, reason = "nothing tells when the other program is done")]
 fn locked_beside(path: &Path) -> io::Result<File> {
@@ -130,7 +132,7 @@ fn locked_beside(path: &Path) -> io::Result<File> {
     }
 }
 
-/// Makes an empty file, unless it is there by now.
+/// Creates an empty file, unless one exists by now.
 fn create(path: &Path) -> io::Result<()> {
     create_unless_there(path, Coverage::default().to_ucis().as_bytes())
 }

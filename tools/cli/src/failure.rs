@@ -1,4 +1,4 @@
-//! How a command ends: exit codes and the one error type.
+//! How a command ends: the exit codes and the one error type.
 
 use std::error::Error;
 use std::fmt;
@@ -18,7 +18,8 @@ pub(crate) enum Exit {
     BadInput = 2,
     /// The backend is not available here.
     Unavailable = 3,
-    /// The reader of the output left before its end: what shells report for programs that end so.
+    /// The reader of the output left early. Shells report this code for a program that ends this
+    /// way.
     ReaderLeft = 141,
 }
 
@@ -28,14 +29,14 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Why a command could not do what it was asked for.
+/// The reason why a command could not do what was asked.
 ///
-/// The message says what was wrong, where, and what would be right.
+/// The message names the fault, its place, and what is expected.
 #[derive(Debug)]
 pub(crate) struct Failure {
     /// The code to exit with.
     pub(crate) exit: Exit,
-    /// The message, without a trailing newline; empty if nothing is to be said.
+    /// The message, without a trailing newline; empty if there is nothing to say.
     pub(crate) message: String,
 }
 
@@ -46,7 +47,7 @@ impl Failure {
         Self { exit: Exit::BadInput, message: message.to_string() }
     }
 
-    /// A result that is not what it must be: exit code 1.
+    /// A result that is not as it must be: exit code 1.
     pub(crate) fn different(message: impl ToString) -> Self {
         Self { exit: Exit::Different, message: message.to_string() }
     }
@@ -56,7 +57,8 @@ impl Failure {
         Self { exit: Exit::Unavailable, message: message.to_string() }
     }
 
-    /// A place that could not be written: exit code 2; a reader that left ends the program quietly.
+    /// A place that could not be written: exit code 2. If the reader has left, the program ends
+    /// quietly.
     pub(crate) fn write(path: &Path, error: io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
             return Self { exit: Exit::ReaderLeft, message: String::new() };
@@ -68,7 +70,7 @@ impl Failure {
     /// A file that could not be read or written: exit code 2.
     pub(crate) fn file(action: &str, path: &Path, error: &dyn Error) -> Self {
         let why = error.to_string();
-        // The crate of temporary files names its own file behind the cause.
+        // The crate for temporary files appends its own file name to the cause.
         let why = why.split_once(" at path \"").map_or(why.as_str(), |(why, _)| why);
         Self::bad_input(format!("cannot {action} {}: {why}", path.display()))
     }
@@ -82,7 +84,7 @@ impl fmt::Display for Failure {
 
 impl Error for Failure {}
 
-/// A backend that failed while it ran did not deliver: exit code 3, with every cause.
+/// A backend that failed while it ran: exit code 3, with every cause.
 impl From<BackendError> for Failure {
     fn from(error: BackendError) -> Self {
         let mut message = error.to_string();

@@ -1,4 +1,4 @@
-//! Input of commands: a file, or stdin where the path is `-`.
+//! The input of commands: a file, or stdin if the path is `-`.
 
 use crate::failure::Failure;
 use std::fs::File;
@@ -6,7 +6,7 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 use tess_verify::vectors::Cases;
 
-/// A text that comes from a file or from stdin.
+/// Text from a file or from stdin.
 pub(crate) type Reader = Box<dyn BufRead + Send>;
 
 /// The name of a path in messages.
@@ -14,7 +14,7 @@ pub(crate) fn name(path: &Path) -> String {
     if path.as_os_str() == "-" { "stdin".to_owned() } else { path.display().to_string() }
 }
 
-/// Begins to read. Errors: a file that cannot be opened.
+/// Opens an input. Errors: a file that cannot be opened.
 pub(crate) fn open(path: &Path) -> io::Result<Reader> {
     Ok(match path.to_str() {
         Some("-") => Box::new(BufReader::new(io::stdin())),
@@ -22,24 +22,24 @@ pub(crate) fn open(path: &Path) -> io::Result<Reader> {
     })
 }
 
-/// [`open`], whose failure is exit code 2.
+/// Does what [`open`] does; a failure has exit code 2.
 ///
 /// # Errors
-/// A file that cannot be opened.
+/// The file cannot be opened.
 pub(crate) fn reader(path: &Path) -> Result<Reader, Failure> {
     open(path).map_err(|error| Failure::file("read", path, &error))
 }
 
-/// The cases of a file; - is stdin.
+/// The cases of a file; `-` is stdin.
 ///
 /// # Errors
-/// It cannot be read, or begins wrongly.
+/// The file cannot be read, or has a wrong head.
 pub(crate) fn cases(path: &Path) -> Result<Cases<Reader>, Failure> {
     Cases::new(name(path), reader(path)?).map_err(Failure::bad_input)
 }
 
-/// A whole text of at most `max` bytes, so that a device without an end does not fill the memory.
-/// Errors: it cannot be read, is longer, or is not UTF-8.
+/// A whole text of at most `max` bytes, so that an endless device does not fill the memory. Errors:
+/// the text cannot be read, is longer, or is not UTF-8.
 pub(crate) fn text(path: &Path, max: u64) -> io::Result<String> {
     let mut text = String::new();
     let read = open(path)?.take(max + 1).read_to_string(&mut text)?;

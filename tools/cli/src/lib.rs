@@ -1,10 +1,10 @@
-//! The library behind the program `tess`: [`main`] is all of it that others can call.
+//! The library behind the program `tess`. Its only public function is [`main`].
 //!
-//! `commands` has a folder for each command. What they share lies beside it: `args` (a patch on the
-//! command line), `backends` (who tessellates it), `campaign` (which part of the work, and its
-//! report), `formats` (what it is shown as), `input` (what is read), `output` and `coverage_file`
-//! (where results go) and `failure` (how a command ends). Drawings and explanations are made by
-//! `tess-verify`.
+//! `commands` has a folder per command. The modules that commands share are next to it: `args` (a
+//! patch on the command line), `backends` (the implementations that tessellate it), `campaign` (the
+//! part of the work, and its report), `formats` (the forms of a result), `input` (what is read),
+//! `output` and `coverage_file` (where results go) and `failure` (how a command ends). Drawings and
+//! explanations are made by `tess-verify`.
 
 mod args;
 mod backends;
@@ -50,7 +50,7 @@ Examples:
   tess check golden/patches.csv                 4000 recorded patches, compared
   tess bench --workload uniform-16              how fast on this machine";
 
-/// Runs the program on the process's arguments and says how it ended.
+/// Runs the program with the process's arguments, and returns how it ended.
 pub fn main() -> ExitCode {
     let mut program = command_line();
     let words: Vec<OsString> = std::env::args_os().collect();
@@ -64,7 +64,7 @@ pub fn main() -> ExitCode {
             output::remove_earlier(&words).and_then(|()| commands::run(&command, &invocation))
         }
         Err(error) if error.use_stderr() => {
-            // What is kept is said when the command line is right.
+            // A file that is kept is reported once the command line is right.
             drop(output::remove_earlier(&words));
             error.exit()
         }
@@ -81,14 +81,14 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Writes what `--help` and `--version` are asked for. Errors: stdout cannot be written.
+/// Prints the text for `--help` or `--version`. Errors: stdout cannot be written.
 fn show(help: &clap::Error) -> Result<Exit, Failure> {
     let written = help.print().and_then(|()| io::stdout().flush());
     written.map(|()| Exit::Done).map_err(|error| Failure::write(Path::new("-"), error))
 }
 
-/// The command line, on which a negative number is a value that may be wrong, never an option: an
-/// error names the value, and does not advise to write `-- -1`.
+/// The command line. A negative number is always a value, possibly a wrong one, and never an
+/// option: the error names the value instead of advising `-- -1`.
 fn command_line() -> clap::Command {
     let numbers = |arg: Arg| match arg.get_action() {
         ArgAction::Set | ArgAction::Append => arg.allow_negative_numbers(true),

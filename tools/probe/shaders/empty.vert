@@ -1,3 +1,3 @@
 #version 450
-// Tessellation needs no vertices: a patch is its number.
+// Tessellation needs no vertices here: a patch is given by its number.
 void main() {}

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Behind the fixed-function tessellator. The modes are replaced when a pipeline is made.
+// Runs after the fixed-function tessellator. The modes are replaced when a pipeline is created.
 layout(triangles, equal_spacing, cw) in;
 #include "surface.glsl"
 

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Behind the compute shaders: a packed point (`tess_gpu::layout::PackedPoint`).
+// Runs after the compute shaders, on a packed point (`tess_gpu::layout::PackedPoint`).
 layout(location = 0) in uvec2 point;
 #include "surface.glsl"
 

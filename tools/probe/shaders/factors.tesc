@@ -1,5 +1,5 @@
 #version 450
-// The raw factors of a patch, bit for bit: four outer and two inside, whether the domain has them or not.
+// Passes on the raw factors of a patch, bit for bit: four outer and two inside, even if the domain has fewer.
 layout(vertices = 1) out;
 layout(set = 0, binding = 0, std430) readonly buffer Factors { uint factors[]; };
 layout(push_constant) uniform Draw { uint first_patch; };

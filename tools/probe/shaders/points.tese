@@ -1,5 +1,5 @@
 #version 450
-// The same for devices without transform feedback: in any order, maybe several times for a point.
+// Like capture.tese, for devices without transform feedback: points in any order, some maybe several times.
 layout(triangles, equal_spacing, cw) in;
 layout(push_constant) uniform Draw { uint first_patch; };
 layout(set = 0, binding = 1, std430) buffer Points {

@@ -1,4 +1,4 @@
-// Where a domain point of a patch lies on the screen: the patches form a square grid, slightly curved.
+// The screen position of a domain point of a patch. The patches form a square grid, slightly curved.
 layout(push_constant) uniform Draw { layout(offset = 4) uint patches_in_a_row; };
 
 vec4 surface(vec2 uv, uint patch_number)

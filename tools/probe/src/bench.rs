@@ -1,4 +1,4 @@
-//! The fixed-function stage beside the compute shaders, timed by the device's own clock.
+//! Compares the fixed-function stage with the compute shaders, timed by the device's own clock.
 
 use crate::draws::words_of;
 use crate::error::Error;
@@ -16,41 +16,41 @@ use tess_gpu::layout::factor_words;
 use tess_gpu::{Capacity, Limits, Order, Plan, Resource, Setup};
 use tess_verify::workloads::Workload;
 
-/// Times of one workload: of each, the fastest of several runs.
+/// The times of one workload; each is the fastest of several runs.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct BenchTimes {
     /// The workload.
     pub workload: String,
-    /// Patches, the workload's own repeated.
+    /// The number of patches, with the workload repeated.
     pub patches: u64,
-    /// Triangles of all patches.
+    /// The number of triangles of all patches.
     pub triangles: u64,
     /// Milliseconds of the fixed-function stage with rasterisation discarded.
     pub fixed: f64,
     /// Milliseconds of the compute shaders.
     pub compute: f64,
-    /// Milliseconds of the fixed-function stage and of drawing what it gives.
+    /// Milliseconds of the fixed-function stage and of drawing its output.
     pub fixed_drawn: f64,
-    /// Milliseconds of the compute shaders and of drawing what they give.
+    /// Milliseconds of the compute shaders and of drawing their output.
     pub compute_drawn: f64,
-    /// Milliseconds of the compute shaders, which write triangles in the vertex-cache order.
+    /// Milliseconds of the compute shaders that write triangles in vertex-cache order.
     pub ordered: f64,
-    /// Milliseconds of the same and of drawing what they give.
+    /// Milliseconds of these shaders and of drawing their output.
     pub ordered_drawn: f64,
 }
 
-/// Pixels along each side of the picture.
+/// The width and height of the picture in pixels.
 const PICTURE: u32 = 1024;
-/// A workload is repeated until it has this many triangles or patches; not on processors.
+/// A workload is repeated until it has this many triangles or patches, except on processors.
 const TRIANGLES: u64 = 1 << 23;
 const PATCHES: usize = 1 << 20;
 
-/// Times a workload of triangles on device `number`, each way `runs` times in turn. `spirv` gives
-/// the compute shaders.
+/// Times a workload of triangles on device `number`; each way runs `runs` times, in turn with the
+/// others. `spirv` provides the compute shaders.
 ///
 /// # Errors
-/// There is no such device; it fails; or a shader cannot be had.
+/// The device does not exist or fails, or a shader is not available.
 pub fn bench(
     number: usize,
     workload: &Workload,
@@ -107,7 +107,7 @@ impl Way {
 
 /// Both ways, ready to run.
 struct BothWays {
-    // Dropped in this order: the device last.
+    // Fields are dropped in this order, the device last.
     fixed: Pipeline,
     fixed_drawn: Pipeline,
     compute_drawn: Pipeline,
@@ -173,7 +173,7 @@ impl BothWays {
         })
     }
 
-    /// Makes sure that the compute shaders gave this number of indices.
+    /// Checks that the compute shaders produced this number of indices.
     fn check(&self, indices: u64) -> Result<(), Error> {
         for compute in [&self.compute, &self.ordered] {
             let given = compute.buffer(Resource::Arguments).download(&self.commands, 1)?[0];
@@ -185,7 +185,7 @@ impl BothWays {
         Ok(())
     }
 
-    /// Milliseconds of one run, by the device.
+    /// Milliseconds of one run, by the device's clock.
     #[expect(
         clippy::float_arithmetic,
         clippy::cast_precision_loss,
@@ -232,7 +232,7 @@ impl BothWays {
         let in_a_row = self.patches.isqrt() + 1;
         let constants = [0u32.to_le_bytes(), in_a_row.to_le_bytes()].concat();
         let (point, layout) = (vk::PipelineBindPoint::GRAPHICS, self.program.layout());
-        // SAFETY: the command buffer is being recorded in a pass that the pipeline was made for.
+        // SAFETY: the command buffer is being recorded in a pass for which the pipeline was made.
         unsafe {
             device.cmd_bind_pipeline(to, point, **pipeline);
             device.cmd_bind_descriptor_sets(to, point, layout, 0, &[self.program.set], &[]);
@@ -250,8 +250,8 @@ impl BothWays {
         self.bind(device, to, &self.compute_drawn);
         let buffer = |resource| *compute.buffer(resource).handle;
         let (points, indices) = (buffer(Resource::Points), buffer(Resource::Indices));
-        // SAFETY: a pipeline is bound; the arguments and what they draw were written by the
-        // commands before, with a barrier behind them.
+        // SAFETY: a pipeline is bound; earlier commands, followed by a barrier, wrote the arguments
+        // and what they draw.
         unsafe {
             device.cmd_bind_vertex_buffers(to, 0, &[points], &[0]);
             device.cmd_bind_index_buffer(to, indices, 0, vk::IndexType::UINT32);

@@ -24,7 +24,7 @@ use tess_verify::vectors::fixed;
 pub enum Method {
     /// Every primitive, in the device's order.
     Primitives,
-    /// Every domain point that the device evaluates, in any order, some of them several times.
+    /// Every domain point that the device evaluates, in any order and possibly several times.
     Points,
 }
 
@@ -41,14 +41,14 @@ impl Method {
 /// A device's output for one patch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Captured {
-    /// `gl_TessCoord` of each vertex as the bits of binary32 numbers, primitive after primitive; or
-    /// of each evaluated point, where no primitives are captured.
+    /// `gl_TessCoord` of each vertex as the bits of binary32 numbers, primitive by primitive. If no
+    /// primitives are captured, that of each evaluated point.
     pub vertices: Vec<[u32; 3]>,
 }
 
 impl Captured {
-    /// The same as an output: each vertex is a separate point, in the order of the primitives;
-    /// `None` if a coordinate is no 16.16 number in 0..=1.
+    /// The capture as an output: each vertex is a separate point, in the order of the primitives.
+    /// `None` if a coordinate is not a 16.16 number in 0..=1.
     #[must_use]
     pub fn output(&self) -> Option<Tessellation> {
         let point = |&[u, v, _]: &[u32; 3]| Some(DomainPoint::from_bits(fixed(u)?, fixed(v)?));
@@ -61,7 +61,7 @@ impl Captured {
 /// A device whose tessellator is probed.
 #[derive(Debug)]
 pub struct Prober {
-    // Dropped in this order: the device last.
+    // Fields are dropped in this order, the device last.
     pipelines: HashMap<(Domain, Config), Pipeline>,
     buffers: Option<CaptureBuffers>,
     pass: DrawPass,
@@ -72,7 +72,7 @@ pub struct Prober {
     gpu: Arc<Gpu>,
 }
 
-/// The buffers of a submission, grown when one needs more.
+/// The buffers of a submission. They grow when a submission needs more.
 #[derive(Debug)]
 struct CaptureBuffers {
     program: BoundInterface,
@@ -80,18 +80,18 @@ struct CaptureBuffers {
     output: DeviceBuffer,
 }
 
-/// Words in front of the points that are stored.
+/// The number of words before the stored points.
 const COUNT_WORDS: usize = 4;
-/// The most vertices of a submission.
+/// The largest number of vertices in a submission.
 const SUBMISSION_VERTICES: usize = 1 << 20;
-/// The most patches of a submission.
+/// The largest number of patches in a submission.
 const SUBMISSION_PATCHES: usize = 4096;
 
 impl Prober {
     /// Opens device `number` of [`list`](crate::list).
     ///
     /// # Errors
-    /// There is no such device, or it cannot tessellate or be captured.
+    /// The device does not exist, or it cannot tessellate or be captured.
     pub fn open(number: usize) -> Result<Self, Error> {
         let gpu = Arc::new(Gpu::open(number)?);
         let (method, evaluation) = match gpu.feedback {
@@ -101,7 +101,7 @@ impl Prober {
         Self::with(gpu, method, words(evaluation))
     }
 
-    /// The same with domain points alone, as on devices without transform feedback.
+    /// Opens a device to capture only domain points, as on devices without transform feedback.
     ///
     /// # Errors
     /// As for [`Self::open`]; or the device's tessellation stages cannot store.
@@ -113,7 +113,7 @@ impl Prober {
         Self::with(gpu, Method::Points, words(POINTS_TESE))
     }
 
-    /// The same with another evaluation shader in SPIR-V, for tests that plant faults.
+    /// Uses another evaluation shader in SPIR-V, for tests that plant faults.
     #[must_use]
     pub fn with_evaluation(mut self, spirv: &[u8]) -> Self {
         self.evaluation = words(spirv);
@@ -121,8 +121,8 @@ impl Prober {
         self
     }
 
-    /// Makes draws of at most this many vertices, [`DRAW_VERTICES`] unless asked for, as the model
-    /// expects them; a patch with more is a draw of its own.
+    /// Limits draws to `most` vertices, as the model predicts them, instead of [`DRAW_VERTICES`]. A
+    /// patch with more is a draw by itself.
     #[must_use]
     pub const fn with_draw_vertices(mut self, most: usize) -> Self {
         self.draw_vertices = most;
@@ -148,7 +148,7 @@ impl Prober {
         })
     }
 
-    /// The device's name.
+    /// The device's name and abilities.
     #[must_use]
     pub fn info(&self) -> &Info {
         &self.gpu.info
@@ -160,8 +160,8 @@ impl Prober {
         self.method
     }
 
-    /// Shows `take` the device's output for each case; `progress` takes how many were shown since
-    /// its last call.
+    /// Passes the device's output for each case to `take`; `progress` gets the number of cases
+    /// passed since its last call.
     pub(crate) fn each(
         &mut self,
         cases: &[Case],
@@ -179,10 +179,10 @@ impl Prober {
         Ok(())
     }
 
-    /// The device's output for patches of one domain, in their order.
+    /// The device's output for patches of one domain, in order.
     ///
     /// # Errors
-    /// The device fails, or gives something that no tessellator gives.
+    /// The device fails, or returns something that no tessellator can produce.
     pub fn capture(
         &mut self,
         domain: Domain,
@@ -212,8 +212,8 @@ impl Prober {
         Ok(captured)
     }
 
-    /// Captures patches whose output the model expects to fit a submission; a device that gives
-    /// more gets more room.
+    /// Captures patches whose output, as the model predicts it, fits a submission. If a device
+    /// returns more, it gets more room.
     fn submission(
         &mut self,
         domain: Domain,
@@ -245,8 +245,7 @@ impl Prober {
         }
     }
 
-    /// Draws, and gives the number of primitives or points that the device has, with room for them
-    /// or not.
+    /// Draws, and returns the device's number of primitives or points, whether or not they fit.
     fn run(
         &mut self,
         domain: Domain,
@@ -284,8 +283,8 @@ impl Prober {
         let device = &self.gpu.device;
         let program = &buffers.program;
         let point = vk::PipelineBindPoint::GRAPHICS;
-        // SAFETY: the command buffer is being recorded inside of a pass that the pipeline was made
-        // for; the pipeline, the set and the buffers outlive the submission, which is waited for.
+        // SAFETY: the command buffer is being recorded inside of a pass for which the pipeline was
+        // made; the pipeline, the set and the buffers outlive the submission, which is waited for.
         unsafe {
             device.cmd_bind_pipeline(commands, point, **pipeline);
             device.cmd_bind_descriptor_sets(
@@ -325,7 +324,7 @@ impl Prober {
         self.gpu.feedback.as_ref().filter(|_| self.method == Method::Primitives)
     }
 
-    /// Lets the host see what the device wrote.
+    /// Makes the device's writes visible to the host.
     fn make_visible(&self, commands: vk::CommandBuffer) {
         let (stage, access) = match self.method {
             Method::Primitives => (
@@ -363,7 +362,7 @@ impl Prober {
             Method::Primitives => BoundInterface::new(&self.gpu, &[&factors])?,
             Method::Points => BoundInterface::new(&self.gpu, &[&factors, &output])?,
         };
-        // Their layouts are the same, but for the pipelines' own.
+        // The layouts are equal, but pipelines belong to their own one.
         self.pipelines.clear();
         self.buffers = Some(CaptureBuffers { program, factors, output });
         Ok(())
@@ -387,7 +386,7 @@ impl Prober {
         Ok(())
     }
 
-    /// The vertices that were captured, patch by patch.
+    /// The captured vertices, patch by patch.
     fn read(&self, patches: usize, vertices: usize, size: usize) -> Result<Vec<Captured>, Error> {
         let Some(buffers) = &self.buffers else { return Err(Error::OutOfMemory) };
         let skipped = match self.method {
@@ -413,7 +412,7 @@ impl Prober {
     }
 }
 
-/// The key of a pipeline: Vulkan has one split order.
+/// The part of a configuration that distinguishes pipelines. Vulkan has one split order.
 fn relevant(config: Config) -> Config {
     Config { split: SplitOrder::Ruler, ..config }
 }

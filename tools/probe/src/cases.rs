@@ -5,8 +5,8 @@ use tess_core::{Config, Domain, OutputPrimitive, SplitOrder};
 use tess_verify::Case;
 use tess_verify::generate::{Selection, Shard};
 
-/// The cases of a selection that a Vulkan device is [`asked`], in the split order that it has. Then
-/// one shard of them is taken.
+/// The cases of a selection, converted by [`asked`] to those that Vulkan has, in its split order;
+/// of these, one shard.
 #[must_use]
 pub fn cases(selection: Selection, shard: Shard) -> Vec<Case> {
     let split = selection.split.or(Some(SplitOrder::Ruler));
@@ -14,15 +14,15 @@ pub fn cases(selection: Selection, shard: Shard) -> Vec<Case> {
     (0..).zip(asked).filter(|(number, _)| shard.has(*number)).map(|(_, case)| case).collect()
 }
 
-/// Cases with what Vulkan does not have replaced by what it has: one split order, lines only from
-/// isolines, and from isolines no triangles. Each case comes once.
+/// Replaces the parts of cases that Vulkan lacks: there is one split order, only isolines have
+/// lines, and isolines have no triangles. Each resulting case occurs once.
 #[must_use]
 pub fn asked(cases: impl IntoIterator<Item = Case>) -> Vec<Case> {
     let mut seen = HashSet::new();
     cases.into_iter().map(|case| asked_for(&case)).filter(|case| seen.insert(*case)).collect()
 }
 
-/// A case with what Vulkan does not have replaced by what it has.
+/// A case with the parts that Vulkan lacks replaced.
 pub(crate) fn asked_for(case: &Case) -> Case {
     let output = match (case.domain(), case.config.output) {
         (_, OutputPrimitive::Point) => OutputPrimitive::Point,
@@ -34,7 +34,7 @@ pub(crate) fn asked_for(case: &Case) -> Case {
     Case { config, factors: case.factors }
 }
 
-/// The same cases by domain and configuration.
+/// The same cases, grouped by domain and configuration.
 pub(crate) fn groups(cases: &[Case]) -> Vec<Vec<Case>> {
     let mut groups: Vec<Vec<Case>> = Vec::new();
     let kind = |case: &Case| (case.domain(), case.config);

@@ -1,4 +1,4 @@
-//! Digests of captures, in the device's order and in none.
+//! Digests of captures, with and without regard to the device's order.
 
 use tess_core::Tessellation;
 use tess_verify::vectors::Fnv1a;
@@ -11,9 +11,9 @@ pub struct Digests {
 }
 
 impl Digests {
-    /// Continues over a patch whose primitives have `size` vertices: the number of its primitives,
-    /// then u and v of each vertex as 16.16 numbers. For the set, each triangle begins with the
-    /// vertex that makes it least, and primitives are sorted.
+    /// Adds a patch whose primitives have `size` vertices: the number of its primitives, then u and
+    /// v of each vertex as 16.16 numbers. For the set, each triangle starts with the vertex that
+    /// makes it smallest, and primitives are sorted.
     pub fn add(&mut self, output: &Tessellation, size: usize) {
         let place = |&index: &u32| {
             let point = output.points.get(index as usize);
@@ -36,7 +36,7 @@ impl Digests {
         add(&mut self.set, &primitives, size);
     }
 
-    /// The digest in order, as 16 hex digits.
+    /// The digest in the device's order, as 16 hex digits.
     #[must_use]
     pub fn sequence(&self) -> String {
         format!("{:016x}", self.sequence.finish())
@@ -49,7 +49,7 @@ impl Digests {
     }
 }
 
-/// Stands for a vertex that there is not.
+/// A placeholder for a vertex that does not exist.
 const NONE: u64 = u64::MAX;
 
 fn add(digest: &mut Fnv1a, primitives: &[[u64; 3]], size: usize) {

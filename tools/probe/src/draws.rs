@@ -1,19 +1,19 @@
-//! Patches as a device gets them: cut into draws, factors as words.
+//! Patches as a device receives them: cut into draws, with factors as words.
 
 use tess_core::{Config, Partitioning, PatchFactors};
 use tess_verify::Case;
 
-/// Patches of a draw: their first, and how many.
+/// The patches of a draw: the first one, and their number.
 pub(crate) type DrawRange = (u32, u32);
 
-/// Words of factors that a patch has in the buffer.
+/// The number of words per patch in the buffer of factors.
 const FACTOR_WORDS: usize = 6;
 
-/// The most vertices that a draw is expected to have, unless asked for: lavapipe's numbers wrap
-/// after 65536.
+/// The default for the largest number of vertices in a draw, as the model predicts it. Vertex
+/// numbers of lavapipe wrap after 65536.
 pub const DRAW_VERTICES: usize = 49152;
 
-/// Cuts patches into draws of at most `most` vertices, or of one patch.
+/// Cuts patches into draws of at most `most` vertices, or of a single patch.
 pub(crate) fn draws(expected: &[usize], most: usize) -> Vec<DrawRange> {
     let mut draws: Vec<DrawRange> = Vec::new();
     let mut vertices = 0;
@@ -32,8 +32,8 @@ pub(crate) fn draws(expected: &[usize], most: usize) -> Vec<DrawRange> {
 
 /// The words of a patch in the buffer of factors: four outer and two inside.
 ///
-/// For `pow2`, which Vulkan lacks, factors are rounded to powers of two here. A culled patch stays
-/// as it is.
+/// Vulkan lacks `pow2`, so its factors are rounded to powers of two here. A culled patch is left
+/// unchanged.
 pub(crate) fn words_of(config: Config, factors: PatchFactors) -> [u32; FACTOR_WORDS] {
     let case = Case { config, factors };
     let rounded = match (config.partitioning, case.patch().processed().factors()) {

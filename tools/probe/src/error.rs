@@ -2,19 +2,19 @@
 
 use ash::vk;
 
-/// Why a device could not be asked.
+/// The reason why a device could not be asked.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// There is no Vulkan loader here; what the system says.
+    /// There is no Vulkan loader here; with the system's message.
     #[error("there is no Vulkan here ({0}); install the loader and a driver")]
     NoLoader(String),
-    /// There is no device of this number.
+    /// No device has this number.
     #[error("there is no Vulkan device {asked}{}", numbers(*.there))]
     NoDevice {
-        /// The number that was asked for.
+        /// The requested number.
         asked: usize,
-        /// How many devices there are.
+        /// The number of devices.
         there: usize,
     },
     /// The device lacks something that a probe needs.
@@ -26,21 +26,21 @@ pub enum Error {
     /// The device or the system has too little memory.
     #[error("the device or the system is out of memory")]
     OutOfMemory,
-    /// A call failed in another way.
+    /// A call failed for another reason.
     #[error("{call} failed: {result}")]
     Call {
         /// The call.
         call: &'static str,
-        /// Its answer.
+        /// Its result.
         result: String,
     },
-    /// A capture cannot be what a device gives; the text says why.
+    /// A capture cannot come from a device; the text gives the reason.
     #[error("the capture makes no sense: {0}")]
     Capture(String),
 }
 
 impl Error {
-    /// The error of a call that gave this result.
+    /// The error for a call that returned this result.
     pub(crate) fn of(call: &'static str) -> impl FnOnce(vk::Result) -> Self {
         move |result| match result {
             vk::Result::ERROR_DEVICE_LOST => Self::Lost,
@@ -52,7 +52,7 @@ impl Error {
     }
 }
 
-/// The numbers that there are, said behind one that there is not.
+/// The text about existing numbers, after one that does not exist.
 fn numbers(there: usize) -> String {
     match there {
         0 => ": no driver has any".to_owned(),

@@ -1,4 +1,4 @@
-//! A device's name and abilities.
+//! The name and abilities of a device.
 
 use serde::Serialize;
 use std::fmt;
@@ -28,7 +28,7 @@ pub struct Info {
 }
 
 impl Info {
-    /// A device of this name that captures primitives, for captures from elsewhere than Vulkan.
+    /// A device of this name that captures primitives, for captures that do not come from Vulkan.
     #[must_use]
     pub fn named(name: &str, max_level: u32) -> Self {
         Self {
@@ -54,7 +54,7 @@ impl fmt::Display for Info {
         } else if !self.captures && !self.stores {
             f.write_str("; neither captures nor stores what it tessellates")
         } else if !self.captures {
-            f.write_str("; no transform feedback: domain points alone")
+            f.write_str("; no transform feedback: only domain points")
         } else {
             Ok(())
         }

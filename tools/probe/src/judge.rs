@@ -1,4 +1,4 @@
-//! Adds up what captured patches show.
+//! Sums up what captured patches show.
 
 use crate::capture::{Captured, Method};
 use crate::digests::Digests;
@@ -12,24 +12,24 @@ use tess_verify::check::{Known, Strength, Way, check_device};
 use tess_verify::vectors::fixed;
 use tess_verify::{Case, Named};
 
-/// Compares what a device gave, patch by patch, and says in the end what explains the differences.
+/// Compares a device's captures patch by patch, and finally explains the differences.
 #[derive(Clone, Debug)]
 pub struct Judge {
     method: Method,
     /// The strength of the comparison.
     strength: Strength,
-    /// The cases that may differ all the same.
+    /// The cases that are known to differ.
     known: Arc<Known>,
     rows: Vec<(ProbeRow, Digests)>,
-    /// Patches that are not the model's in any order, by what explains them.
+    /// The patches that are not the model's in any order, by their explanation.
     ways: [u64; Way::ALL.len()],
-    /// The observations so far, but for the rows and what explains them.
+    /// The other observations so far.
     report: ProbeReport,
 }
 
 impl Judge {
-    /// A judge of captures of a device. `strength` says what counts as equal; its elements are
-    /// those that the method captures.
+    /// A judge of captures from a device. `strength` selects what counts as equal; if only points
+    /// are captured, only points are compared.
     #[must_use]
     pub fn new(info: &Info, method: Method, strength: Strength) -> Self {
         let (name, elements) = match method {
@@ -59,13 +59,13 @@ impl Judge {
         }
     }
 
-    /// The same, but a case that differs does not count as different if that is known.
+    /// Adds known differences: a case that differs does not count as different if that is known.
     #[must_use]
     pub fn with_known(self, known: &Arc<Known>) -> Self {
         Self { known: Arc::clone(known), ..self }
     }
 
-    /// Adds a patch: what was asked, and what the device gave.
+    /// Adds a patch: the case that was asked, and the device's capture.
     pub fn add(&mut self, case: &Case, captured: &Captured) {
         let observed = captured.output();
         let expected = case.patch().tessellate();
@@ -114,7 +114,7 @@ impl Judge {
         let explains =
             |way: Way| third && observed.is_some_and(|o| way.explains(case, o, order, max_level));
         let mut explained = Way::ALL.map(explains);
-        // Both freedoms together count where neither is enough.
+        // The combination of both freedoms counts only if neither one is enough.
         explained[2] &= !explained[0] && !explained[1];
         for (count, explained) in self.ways.iter_mut().zip(explained) {
             *count += u64::from(explained);
@@ -129,7 +129,7 @@ impl Judge {
         }
     }
 
-    /// A difference in a strength in full.
+    /// A full description of a difference at a strength.
     fn describe(
         &self,
         strength: Strength,
@@ -150,7 +150,7 @@ impl Judge {
                 let bits = odd.unwrap_or_default();
                 let float = f32::from_bits(bits);
                 let text = format!(
-                    "a coordinate is {float} (0x{bits:08x}), no multiple of 2^-16 in 0..=1"
+                    "a coordinate is {float} (0x{bits:08x}), not a multiple of 2^-16 in 0..=1"
                 );
                 (text, "location".to_owned())
             }
@@ -170,7 +170,7 @@ impl Judge {
         &mut self.rows[at]
     }
 
-    /// The observations of all patches.
+    /// The report on all patches.
     #[must_use]
     pub fn finish(self) -> ProbeReport {
         let explanations = Way::ALL.into_iter().zip(self.ways).filter(|&(_, patches)| patches > 0);

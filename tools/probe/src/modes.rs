@@ -1,5 +1,5 @@
-//! The execution modes of an evaluation shader, replaced in its SPIR-V: one text serves every
-//! domain, spacing and output.
+//! Replaces the execution modes of an evaluation shader in its SPIR-V, so that one module serves
+//! every domain, spacing and output.
 
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
@@ -18,7 +18,7 @@ const ISOLINES: u32 = 25;
 
 /// A module whose entry point has the modes of a domain and a configuration.
 ///
-/// Vulkan has no `pow2`: it gets equal spacing, and the factors are rounded beforehand.
+/// Vulkan has no `pow2`: it becomes equal spacing, and the factors are rounded beforehand.
 pub(crate) fn with_modes(module: &[u32], domain: Domain, config: Config) -> Vec<u32> {
     let modes = modes(domain, config);
     let mut words = module[..HEADER_WORDS.min(module.len())].to_vec();

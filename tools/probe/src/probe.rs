@@ -1,4 +1,4 @@
-//! A whole probe: cases in, a report out.
+//! A whole probe: from cases to a report.
 
 use crate::capture::Prober;
 use crate::error::Error;
@@ -8,8 +8,8 @@ use std::sync::Arc;
 use tess_verify::Case;
 use tess_verify::check::{Known, Strength};
 
-/// Asks a device every case and compares what it gives. `progress` is called with the number of
-/// cases that were compared since its last call.
+/// Asks a device every case, and compares its output with the model's. `progress` gets the number
+/// of cases compared since its last call.
 ///
 /// # Errors
 /// The device fails.
@@ -22,8 +22,8 @@ pub fn probe(
     probe_known(prober, cases, strength, &Arc::default(), progress)
 }
 
-/// [`probe`], where a case that differs does not count as different if that is `known`. The first
-/// different case is asked again by itself.
+/// Does what [`probe`] does, except that a case does not count as different if its difference is
+/// `known`. The first different case is repeated by itself.
 ///
 /// # Errors
 /// The device fails.

@@ -16,63 +16,63 @@ use tess_verify::check::Way;
 pub struct ProbeReport {
     /// The device.
     pub device: Info,
-    /// The captured elements: `primitives`, or `points` alone.
+    /// The captured elements: `primitives`, or only `points`.
     pub method: &'static str,
-    /// Patches that were compared.
+    /// The number of compared patches.
     pub patches: u64,
-    /// Patches that differ in the strength that was asked for, and are not known to.
+    /// The number of patches that differ at the requested strength and are not known to.
     pub different: u64,
-    /// Patches that differ so, and are known to.
+    /// The number of patches that differ and are known to.
     pub known: u64,
-    /// How many of the different ones point to each stage.
+    /// The number of different patches by the stage that they point to.
     pub stages: BTreeMap<String, u64>,
-    /// The first of the different ones.
+    /// The first different patch.
     pub first_different: Option<First>,
-    /// Whether that one is right when it is asked again by itself.
+    /// Whether that patch is right when it is repeated by itself.
     pub passes_alone: bool,
-    /// Patches that are not the model's in any order.
+    /// The number of odd patches: those that are not the model's in any order.
     pub odd: u64,
-    /// The freedoms that explain some of the odd ones.
+    /// The ways that explain some of the odd patches.
     pub explanations: Vec<ExplainedBy>,
-    /// Odd patches that no freedom of the specification explains.
+    /// The odd patches that no freedom of the specification explains.
     pub unexplained: Unexplained,
-    /// A row for each configuration.
+    /// One row per configuration.
     pub rows: Vec<ProbeRow>,
 }
 
-/// Something that makes odd patches equal.
+/// A way that explains odd patches.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct ExplainedBy {
-    /// Which.
+    /// The way.
     pub way: Way,
     /// The device's behaviour.
     pub words: &'static str,
-    /// Whether the specification leaves it to a device.
+    /// Whether the specification leaves this to a device.
     pub is_allowed: bool,
-    /// Odd patches that it explains.
+    /// The number of odd patches that it explains.
     pub patches: u64,
-    /// Whether these are all.
+    /// Whether these are all odd patches.
     pub is_all: bool,
 }
 
-/// A difference that no freedom explains.
+/// The differences that no freedom explains.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct Unexplained {
-    /// How many patches.
+    /// The number of patches.
     pub patches: u64,
-    /// The first of them.
+    /// The first of these patches.
     pub first: Option<First>,
 }
 
-/// One difference in full.
+/// A full description of one difference.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct First {
     /// The case as a line.
     pub line: String,
-    /// The command that shows what the model gives.
+    /// The command that shows the model's output.
     pub command: String,
     /// The first difference, in any order.
     pub difference: String,
@@ -81,44 +81,44 @@ pub struct First {
     /// The case.
     #[serde(skip)]
     pub case: Case,
-    /// The device's answer.
+    /// The device's output.
     #[serde(skip)]
     pub captured: Captured,
 }
 
-/// How the patches of one configuration compare with the model.
+/// The comparison of one configuration's patches with the model.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct ProbeRow {
-    /// Domain.
+    /// The domain.
     pub domain: &'static str,
-    /// Partitioning.
+    /// The partitioning.
     pub partitioning: &'static str,
-    /// Output primitive.
+    /// The output primitive.
     pub output: &'static str,
-    /// Patches.
+    /// The number of patches.
     pub patches: u64,
-    /// Patches that differ in the strength that was asked for, and are not known to.
+    /// The number of patches that differ at the requested strength and are not known to.
     pub different: u64,
-    /// The model's primitives in the model's order.
+    /// Patches with the model's primitives in the model's order.
     pub sequence: u64,
-    /// The same with another leading vertex.
+    /// Patches that differ from these only in leading vertices.
     pub leading: u64,
-    /// The model's primitives in another order.
+    /// Patches with the model's primitives in another order.
     pub order: u64,
-    /// The model's points, other primitives.
+    /// Patches with the model's points but other primitives.
     pub connectivity: u64,
-    /// Other points.
+    /// Patches with other points.
     pub coordinates: u64,
-    /// The most units of 2^-16 by which a coordinate differs.
+    /// The largest difference of a coordinate, in units of 2^-16.
     pub max_units: u32,
-    /// Patches that only one of the two culls.
+    /// Patches that only the model or only the device culls.
     pub culling: u64,
-    /// Patches whose third coordinates are wrong.
+    /// Patches with wrong third coordinates.
     pub third: u64,
-    /// Digest of all patches in the device's order.
+    /// The digest of all patches in the device's order.
     pub sequence_digest: String,
-    /// Digest that does not depend on the order.
+    /// The digest that does not depend on the order.
     pub set_digest: String,
 }
 
@@ -155,7 +155,7 @@ impl ProbeRow {
     }
 }
 
-/// A column of numbers: head, width and number.
+/// A column of numbers: its heading, width and number.
 type Column = (&'static str, usize, fn(&ProbeRow) -> u64);
 
 const COLUMNS: [Column; 9] = [
@@ -170,12 +170,12 @@ const COLUMNS: [Column; 9] = [
     ("third", 6, |row| row.third),
 ];
 
-/// The table for people, then what explains the differences.
+/// The table for people, followed by the explanations of the differences.
 impl fmt::Display for ProbeReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "device {}", self.device)?;
         if self.method == "points" {
-            writeln!(f, "domain points alone: the device does not capture primitives")?;
+            writeln!(f, "only domain points: the device does not capture primitives")?;
         }
         write!(f, "{:<8} {:<15} {:<12}", "domain", "partitioning", "output")?;
         COLUMNS.iter().try_for_each(|(head, width, _)| write!(f, " {head:>width$}"))?;
@@ -190,7 +190,7 @@ impl fmt::Display for ProbeReport {
 }
 
 impl ProbeReport {
-    /// The same, with this report of the first different case, asked again by itself.
+    /// Adds the report on the first different case, repeated by itself.
     #[must_use]
     pub fn with_alone(self, alone: &Self) -> Self {
         Self { passes_alone: alone.patches == 1 && alone.different == 0, ..self }

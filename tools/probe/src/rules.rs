@@ -1,4 +1,4 @@
-//! A device judged by what a standard demands.
+//! Judges a device by the demands of a standard.
 
 use crate::capture::{Method, Prober};
 use crate::cases::asked_for;
@@ -8,13 +8,13 @@ use tess_verify::Case;
 use tess_verify::generate::Selection;
 use tess_verify::rules::{Checker, RulesReport, Specification};
 
-/// Asks a device the selected cases of the standard split order, repeated ones too, and judges what
-/// it gives by the rules of a standard. `progress` is called with the number of cases that were
-/// judged since its last call.
+/// Asks a device the selected cases in Vulkan's split order, including repeated ones, and judges
+/// its output by the rules of a standard. `progress` gets the number of cases judged since its last
+/// call.
 ///
 /// # Errors
-/// The device fails, gives points alone, or a coordinate that is no multiple of 2^-16 from 0 to 1:
-/// such coordinates cannot be judged.
+/// The device fails, captures only points, or returns a coordinate that is not a multiple of 2^-16
+/// from 0 to 1, which cannot be judged.
 pub fn rules(
     prober: &mut Prober,
     selection: Selection,
@@ -29,7 +29,7 @@ pub fn rules(
     let mut checker = Checker::new(specification);
     prober.each(&cases, &mut progress, |case, captured| {
         let output = captured.output().ok_or_else(|| {
-            Error::Capture(format!("{case}: a coordinate is no multiple of 2^-16"))
+            Error::Capture(format!("{case}: a coordinate is not a multiple of 2^-16"))
         })?;
         checker.add(case, &output);
         Ok(())

@@ -1,9 +1,9 @@
-//! The SPIR-V of the shaders, compiled from the GLSL beside it in `shaders/`.
+//! The SPIR-V of the shaders, compiled from the GLSL next to it in `shaders/`.
 
-/// The words of SPIR-V.
+/// The SPIR-V as words.
 ///
 /// # Panics
-/// If the bytes are not whole words.
+/// If the length is not a whole number of words.
 pub(crate) fn words(bytes: &[u8]) -> Vec<u32> {
     let (words, rest) = bytes.as_chunks();
     assert!(rest.is_empty(), "SPIR-V has whole words");

@@ -1,4 +1,4 @@
-//! How one captured patch compares with the model.
+//! The comparison of one captured patch with the model.
 
 use crate::capture::{Captured, Method};
 use tess_core::fixed_point::ONE;
@@ -7,31 +7,32 @@ use tess_verify::Case;
 use tess_verify::check::{ListOrder, Strength, vertices};
 use tess_verify::vectors::fixed;
 
-/// The nearest to the model that a captured patch is; the first is the nearest.
+/// How close a captured patch is to the model; the first verdict is the closest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PatchVerdict {
     /// The model's primitives in the model's order, vertex for vertex.
     Sequence,
-    /// The same, but for the vertex that leads a triangle.
+    /// The same, except for the leading vertices of triangles.
     Leading,
-    /// The model's primitives in another order. All that points alone can show.
+    /// The model's primitives in another order. This is also the best verdict if only points are
+    /// captured.
     Order,
-    /// The model's points, other primitives.
+    /// The model's points, but other primitives.
     Connectivity,
-    /// Points that the model does not have, or fewer; the distance from the nearest in units of
-    /// 2^-16.
+    /// Points that the model does not have, or too few points; with the largest distance from the
+    /// model's nearest point, in units of 2^-16.
     Coordinates(u32),
     /// A patch that the model culls, or one that only the device culls.
     Culling,
 }
 
-/// The strength in which only the order is free.
+/// The strength that leaves only the order free.
 pub(crate) fn any_order(method: Method) -> Strength {
     Strength { order: ListOrder::Any, elements: method.elements(), ..Strength::default() }
 }
 
-/// Compares a patch with the model's output for it. `None` instead of an output if it has
-/// coordinates that are no 16.16 numbers.
+/// Compares a patch with the model's output for it. `observed` is `None` if it has coordinates that
+/// are not 16.16 numbers.
 pub(crate) fn verdict(
     case: &Case,
     captured: &Captured,
@@ -54,7 +55,7 @@ pub(crate) fn verdict(
     }
 }
 
-/// The extent to which the order of the model's primitives is kept.
+/// How much of the order of the model's primitives is kept.
 fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> PatchVerdict {
     let sequence = Strength { order: ListOrder::Sequence, ..Strength::default() };
     if sequence.equal(case, observed, expected) {
@@ -74,8 +75,8 @@ fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Patch
     }
 }
 
-/// The most units of 2^-16, rounded up, by which a captured coordinate is away from the nearest
-/// point of the model; 0 if the device only lacks points.
+/// The largest distance of a captured coordinate from the nearest point of the model, in units of
+/// 2^-16 rounded up; 0 if the device only lacks points.
 fn units(captured: &Captured, expected: &Tessellation) -> u32 {
     let distance = |vertex: &[u32; 3]| {
         let to = |point: &DomainPoint| {
@@ -87,8 +88,8 @@ fn units(captured: &Captured, expected: &Tessellation) -> u32 {
     captured.vertices.iter().map(distance).max().unwrap_or(0)
 }
 
-/// The distance between a binary32 of these bits and a 16.16 number, in units of 2^-16 rounded up;
-/// at most 2^17.
+/// The distance between the binary32 with these bits and a 16.16 number, in units of 2^-16 rounded
+/// up; at most 2^17.
 #[expect(
     clippy::float_arithmetic,
     clippy::cast_possible_truncation,
@@ -104,7 +105,7 @@ fn scaled_distance(bits: u32, number: u32) -> u32 {
 pub(crate) fn third_is_right(case: &Case, captured: &Captured) -> bool {
     let right = |&[u, v, w]: &[u32; 3]| match (case.domain(), fixed(u), fixed(v)) {
         (Domain::Triangle, Some(u), Some(v)) => fixed(w) == ONE.checked_sub(u + v),
-        // Reported already.
+        // The faulty coordinate is reported already.
         (Domain::Triangle, _, _) => true,
         (Domain::Isoline | Domain::Quad, _, _) => w == 0,
     };
@@ -129,7 +130,7 @@ mod tests {
         }
     }
 
-    /// 0 to the bit where there is no third coordinate.
+    /// Where there is no third coordinate, it must be 0 to the bit.
     #[test]
     fn third_coordinates() {
         let case = |line: &str| line.parse::<Case>().expect("a case");

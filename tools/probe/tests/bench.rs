@@ -1,4 +1,4 @@
-//! The bench runs both ways on the device at hand, and notices shaders that give something else.
+//! The bench runs both ways on this machine's device, and detects shaders with another output.
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use tess_core::{Config, OutputPrimitive, Partitioning, PatchFactors, QuadFactors};

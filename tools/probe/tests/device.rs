@@ -1,5 +1,5 @@
-//! The first device that there is, which is lavapipe in continuous integration: it is exact but for
-//! denormals, and a wrong shader in front of the capture is found and explained.
+//! The first device, which is lavapipe in continuous integration. It is exact except for denormals,
+//! and a wrong evaluation shader is found and explained.
 
 #![expect(clippy::print_stderr, reason = "a test that cannot run says so")]
 
@@ -49,7 +49,7 @@ fn the_device_is_exact() {
     assert_eq!(report.rows.len(), 4 * (2 + 3 + 3), "every configuration of Vulkan");
 }
 
-/// Every shard is another part, and together they are everything.
+/// Shards are disjoint, and together they are everything.
 #[test]
 fn shards_are_parts() {
     let selection = Selection { random: Some(100), ..Selection::level(GenLevel::Three, 5) };
@@ -66,7 +66,7 @@ fn domain_points_alone_are_exact() {
     assert_eq!((report.method, report.different), ("points", 0), "{report}");
 }
 
-/// Domain points moved by one unit of 2^-16 in the evaluation shader.
+/// The evaluation shader moves domain points by one unit of 2^-16.
 #[test]
 fn a_wrong_shader_is_found_and_explained() {
     let text = std::fs::read_to_string(format!("{SHADERS}/capture.tese")).expect("it is there");
@@ -90,7 +90,7 @@ fn a_wrong_shader_is_found_and_explained() {
     assert!(report.to_string().contains(&first.command), "{report}");
 }
 
-/// The SPIR-V beside each shader is what its GLSL compiles to.
+/// The SPIR-V next to each shader is what its GLSL compiles to.
 #[test]
 fn shaders_are_as_compiled() {
     let entries = std::fs::read_dir(SHADERS).expect("it is there").filter_map(Result::ok);
@@ -107,7 +107,7 @@ fn shaders_are_as_compiled() {
     assert!(compared >= 7, "{compared} shaders");
 }
 
-/// A shader, compiled. `None`, said on stderr, without a compiler outside of continuous
+/// A compiled shader. Without a compiler it is `None`, with a note on stderr, except in continuous
 /// integration.
 fn compiled(name: &str, text: &str) -> Option<Vec<u8>> {
     let stage = name.rsplit_once('.').map_or(name, |(_, stage)| stage);

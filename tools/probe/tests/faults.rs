@@ -1,4 +1,4 @@
-//! Faults planted in captures are seen, and explained as what they are.
+//! Faults planted in captures are detected and explained correctly.
 #![expect(
     clippy::float_cmp,
     clippy::cast_possible_truncation,
@@ -20,13 +20,13 @@ fn case(line: &str) -> Case {
     line.parse().expect("a case")
 }
 
-/// A device of no maker, as JSON has it.
+/// A device of no manufacturer.
 fn info() -> &'static Info {
     static INFO: OnceLock<Info> = OnceLock::new();
     INFO.get_or_init(|| Info::named("a device", 64))
 }
 
-/// The answer of an exact device.
+/// The output of an exact device.
 fn exact(case: &Case) -> Captured {
     let output = case.patch().tessellate();
     let third = |[u, v]: [u32; 2]| match case.domain() {
@@ -53,7 +53,7 @@ fn any() -> Strength {
     Strength { order: ListOrder::Any, ..Strength::default() }
 }
 
-/// The verdict on one patch after a fault is planted in its capture.
+/// The report on one patch after a fault is planted in its capture.
 fn judged(line: &str, strength: Strength, fault: impl FnOnce(&mut Captured)) -> ProbeReport {
     let case = case(line);
     let mut captured = exact(&case);
@@ -79,8 +79,7 @@ fn exact_captures_are_equal_in_order() {
     }
 }
 
-/// A known case that differs is counted beside the different ones; another known case changes
-/// nothing.
+/// A known case that differs is not counted as different; another known case changes nothing.
 #[test]
 fn known_differences_are_no_verdict() {
     for (known, different, excused) in [(LINE, 0, 1), (DENORMAL, 1, 0)] {
@@ -96,8 +95,8 @@ fn known_differences_are_no_verdict() {
     }
 }
 
-/// A case that is right when it is asked again says that what came before matters; one that is
-/// wrong again does not.
+/// A case that is right when it is repeated shows that earlier work matters; one that is wrong
+/// again does not.
 #[test]
 fn a_case_that_passes_alone_is_said() {
     let lost = |captured: &mut Captured| captured.vertices.truncate(3);
@@ -140,7 +139,7 @@ fn a_coordinate_between_two_numbers_is_seen() {
     let report = judged(LINE, any(), |captured| captured.vertices[3][1] += 1);
     assert_eq!((report.rows[0].coordinates, report.rows[0].max_units), (1, 1), "{report}");
     let first = report.unexplained.first.expect("it is no freedom");
-    assert!(first.difference.contains("no multiple of 2^-16"), "{}", first.difference);
+    assert!(first.difference.contains("not a multiple of 2^-16"), "{}", first.difference);
     assert_eq!(first.captured.output(), None, "nor can it be drawn");
 }
 
@@ -188,7 +187,7 @@ fn flushed_denormals_are_explained_and_may_be_asked_for() {
     let flush = |captured: &mut Captured| captured.vertices.clear();
     let report = judged(DENORMAL, any(), flush);
     assert_eq!((report.different, report.rows[0].culling), (1, 1), "they differ: {report}");
-    // A denormal is 0 as a half too, so this patch cannot tell the two apart.
+    // As a half, a denormal is 0 too, so this patch cannot tell the two apart.
     let ways = vec![Way::Flush, Way::HalfFactors];
     assert_eq!((explained(&report), report.unexplained.patches), (ways, 0), "{report}");
     let report = judged(DENORMAL, Strength { denormals: Denormals::Flush, ..any() }, flush);
@@ -197,7 +196,7 @@ fn flushed_denormals_are_explained_and_may_be_asked_for() {
     assert_eq!((explained(&report), report.unexplained.patches), (vec![], 1), "{LINE}: {report}");
 }
 
-/// A freedom that explains every odd patch is told from one that explains some.
+/// A freedom that explains every odd patch is distinguished from one that explains only some.
 #[test]
 fn explanations_of_all_and_of_some() {
     let report = |lines: &[&str]| {
@@ -215,7 +214,7 @@ fn explanations_of_all_and_of_some() {
 
 #[test]
 fn another_conversion_is_explained() {
-    // 3 + 2^-17 lies halfway between two numbers; the even one is the model's.
+    // 3 + 2^-17 is halfway between two numbers; the even one is the model's.
     let line = LINE.replace("40500000", "40400020");
     let case = case(&line);
     let other = case
@@ -256,7 +255,7 @@ fn a_wrong_third_coordinate_is_seen() {
     assert_eq!((report.different, report.rows[0].third), (1, 1), "0 on quads: {report}");
 }
 
-/// Points alone show moved points and culled patches, in any order and any number.
+/// Points by themselves show moved points and culled patches, in any order and number.
 #[test]
 fn points_alone_are_judged() {
     let case = case(LINE);
@@ -275,7 +274,7 @@ fn points_alone_are_judged() {
     assert_eq!(report(&Captured::default()).rows[0].culling, 1, "culled");
 }
 
-/// Each digest sees what it is for.
+/// Each digest detects the changes that it is for.
 #[test]
 fn digests_see_order_and_elements() {
     let digests = |fault: &dyn Fn(&mut Captured)| {

@@ -1,4 +1,4 @@
-//! The foreign parts of an archive: a bill of materials in `CycloneDX`, and the licences.
+//! The third-party parts of an archive: a bill of materials in `CycloneDX`, and the licences.
 
 use super::pack::Release;
 use crate::command::{self, cargo, in_file};
@@ -8,10 +8,10 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// The system that programs are built for here.
+/// The system for which programs are built here.
 pub(super) const SYSTEM: &str = "x86_64-unknown-linux-gnu";
 
-/// Packages that an archive has, with the workspace they are of.
+/// The packages in an archive, and their workspace.
 pub(super) struct Of<'a> {
     pub(super) name: &'a str,
     pub(super) manifest: &'a str,
@@ -49,10 +49,12 @@ pub(super) fn licences_file(name: &str) -> String {
     format!("{name}-licences.txt")
 }
 
-/// The packages and what they need to run, as `cargo metadata` describes them, by name and version.
+/// The packages and their run-time dependencies, as `cargo metadata` describes them, by name and
+/// version.
 fn dependencies(of: &Of<'_>) -> Result<Vec<Value>, String> {
     let with = |words: &str| cargo(&format!("{words} {SYSTEM} --manifest-path {}", of.manifest));
-    // Metadata joins the features that packages of a workspace ask for; the tree has those of one.
+    // Metadata unites the features requested by all packages of a workspace; the tree has those of
+    // a single package.
     let mut names = BTreeSet::new();
     for package in of.packages {
         let mut tree =
@@ -77,7 +79,7 @@ fn dependencies(of: &Of<'_>) -> Result<Vec<Value>, String> {
 fn component(package: &Value) -> Value {
     let (name, version) = (text(package, "name"), text(package, "version"));
     let purl = format!("pkg:cargo/{name}@{version}");
-    // Crates of before 2018 write the alternative as a slash.
+    // Crates from before 2018 write alternatives with a slash.
     let expression = text(package, "license").replace('/', " OR ");
     json!({
         "type": "library", "bom-ref": purl, "purl": purl, "name": name, "version": version,
@@ -85,7 +87,7 @@ fn component(package: &Value) -> Value {
     })
 }
 
-/// A package's name, licence and the texts in its archive.
+/// A package's name and licence, and the licence texts in its archive.
 fn licence(package: &Value) -> Result<String, String> {
     let folder = Path::new(text(package, "manifest_path")).parent().unwrap_or(Path::new(""));
     let entries = fs::read_dir(folder).map_err(|error| in_file(folder, &error))?;

@@ -1,4 +1,4 @@
-//! The C library: an archive that a project unpacks anywhere, and a package of Debian.
+//! The C library: an archive that can be unpacked anywhere, and a Debian package.
 
 use super::VERSION;
 use super::bill::{self, SYSTEM};
@@ -13,7 +13,7 @@ use std::process::Command;
 /// The name of the package, and of its folder of documents.
 const DEB: &str = "libtess-dev";
 
-/// Programs beside those that tests need.
+/// Programs needed in addition to those of the tests.
 const DPKG: &[setup::Need] = &[setup::Need {
     what: "dpkg-dev and lintian (the package of Debian)",
     packages: &["dpkg-dev", "lintian"],
@@ -37,14 +37,14 @@ fn bill(release: &Release) -> Result<(), String> {
     bill::write(release, &bill::Of { name: "c", manifest: "Cargo.toml", packages: &packages })
 }
 
-/// The examples, without those that time calls in a checkout.
+/// Copies the examples, without those that time calls in a checkout.
 fn examples(to: &Path) -> Result<(), String> {
     copy_tracked("bindings/c/examples", to)?;
     let calls = to.join("calls");
     fs::remove_dir_all(&calls).map_err(|error| in_file(&calls, &error))
 }
 
-/// The installation, without the names that only a debugger reads.
+/// Installs the library, without the names that only a debugger reads.
 fn install(prefix: &Path) -> Result<(), String> {
     let mut build = cargo("rustc --release -p tess-capi --lib");
     build.env("CARGO_ENCODED_RUSTFLAGS", command::flags_without_folders("-Cdebuginfo=0")?);
@@ -112,7 +112,7 @@ fn description(needs: &str) -> String {
 
 const MAINTAINER: &str = "The tess authors <tess-model@users.noreply.github.com>";
 
-/// Both licences, by reference or text.
+/// Both licences, by reference or as text.
 const COPYRIGHT: &str = concat!(
     "By the authors of https://github.com/tess-model/tess, under either the Apache License 2.0\n\
      (/usr/share/common-licenses/Apache-2.0) or the licence below. The crates inside the library\n\

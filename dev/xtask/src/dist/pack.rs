@@ -1,20 +1,20 @@
-//! The folder of a release, and archives whose bytes depend on their contents alone.
+//! The folder of a release, and archives whose bytes depend only on their contents.
 
 use crate::command::{self, in_file, workspace};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A folder that is filled with archives.
+/// A folder to be filled with archives.
 pub(super) struct Release {
     pub(super) out: PathBuf,
-    /// The time of everything, in seconds since 1970: the commit's, unless `SOURCE_DATE_EPOCH` says
-    /// another.
+    /// The time stamp of everything, in seconds since 1970: that of the commit, unless
+    /// `SOURCE_DATE_EPOCH` sets another.
     pub(super) epoch: String,
 }
 
 impl Release {
-    /// An empty one.
+    /// An empty release.
     pub(super) fn new(out: &Path) -> Result<Self, String> {
         let epoch = match std::env::var("SOURCE_DATE_EPOCH") {
             Ok(epoch) => epoch,
@@ -28,7 +28,8 @@ impl Release {
         Ok(Self { out: out.to_owned(), epoch })
     }
 
-    /// An empty folder beside the release, of the name that an archive shows, with both licences.
+    /// Makes an empty folder next to the release, named as the archive shows it, with both
+    /// licences.
     pub(super) fn stage(&self, name: &str) -> Result<PathBuf, String> {
         let stage = self.out.with_extension("stage").join(name);
         empty(&stage)?;
@@ -36,8 +37,7 @@ impl Release {
         Ok(stage)
     }
 
-    /// Packs a folder, which is removed, into `file`. Files that are hard links of each other are
-    /// packed once.
+    /// Packs a folder into `file`, and removes the folder. Hard links to one file are packed once.
     pub(super) fn archive(&self, folder: &Path, file: &str) -> Result<(), String> {
         let (Some(parent), Some(name)) = (folder.parent(), folder.file_name()) else {
             return Err(format!("{} has no name", folder.display()));
@@ -51,14 +51,14 @@ impl Release {
         fs::remove_dir_all(parent).map_err(|error| in_file(parent, &error))
     }
 
-    /// Copies a finished archive.
+    /// Copies a finished archive into the release.
     pub(super) fn take(&self, file: &Path) -> Result<(), String> {
         let to = self.out.join(file.file_name().unwrap_or_default());
         fs::copy(file, to).map(drop).map_err(|error| in_file(file, &error))
     }
 
-    /// Moves its files to a folder, over what is there unless the release is `whole`: then nothing
-    /// else stays.
+    /// Moves the release's files to a folder, replacing files of the same names. If the release is
+    /// `whole`, the folder is emptied first.
     pub(super) fn publish(self, to: &Path, whole: bool) -> Result<Self, String> {
         if whole || !to.exists() {
             empty(to)?;
@@ -103,7 +103,7 @@ pub(super) fn empty(folder: &Path) -> Result<(), String> {
     fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))
 }
 
-/// Copies what git tracks of a folder of the workspace, or one file.
+/// Copies the tracked files of a folder of the workspace, or one tracked file.
 pub(super) fn copy_tracked(from: &str, to: &Path) -> Result<(), String> {
     for name in tracked(from)? {
         match name.strip_prefix(from) {
@@ -114,7 +114,7 @@ pub(super) fn copy_tracked(from: &str, to: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Copies what git tracks of these folders, files or patterns (`rtl/*.sv`) to their paths below
+/// Copies the tracked files of these folders, files or patterns (`rtl/*.sv`) to their paths below
 /// `to`.
 pub(super) fn copy_tree(patterns: &[&str], to: &Path) -> Result<(), String> {
     for pattern in patterns {
@@ -125,7 +125,7 @@ pub(super) fn copy_tree(patterns: &[&str], to: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// The files that git tracks of a folder or pattern of the workspace, of which there must be some.
+/// The tracked files of a folder or pattern of the workspace; there must be at least one.
 fn tracked(pattern: &str) -> Result<Vec<String>, String> {
     let mut list = Command::new("git");
     list.args(["ls-files", "--", pattern]).current_dir(workspace());
@@ -133,7 +133,7 @@ fn tracked(pattern: &str) -> Result<Vec<String>, String> {
     if names.is_empty() { Err(format!("git tracks nothing of {pattern}")) } else { Ok(names) }
 }
 
-/// Copies a file of the workspace, into a folder that is made.
+/// Copies a file of the workspace, and creates the folder for it.
 fn copy(name: &str, to: &Path) -> Result<(), String> {
     let path = workspace().join(name);
     let folder = to.parent().unwrap_or(to);

@@ -1,26 +1,26 @@
-//! READMEs of archives: each starts from the archive that has it.
+//! READMEs of archives; each is written relative to its own archive.
 //!
-//! A README of the tree goes into an archive without its section [`ONLY_HERE`]. A link to a file of
-//! the archive stays; one to another file of the tree leads to the project's page.
+//! A README of the tree goes into an archive without its section [`ONLY_HERE`]. Links to files of
+//! the archive stay as they are; links to other files of the tree lead to the project's page.
 
 use crate::command::{self, in_file, workspace};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// The heading of what only a checkout can do.
+/// The heading of the section about a checkout.
 const ONLY_HERE: &str = "## In the repository";
 
-/// Where the files of the tree can be read.
+/// The address at which the files of the tree can be read.
 const PAGES: &str = "https://github.com/tess-model/tess/blob/main";
 
-/// Words of the source tree that no archive's README may have.
+/// Words about the source tree that no archive's README may contain.
 const OF_THE_TREE: &[&str] =
     &["cargo build", "cargo run", "cargo xtask", "pip install ./", "target/"];
 
-/// Writes the tree's README `from` into a finished folder of an archive, as `to`.
+/// Writes the tree's README `from` into the finished folder of an archive, as `to`.
 ///
 /// # Errors
-/// The result speaks of the source tree, or a file cannot be read or written.
+/// The result mentions the source tree, or a file cannot be read or written.
 pub(super) fn put(from: &str, stage: &Path, to: &str) -> Result<(), String> {
     let text = command::read(&workspace().join(from))?;
     let to = stage.join(to);
@@ -30,7 +30,7 @@ pub(super) fn put(from: &str, stage: &Path, to: &str) -> Result<(), String> {
     fs::write(&to, text).map_err(|error| in_file(&to, &error))
 }
 
-/// The text without the section that only concerns a checkout.
+/// The text without the section about a checkout.
 fn without_section(text: &str) -> String {
     let Some((before, rest)) = text.split_once(&format!("\n{ONLY_HERE}\n")) else {
         return text.to_owned();
@@ -41,11 +41,11 @@ fn without_section(text: &str) -> String {
     }
 }
 
-/// The text, whose links to files are relative to `from` in the tree, as the file `to` of an
-/// archive.
+/// The text with its links, which are relative to `from` in the tree, rewritten for the file `to`
+/// of an archive.
 ///
 /// # Errors
-/// A link leads to a file that neither has.
+/// A link leads to a file that neither the archive nor the tree has.
 fn with_links(text: &str, from: &Path, to: &Path) -> Result<String, String> {
     let (tree, archive) = (from.parent().unwrap_or(from), to.parent().unwrap_or(to));
     let mut parts = text.split("](");
@@ -66,7 +66,7 @@ fn with_links(text: &str, from: &Path, to: &Path) -> Result<String, String> {
     Ok(linked)
 }
 
-/// The path with `..` taken out, with slashes.
+/// The path with `..` resolved, written with slashes.
 fn plain(path: &Path) -> String {
     let mut plain = PathBuf::new();
     for component in path.components() {

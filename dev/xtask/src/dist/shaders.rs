@@ -1,4 +1,4 @@
-//! The shaders of the usual setups: in every language for hosts without Rust, and as WGSL with a
+//! The shaders of the common setups: in every language for hosts without Rust, and as WGSL with a
 //! host for browsers.
 
 use super::pack::{Release, copy_tracked};
@@ -12,7 +12,7 @@ const DOMAINS: [(&str, &str); 3] =
     [("isoline", "line"), ("tri", "triangle_cw"), ("quad", "triangle_cw")];
 const PARTITIONINGS: [&str; 4] = ["integer", "pow2", "fractional_odd", "fractional_even"];
 
-/// Writes a folder for each setup into `to`.
+/// Writes a folder per setup into `to`.
 fn write(language: &str, to: &Path) -> Result<(), String> {
     fs::create_dir_all(to).map_err(|error| in_file(to, &error))?;
     for (domain, output) in DOMAINS {
@@ -35,7 +35,8 @@ fn setups(folder: &Path) -> impl Iterator<Item = std::path::PathBuf> {
     names.map(move |name| folder.join(name))
 }
 
-/// Moves one copy of the modules for shaders of the user's own to `shared`, and removes the others.
+/// Moves one copy of the modules for the user's own shaders to `shared`, and removes the other
+/// copies.
 fn share_surfaces(folder: &Path, shared: &Path) -> Result<(), String> {
     for setup in setups(folder) {
         let own = setup.join("surfaces");
@@ -46,8 +47,8 @@ fn share_surfaces(folder: &Path, shared: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Keeps one copy of the tables, which depend on the order of splits alone: `keep` says what
-/// becomes of each.
+/// Keeps one copy of the tables, which depend only on the split order. `keep` decides what happens
+/// to each setup's copy.
 fn share_tables(
     folder: &Path,
     shared: &Path,
@@ -94,7 +95,7 @@ pub(super) fn pack_npm(release: &Release) -> Result<(), String> {
         .map_err(|error| in_file(&stage, &error))?;
     let shaders = stage.join("shaders");
     write("wgsl", &shaders)?;
-    // npm unpacks no links, and the host takes the tables from here.
+    // npm does not unpack links, and the host takes the tables from here.
     share_tables(&shaders, &shaders.join("tables.bin"), |own| {
         fs::remove_file(own.with_file_name("tess_shaders.h"))
     })?;

@@ -1,8 +1,9 @@
-//! A C program finds, links and runs what is installed, as its author would type it.
+//! A C program finds, links and runs the installed library, with the commands that its author would
+//! type.
 
 use super::*;
 
-/// Runs a line of the shell in `folder`; gives what it prints.
+/// Runs a shell command in `folder`, and returns its output.
 fn shell(folder: &Path, line: &str) -> String {
     let mut shell = Command::new("sh");
     shell.args(["-ec", line]).current_dir(folder);
@@ -13,7 +14,7 @@ fn shell(folder: &Path, line: &str) -> String {
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// The library as the tests around this one build it, or as cargo does.
+/// The library as the surrounding tests build it, or as cargo builds it.
 fn library() -> Built {
     let own = "build -p tess-capi --lib";
     let mut build_tests = match std::env::var("TESS_CAPI_BUILD") {
@@ -63,7 +64,7 @@ fn programs_find_what_is_installed() {
         &format!("{later} && ! cmake -B refused {build} 2> said && grep -q 'version: 0.1.0' said"),
     );
 
-    // Without the shared library `-ltess` is the archive.
+    // If there is no shared library, `-ltess` is the archive.
     shell(&folder, "rm usr/lib/libtess.so*");
     shell(&folder, "cc patch.c $(pkg-config --cflags --static --libs tess) -o static");
     assert_eq!(shell(&folder, &format!("./static {arguments}")), shared, "the same patch");

@@ -1,21 +1,21 @@
-//! The lists of faults that are planted by hand: `dev/xtask/faults/*.faults`.
+//! The lists of faults planted by hand: `dev/xtask/faults/*.faults`.
 
 use crate::command::{self, in_file};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tess_testkit::listed::{ListedFault, parse};
 
-/// A file with a fault in it.
+/// A file with a fault planted in it.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Planted {
     pub(super) file: PathBuf,
     pub(super) text: String,
 }
 
-/// All faults of the files in `folder`, by file and in their order.
+/// All faults of the files in `folder`, by file and in order.
 ///
 /// # Errors
-/// A file of another form, or a name that two faults have.
+/// A file has another form, or two faults have the same name.
 pub(super) fn read(folder: &Path) -> Result<Vec<ListedFault>, String> {
     let entries = fs::read_dir(folder).map_err(|error| in_file(folder, &error))?;
     let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
@@ -34,11 +34,11 @@ pub(super) fn read(folder: &Path) -> Result<Vec<ListedFault>, String> {
     Ok(faults)
 }
 
-/// The one file below `root` that has the fault's text, and what it becomes. `files` are the paths
-/// of all files from `root` on.
+/// The single file below `root` that has the fault's text, and its changed text. `files` are the
+/// paths of all files relative to `root`.
 ///
 /// # Errors
-/// The text is nowhere, or in several places.
+/// The text does not occur, or occurs in several places.
 pub(super) fn plant(
     fault: &ListedFault,
     root: &Path,
@@ -47,7 +47,7 @@ pub(super) fn plant(
     let ListedFault { name, folder, .. } = fault;
     let (mut places, mut planted) = (0, None);
     for file in files.iter().filter(|file| file.starts_with(folder)) {
-        // What is not text has no fault.
+        // A file that is not text has no faults.
         let text = fs::read_to_string(root.join(file)).unwrap_or_default();
         places += fault.places(&text);
         if let Some(text) = fault.planted(&text) {

@@ -1,9 +1,9 @@
 //! Faults planted by hand: `cargo xtask mutants planted`.
 //!
-//! A fault changes a copy of the tree, in which one program of tests is built again and run; the
-//! sources themselves are not touched. Switches in the code, one build for all faults, would be
-//! quicker, but the published crates would have them, and the tests would run on another build than
-//! the one that is published.
+//! A fault changes a copy of the tree, in which one test program is rebuilt and run; the sources
+//! themselves are not touched. Switches in the code, with one build for all faults, would be
+//! faster. But then the published crates would contain them, and the tests would run on a build
+//! other than the published one.
 
 use super::fault::{self, Planted};
 use crate::command::{self, in_file, workspace};
@@ -16,18 +16,18 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tess_testkit::listed::ListedFault;
 
-/// Where the lists are.
+/// The folder of the lists.
 const LISTS: &str = "dev/xtask/faults";
 
-/// Seconds after which tests that do not end have seen a fault.
+/// The time limit in seconds; tests that run longer have detected the fault.
 const PATIENCE: &str = "600";
 
-/// The fate of a fault.
+/// The outcome of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fate {
     Seen,
     Survived,
-    /// The compiler saw it, so no test was asked.
+    /// The compiler detected it, so no test was run.
     Refused,
 }
 
@@ -41,11 +41,11 @@ impl fmt::Display for Fate {
     }
 }
 
-/// Plants the faults whose folder, tests or name have one of `words`, or all of them.
+/// Plants the faults whose folder, tests or name contain one of `words`, or all of them.
 ///
-/// # Errors
-/// A fault that no test saw and that is not listed as equivalent, or the reverse; one that does not
-/// apply or compile; tests that fail without a fault.
+/// - A fault survives and is not listed as equivalent, or is listed and does not survive.
+/// - A fault cannot be applied or does not compile.
+/// - Tests fail without a fault.
 pub(super) fn run(words: &[&str]) -> Result<(), String> {
     let files = files()?;
     let faults = chosen(words)?;
@@ -79,7 +79,7 @@ pub(super) fn run(words: &[&str]) -> Result<(), String> {
     }
 }
 
-/// The fate of a fault that is planted in the copy of the tree, which is then as it was.
+/// The outcome of a fault that is planted in the copy of the tree; the copy is restored afterwards.
 fn fate(tree: &Tree, fault: &ListedFault, planted: &Planted) -> Result<Fate, String> {
     let file = tree.root.join(&planted.file);
     let original = fs::read(&file).map_err(|error| in_file(&file, &error))?;
@@ -100,12 +100,12 @@ fn chosen(words: &[&str]) -> Result<Vec<ListedFault>, String> {
     if faults.is_empty() { Err(format!("no fault has one of {words:?}")) } else { Ok(faults) }
 }
 
-/// Whether the tests of a fault see what is in the tree.
+/// Whether a fault's tests detect what is in the tree.
 fn fate_in(tree: &Tree, fault: &ListedFault) -> Result<Fate, String> {
     let Ok(jobs) = suite::programs(tree, &fault.tests) else { return Ok(Fate::Refused) };
     let mut fate = Fate::Survived;
     for Job { command, .. } in &jobs {
-        // A fault can make a loop endless.
+        // A fault may cause an endless loop.
         let mut limited = Command::new("timeout");
         limited
             .arg(PATIENCE)
@@ -128,7 +128,7 @@ fn fate_in(tree: &Tree, fault: &ListedFault) -> Result<Fate, String> {
     Ok(fate)
 }
 
-/// All files that git knows or could add.
+/// All files that git tracks or could add.
 fn files() -> Result<Vec<PathBuf>, String> {
     let mut git = Command::new("git");
     git.args(["ls-files", "--cached", "--others", "--exclude-standard"]).current_dir(workspace());
@@ -137,8 +137,8 @@ fn files() -> Result<Vec<PathBuf>, String> {
     Ok(files.filter(|file| workspace().join(file).is_file()).collect())
 }
 
-/// Brings the copy of the tree up to date. What has not changed is left, so that it is not compiled
-/// again.
+/// Brings the copy of the tree up to date. Unchanged files are left alone, so that they are not
+/// compiled again.
 fn copy(files: &[PathBuf]) -> Result<Tree, String> {
     let folder = command::target().join("planted");
     let tree = Tree { root: folder.join("tree"), target: folder.join("target") };
@@ -162,19 +162,19 @@ fn copy(files: &[PathBuf]) -> Result<Tree, String> {
     Ok(tree)
 }
 
-/// Copies the workspace's builds to `target`. The crates of other people then need not be compiled
-/// again; our own do, as their sources have another place and are newer.
+/// Copies the workspace's builds to `target`. Third-party crates then need not be compiled again.
+/// Our own must be, because their sources are in another place and newer.
 fn take_builds(target: &Path) -> Result<(), String> {
     let builds = command::target().join("debug");
     fs::create_dir_all(target).map_err(|error| in_file(target, &error))?;
     if !builds.is_dir() {
         return Ok(());
     }
-    // It keeps the files' times, which cargo compares.
+    // `cp -a` preserves the files' times, which cargo compares.
     command::run(Command::new("cp").arg("-a").args([&builds, target]))
 }
 
-/// The files below a folder, their paths from there on; none if it does not exist.
+/// The paths of the files below a folder, relative to it; empty if it does not exist.
 fn list(root: &Path) -> Vec<PathBuf> {
     let (mut folders, mut found) = (vec![root.to_path_buf()], Vec::new());
     while let Some(folder) = folders.pop() {

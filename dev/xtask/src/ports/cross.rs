@@ -1,4 +1,4 @@
-//! Tests of the model and of the CPU backend on other processors in emulators.
+//! Tests the model and the CPU backend on other processors, in emulators.
 
 use super::Extent;
 use crate::command::cargo;
@@ -7,7 +7,7 @@ use crate::tally;
 use std::path::Path;
 use std::process::Command;
 
-/// A processor or system that an x86-64 machine with Debian's cross compilers can run programs for.
+/// A processor or system whose programs an x86-64 machine with Debian's cross compilers can run.
 pub(super) struct Host {
     pub(super) target: &'static str,
     pub(super) linker: &'static str,
@@ -17,7 +17,7 @@ pub(super) struct Host {
     pub(super) need: Need,
 }
 
-/// 32 bits: `usize` is as wide as an index.
+/// A 32-bit processor, on which `usize` is as wide as an index.
 pub(super) const I686: Host = Host {
     target: "i686-unknown-linux-gnu",
     linker: "i686-linux-gnu-gcc",
@@ -46,7 +46,7 @@ pub(super) const AARCH64: Host = Host {
     },
 };
 
-/// The most significant byte first.
+/// A processor with the most significant byte first.
 pub(super) const S390X: Host = Host {
     target: "s390x-unknown-linux-gnu",
     linker: "s390x-linux-gnu-gcc",
@@ -65,7 +65,7 @@ pub(super) const BRIEF: &[&str] = &[
     "test --package tess-simd --no-default-features --test baseline",
 ];
 
-/// Everything but a test that starts itself, which emulated programs cannot do; `tess-simd` has one
+/// All tests except one that starts itself, which emulated programs cannot do. `tess-simd` has one
 /// CPU level on these processors.
 const WHOLE: &[&str] = &[
     "test --package tess-core",
@@ -78,7 +78,7 @@ pub(super) fn check(host: &Host, extent: Extent) -> Result<(), String> {
     run(host, extent, &[])
 }
 
-/// Runs the tests with what else is set for them.
+/// Runs the tests with these additional environment variables.
 pub(super) fn run(host: &Host, extent: Extent, set: &[(&str, String)]) -> Result<(), String> {
     setup::target(host.target)?;
     let variable = |what: &str| {

@@ -1,11 +1,11 @@
-//! macOS: what is not linked can be checked anywhere.
+//! macOS: everything except linking can be checked anywhere.
 
 use crate::command::{self, cargo};
 use crate::setup;
 
 const TARGET: &str = "aarch64-apple-darwin";
 
-/// Packages without C code, for which Apple's compiler would be needed.
+/// The packages without C code, which would need Apple's compiler.
 const PACKAGES: &[&str] = &[
     "tess-core",
     "tess-simd",
@@ -16,7 +16,7 @@ const PACKAGES: &[&str] = &[
     "tess-capi",
 ];
 
-/// Checks the libraries for Apple's processors. Nothing runs: that takes a Mac.
+/// Checks the libraries for Apple's processors. Nothing is run, because that takes a Mac.
 pub(super) fn check() -> Result<(), String> {
     setup::target(TARGET)?;
     let packages = PACKAGES.iter().flat_map(|package| ["--package", package]);

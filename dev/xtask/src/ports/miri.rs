@@ -1,4 +1,4 @@
-//! Miri, an interpreter that notices undefined behaviour.
+//! Miri, an interpreter that detects undefined behaviour.
 
 use super::Extent;
 use crate::command;
@@ -6,7 +6,7 @@ use crate::setup;
 use crate::tally;
 use std::process::Command;
 
-/// Arguments of `cargo miri`: short tests, as each step takes a thousand times as long.
+/// Arguments of `cargo miri`: short tests, because each step takes a thousand times as long.
 const BRIEF: &[&str] = &[
     "test --package tess-core --test output -- the_",
     "test --package tess-capi --test api -- hostile",
@@ -18,7 +18,7 @@ const WHOLE: &[&str] = &[
     "test --package tess-capi --lib --test api",
 ];
 
-/// Runs tests of the model, and those of the C interface, whose `unsafe` code takes callers'
+/// Runs tests of the model, and those of the C interface, whose `unsafe` code accesses callers'
 /// memory.
 pub(super) fn check(extent: Extent) -> Result<(), String> {
     let parts = [("component", "miri"), ("component", "rust-src")];
@@ -27,7 +27,7 @@ pub(super) fn check(extent: Extent) -> Result<(), String> {
     tally::run(commands.iter().map(|arguments| {
         let mut miri = Command::new("cargo");
         miri.args(["+nightly", "miri"]).args(arguments.split_whitespace());
-        // The tests read files.
+        // Isolation is off, because the tests read files.
         miri.env("MIRIFLAGS", "-Zmiri-disable-isolation").current_dir(command::workspace());
         miri
     }))

@@ -8,7 +8,7 @@ use std::process::Command;
 /// The workspace's `rust-version`, without its last number.
 const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 
-/// Checks every published package, all features on, with the first release of that version.
+/// Checks every published package, with all features, on the first release of that version.
 pub(super) fn check() -> Result<(), String> {
     let compiler = format!("{RUST_VERSION}.0");
     setup::toolchain(&compiler, &[])?;

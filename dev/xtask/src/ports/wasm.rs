@@ -1,4 +1,4 @@
-//! WebAssembly: the libraries compile for a browser, and the tests run under Node.js.
+//! WebAssembly: the libraries compile for a browser, and the tests run in Node.js.
 
 use super::Extent;
 use super::cross;
@@ -7,10 +7,10 @@ use crate::setup::{self, Need, has_program};
 use crate::tally;
 
 const BROWSER: &str = "wasm32-unknown-unknown";
-/// With files and a standard output, as tests need them.
+/// A target with files and a standard output, which tests need.
 const WASI: &str = "wasm32-wasip1";
 
-/// Everything that runs without threads and without programs.
+/// All tests that need neither threads nor other programs.
 const WHOLE: &[&str] =
     &["test --package tess-core", "test --package tess-simd --no-default-features --features std"];
 
@@ -20,8 +20,8 @@ const NODE: Need = Need {
     is_there: || has_program("node"),
 };
 
-/// Checks that what a browser can use compiles, then runs the tests of the model and of the CPU
-/// backend.
+/// Checks that everything usable in a browser compiles, then runs the tests of the model and of the
+/// CPU backend.
 pub(super) fn check(extent: Extent) -> Result<(), String> {
     setup::provide(&[NODE])?;
     setup::target(BROWSER)?;

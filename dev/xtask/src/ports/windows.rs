@@ -1,4 +1,4 @@
-//! Windows: programs that mingw-w64 links, run by Wine.
+//! Windows: programs that mingw-w64 links and Wine runs.
 
 use super::Extent;
 use super::cross::{self, Host};
@@ -7,7 +7,8 @@ use crate::setup::{self, Need, has_program};
 use std::fs;
 use std::process::Command;
 
-/// 64 bits, with another calling convention, C library, line ends and paths; as Wine has them.
+/// 64 bits, with another calling convention, C library, line end and path syntax, as Wine provides
+/// them.
 const WINDOWS: Host = Host {
     target: "x86_64-pc-windows-gnu",
     linker: "x86_64-w64-mingw32-gcc",
@@ -24,7 +25,7 @@ const WINDOWS: Host = Host {
     },
 };
 
-/// Runs the tests of the model, of the CPU backend and, as a whole, of the program.
+/// Runs the tests of the model and of the CPU backend and, if the whole is checked, of the program.
 pub(super) fn check(extent: Extent) -> Result<(), String> {
     setup::provide(&[WINDOWS.need])?;
     let folder = target().join("wine");
@@ -33,7 +34,7 @@ pub(super) fn check(extent: Extent) -> Result<(), String> {
     library.args(["-shared", "-o"]).arg(folder.join("bcryptprimitives.dll"));
     library.arg(workspace().join("dev/xtask/src/ports/bcryptprimitives.c")).arg("-ladvapi32");
     command::run(&mut library)?;
-    // Wine's drive Z is the whole file system. It otherwise says on the standard error what it
+    // Wine's drive Z is the whole file system. WINEDEBUG silences messages about features that Wine
     // lacks.
     let path = format!("Z:{}", folder.display());
     cross::run(&WINDOWS, extent, &[("WINEPATH", path), ("WINEDEBUG", "-all".to_owned())])

@@ -1,4 +1,5 @@
-//! The bench of the circuit in Verilator: `rtl/dv/run` builds it, and runs here read its verdict.
+//! The bench of the circuit in Verilator. `rtl/dv/run` builds it; this module runs it and reads its
+//! verdict.
 
 use super::{lines, sources};
 use crate::command::{self, cargo, in_file, target};
@@ -8,8 +9,8 @@ use std::process::Command;
 use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
 
-/// The arguments of `cargo` that build the tests of the C interface, and with them the library that
-/// benches link.
+/// The arguments of `cargo` that build the tests of the C interface, and the library that benches
+/// link.
 pub(crate) const CAPI: &str = "test --package tess-capi --all-features --test foreign";
 
 /// A program that Verilator built, and its folder.
@@ -18,7 +19,7 @@ pub(crate) struct Bench {
     pub(crate) folder: PathBuf,
 }
 
-/// The library that benches link, of the same build as the tests.
+/// The library that benches link, from the same build as the tests.
 ///
 /// # Errors
 /// It does not compile.
@@ -31,7 +32,7 @@ pub(crate) fn library() -> Result<PathBuf, String> {
     found.ok_or_else(|| format!("`cargo {CAPI}` builds no libtess_capi.a"))
 }
 
-/// The variants of the design that `rtl/dv/run` builds a bench of.
+/// The variants of the design for which `rtl/dv/run` builds a bench.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Design {
     /// The sources.
@@ -41,8 +42,8 @@ pub(crate) enum Design {
 }
 
 impl Bench {
-    /// Lints the design and builds the bench, in the folder of the tests' bench: the same sources
-    /// are not compiled twice.
+    /// Lints the design and builds the bench, in the folder of the tests' bench, so that the same
+    /// sources are not compiled twice.
     ///
     /// # Errors
     /// A tool is missing, the lint warns, or a build fails.
@@ -59,7 +60,7 @@ impl Bench {
         Ok(Self { program: folder.join("Vtb_tess"), folder })
     }
 
-    /// Writes cases to a file of this name, and gives the argument that has the bench read it.
+    /// Writes cases to a file of this name, and returns the argument that makes the bench read it.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -69,11 +70,11 @@ impl Bench {
         Ok(format!("+stimuli={}", file.display()))
     }
 
-    /// Runs the bench, which must find everything equal, in at least this number of `patches`;
-    /// returns its output too.
+    /// Runs the bench, which must find everything equal in at least `patches` patches; returns its
+    /// output.
     ///
     /// # Errors
-    /// Something differs: what the bench printed.
+    /// Something differs; the error has the bench's output.
     pub(crate) fn compare(
         &self,
         arguments: &[&str],
@@ -87,7 +88,7 @@ impl Bench {
     }
 }
 
-/// Runs a bench to its end: whether it succeeded, and its output.
+/// Runs a bench to its end; returns whether it succeeded, and its output.
 pub(crate) fn output(program: &Path, arguments: &[&str]) -> Result<(bool, String), String> {
     let output = Command::new(program).args(arguments).output();
     let output = output.map_err(|error| in_file(program, &error))?;

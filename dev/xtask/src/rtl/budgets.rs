@@ -1,10 +1,10 @@
 //! The time that each port of the placed circuit leaves to its user, from the delays that nextpnr
 //! writes (SDF).
 //!
-//! `rtl/fpga/tess_registered.sv` has a register at each port: the cell that its pad is wired to. Of
-//! an input, the longest path from that register to one of the circuit counts; of an output, the
-//! longest one from a register of the circuit. What is left of a clock is the user's: its register,
-//! its logic and the wire to the port.
+//! `rtl/fpga/tess_registered.sv` has a register at each port: the cell to which its pad is wired.
+//! For an input, the longest path from that register to one of the circuit counts; for an output,
+//! the longest path from a register of the circuit. The rest of a clock period is left to the user:
+//! for a register, for logic and for the wire to the port. its logic and the wire to the port.
 //!
 //! ```text
 //! register of point_ready -> wire -> LUT -> wire -> register of the circuit      6.2 ns: 3.8 ns of 10 are left
@@ -14,10 +14,10 @@ use crate::command::{self, in_file};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
-/// The clock of `rtl/fpga/ecp5.lpf`, in ps.
+/// The clock period in `rtl/fpga/ecp5.lpf`, in ps.
 const PERIOD: u64 = 10_000;
 
-/// The registers at inputs and at outputs.
+/// The ports with registers: inputs and outputs.
 const INPUTS: [&str; 6] =
     ["rst", "patch_valid", "patch", "counts_ready", "point_ready", "primitive_ready"];
 const OUTPUTS: [&str; 4] = ["patch_ready", "counts_out", "point_out", "primitive_out"];
@@ -25,7 +25,7 @@ const OUTPUTS: [&str; 4] = ["patch_ready", "counts_out", "point_out", "primitive
 /// Prints the time of each port.
 ///
 /// # Errors
-/// The file cannot be read, or a port's register is not in it.
+/// The file cannot be read, or it lacks a port's register.
 pub(super) fn print(sdf: &Path) -> Result<(), String> {
     let delays = Delays::read(&command::read(sdf)?);
     println!("\n| port | ns of {} left |\n| --- | --- |", PERIOD / 1000);
@@ -51,9 +51,9 @@ enum Direction {
 struct Delays {
     /// From each pin to the next ones.
     next: HashMap<String, Vec<(String, u64)>>,
-    /// Of the pins where a path ends: the time before the clock at which a value must be there.
+    /// For each pin at which a path ends, the time before the clock at which a value must arrive.
     setup: HashMap<String, u64>,
-    /// Clock to output of each register.
+    /// The delay from the clock to the output of each register.
     clocked: BTreeMap<String, u64>,
     /// All registers.
     cells: HashSet<String>,
@@ -102,7 +102,7 @@ impl Delays {
         self.next.entry(from.to_owned()).or_default().push((to.to_owned(), delay));
     }
 
-    /// The longest path of a port: from its register's output on, or to its register's input.
+    /// The longest path of a port: from its register's output, or to its register's input.
     fn longest(&self, port: &str, direction: Direction) -> Option<u64> {
         let registers = self.registers.get(port)?;
         let mut known = HashMap::new();
@@ -121,14 +121,15 @@ impl Delays {
         paths.max()
     }
 
-    /// The time before the clock at which a value must be at a register's pin; 0 for those that SDF
-    /// has no time of, such as a reset.
+    /// The time before the clock at which a value must arrive at a register's pin; 0 for pins
+    /// without a time in the SDF, such as a reset.
     fn rest(&self, pin: &str) -> Option<u64> {
         let is_register = self.cells.contains(cell_of(pin));
         self.setup.get(pin).copied().or_else(|| is_register.then_some(0))
     }
 
-    /// The longest path from a pin to one that `ends` gives the rest of; `None` if there is none.
+    /// The longest path from a pin to one for which `ends` returns the rest; `None` if there is
+    /// none.
     fn from(
         &self,
         pin: &str,
@@ -151,7 +152,7 @@ fn cell_of(pin: &str) -> &str {
     pin.rsplit_once('/').map_or(pin, |(cell, _)| cell)
 }
 
-/// The largest of `(least:typical:most)`.
+/// The largest number of `(least:typical:most)`.
 fn longest(delay: &str) -> u64 {
     let numbers = delay.trim_matches(['(', ')']).rsplit(':');
     numbers.take(1).filter_map(|number| number.parse().ok()).next().unwrap_or(0)

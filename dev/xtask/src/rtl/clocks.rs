@@ -1,4 +1,4 @@
-//! Clocks that the workloads of `tess bench` and isolines take, without back-pressure.
+//! The clocks that isolines and the workloads of `tess bench` take, without back-pressure.
 
 use super::bench::Bench;
 use super::sources;
@@ -7,25 +7,26 @@ use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
 use tess_verify::workloads::{Calls, Workload};
 
-/// Points of a workload that are enough; the patches after them are left out.
+/// The number of points of a workload that is enough; the patches after them are left out.
 const POINTS: u64 = 100_000;
 
-/// Four lines of eight segments: no workload of `tess bench` has isolines.
+/// Four lines of eight segments, because no workload of `tess bench` that is used here has
+/// isolines.
 pub(super) const ISOLINE: &str = "case isoline integer line ruler 40800000 41000000";
 
-/// What the bench says of streams that offer an element in each clock, from the first of a patch to
-/// its last.
+/// The bench's text about streams that offer an element in each clock, from the first element of a
+/// patch to its last.
 const UNBROKEN: &str = "0 clocks without a point, 0 without a primitive";
 
-/// Clocks between two patches, and from a patch to its first element, at most.
+/// The largest numbers of clocks between two patches, and from a patch to its first element.
 const BETWEEN: u64 = 8;
 const LATENCY: u64 = 30;
 
-/// Prints latencies, then a row of a table for each workload; docs/rtl.md must have both.
+/// Prints latencies, then a table row per workload; docs/rtl.md must have both.
 ///
 /// # Errors
-/// A patch differs from the model, a stream stands still within a patch, or a number of clocks is
-/// not that of the document.
+/// A patch differs from the model, a stream stalls within a patch, or a number of clocks differs
+/// from that in the document.
 pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     let document = sources().with_file_name("docs/rtl.md");
     let document = command::read(&document)?;
@@ -67,8 +68,8 @@ pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     }
 }
 
-/// Names and patches, with enough points each. Those of `tess bench` that come in batches: the
-/// circuit does not know the size of a call.
+/// Names and patches, each with enough points: the workloads of `tess bench` that come in batches,
+/// because the circuit does not know the size of a call.
 fn workloads() -> Result<Vec<(String, Vec<Case>)>, String> {
     let batches = Workload::all().into_iter().filter(|workload| workload.calls == Calls::Batch);
     let mut all: Vec<_> =
@@ -80,7 +81,7 @@ fn workloads() -> Result<Vec<(String, Vec<Case>)>, String> {
     Ok(all)
 }
 
-/// The first patches, with enough points together.
+/// The first patches that together have enough points.
 fn beginning(workload: &Workload) -> Vec<Case> {
     let mut points = 0;
     let cases = workload.patches.iter().zip(workload.counts());
@@ -92,7 +93,7 @@ fn beginning(workload: &Workload) -> Vec<Case> {
     chosen.map(|(&factors, _)| Case { config: workload.config, factors }).collect()
 }
 
-/// The rest of the first line that has this prefix.
+/// The rest of the first line with this prefix.
 fn line<'a>(said: &'a str, prefix: &str) -> Result<&'a str, String> {
     said.lines()
         .find_map(|line| line.strip_prefix(prefix))

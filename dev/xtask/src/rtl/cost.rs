@@ -1,4 +1,4 @@
-//! The circuit's cost: `rtl/synth` runs Yosys, and tables are made of its report.
+//! The circuit's cost: `rtl/synth` runs Yosys, and its reports become tables.
 
 use super::sources;
 use crate::command::{self, in_file, target};
@@ -10,7 +10,7 @@ use std::process::Command;
 /// Prints a table of cells and flip-flops by module, and the resources of two FPGA families.
 ///
 /// # Errors
-/// Yosys is missing or fails, or says what is not understood.
+/// Yosys is missing or fails, or its output is not understood.
 pub(crate) fn run() -> Result<(), String> {
     setup::provide(&[setup::YOSYS])?;
     let folder = target().join("rtl/synth");
@@ -36,16 +36,16 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
-/// Numbers of cells by kind.
+/// The number of cells of each kind.
 type Cells = BTreeMap<String, u64>;
 
-/// All cells whose kind has one of these in it.
+/// The number of cells whose kind contains one of these words.
 fn sum(cells: &Cells, kinds: &[&str]) -> u64 {
     let is_meant = |kind: &str| kinds.iter().any(|part| kind.contains(part));
     cells.iter().filter(|(kind, _)| is_meant(kind)).map(|(_, number)| number).sum()
 }
 
-/// The cells of each module, and of the `design`.
+/// The cells of each module, and of the whole `design`.
 fn statistics(folder: &Path, name: &str) -> Result<BTreeMap<String, Cells>, String> {
     let file = folder.join(format!("{name}.txt"));
     let text = command::read(&file)?;
@@ -71,7 +71,7 @@ fn read(text: &str) -> BTreeMap<String, Cells> {
             cells.insert(kind.to_owned(), number);
         }
     }
-    // A flat design has one module, which is the whole.
+    // A flat design has one module, which is the whole design.
     if modules.len() == 1 {
         modules = modules.into_values().map(|cells| ("design".to_owned(), cells)).collect();
     }

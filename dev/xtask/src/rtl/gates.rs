@@ -1,7 +1,7 @@
-//! The circuit as a netlist of library cells, with registers that hold anything at power-up,
-//! against the model.
+//! Compares the circuit with the model as a netlist of library cells, whose registers hold
+//! arbitrary values at power-up.
 //!
-//! The netlist has register stages at its ports and padded AXI4-Stream words, so those are compared
+//! The netlist has register stages at its ports and padded AXI4-Stream words, so these are tested
 //! here too.
 
 use super::bench::{Bench, Design};
@@ -10,16 +10,15 @@ use crate::setup;
 use std::time::Instant;
 use tess_verify::Case;
 
-/// Random values in all registers at power-up.
+/// The options for random values in all registers at power-up.
 const POWER_UP: [&str; 2] = ["+verilator+rand+reset+2", "+verilator+seed+7"];
 const PATCHES: usize = 200;
 
-/// Builds the netlist and its bench; then random patches after resets, and isolines without a clock
-/// lost.
+/// Builds the netlist and its bench. Then compares random patches after resets, and isolines
+/// without a lost clock.
 ///
 /// # Errors
-/// A tool or the library of cells is missing, an element differs, or the register stages lose
-/// clocks.
+/// A tool or the cell library is missing, an element differs, or the register stages lose clocks.
 pub(crate) fn run() -> Result<(), String> {
     setup::provide(&[setup::YOSYS, setup::CELLS])?;
     let bench = Bench::built(Design::Gates)?;

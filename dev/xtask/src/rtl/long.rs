@@ -1,5 +1,5 @@
-//! Comparisons for hours, in shards. A shard that is done is not done again until a source of the
-//! circuit changes.
+//! Comparisons that run for hours, in shards. A finished shard is repeated only after a source of
+//! the circuit changes.
 
 use super::bench::Bench;
 use super::sources;
@@ -13,18 +13,18 @@ use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection, SplitMix64, configurations, random_patch};
 use tess_verify::vectors::Fnv1a;
 
-/// Patches of a shard.
+/// The number of patches in a shard.
 const PATCHES: u64 = 10_000;
-/// Shards of small random patches, which come first.
+/// The number of shards of small random patches, which come first.
 const SMALL: u64 = 900;
-/// Shards of the random patches of level 3; with the small ones 10 million patches.
+/// The number of shards of random patches of level 3; with the small ones, 10 million patches.
 const LEVEL_3: u64 = 100;
 
-/// A part that is done at once.
+/// A part of the work.
 enum Shard {
-    /// Patches of level 2, from this number on.
+    /// Patches of level 2, starting with this number.
     Level2(usize),
-    /// Random patches whose output is mostly small, by seed.
+    /// Random patches whose output is usually small, by seed.
     Small(u64),
     /// Random patches of level 3, by seed.
     Level3(u64),
@@ -32,11 +32,11 @@ enum Shard {
     Stages(Inputs),
 }
 
-/// Runs all shards, one on each core at a time.
+/// Runs all shards, one per core at a time.
 ///
 /// # Errors
-/// Something differs: the shard's name and what the bench printed. The shards in work are ended
-/// first.
+/// Something differs; the error has the shard's name and the bench's output. Shards that are
+/// already running are finished first.
 pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     let level_2: Vec<Case> = Selection::level(GenLevel::Two, 1).cases().collect();
     let (stages, shards) = (Stages::built(&bench.folder)?, shards(level_2.len()));
@@ -56,7 +56,7 @@ pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     Ok(())
 }
 
-/// All shards, quick ones first.
+/// All shards, the quick ones first.
 fn shards(level_2: usize) -> Vec<Shard> {
     let size = usize::try_from(PATCHES).unwrap_or(usize::MAX);
     let small = (1..=SMALL).map(Shard::Small);
@@ -131,7 +131,7 @@ impl Work<'_> {
         let seed = format!("+seed={}", 1 + name.len());
         let arguments = [&stimuli, &seed, "+gaps", "+resets=10"];
         let (verdict, _) = self.bench.compare(&arguments, cases.len())?;
-        // A shard that differs keeps its patches.
+        // If a shard differs, its patches are kept.
         let file = Path::new(stimuli.trim_start_matches("+stimuli="));
         fs::remove_file(file).map_err(|error| in_file(file, &error))?;
         Ok(verdict.to_string())
@@ -150,7 +150,7 @@ impl Shard {
     }
 }
 
-/// Random patches of every configuration in turn, mostly with few elements.
+/// Random patches of every configuration in turn, usually with few elements.
 fn small(seed: u64) -> Vec<Case> {
     let mut random = SplitMix64::new(seed);
     let configurations: Vec<_> = configurations().collect();

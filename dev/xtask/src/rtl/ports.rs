@@ -1,24 +1,25 @@
 //! The ports of the circuit: no output may depend on an input in the same clock, except on the
 //! reset.
 //!
-//! Yosys selects the logic between the outputs and the registers before them, and the inputs in it.
+//! Yosys selects the logic between the outputs and the registers that feed them, and the inputs in
+//! it.
 
 use super::proofs;
 use crate::command;
 use std::path::Path;
 use std::process::Command;
 
-/// The planted faults that the check must find, with the register stages at the ports (`BUFFERED`)
-/// that each is in.
+/// The planted faults that the check must detect, each with the variant that has it: with register
+/// stages at the ports (`BUFFERED`) or without.
 pub(super) const FAULTS: [(&str, bool); 2] = [
     ("a patch waits until the one before is taken from the front end", false),
     ("the buffer of one entry takes an element while one leaves", true),
 ];
 
-/// Checks the design with and without register stages, then sees each fault found.
+/// Checks the design with and without register stages, then that each fault is detected.
 ///
 /// # Errors
-/// Yosys fails, an output depends on an input, or a fault is not found.
+/// Yosys fails, an output depends on an input, or a fault is not detected.
 pub(crate) fn run() -> Result<(), String> {
     let folder = proofs::folder();
     for buffered in [false, true] {
@@ -41,8 +42,8 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
-/// The inputs of `tess_axis` in the design in `folder`, other than clock and reset, that an output
-/// depends on.
+/// The inputs of `tess_axis` in the design in `folder`, other than clock and reset, on which an
+/// output depends.
 fn inputs_of_outputs(folder: &Path, buffered: bool) -> Result<Vec<String>, String> {
     let script = format!(
         "read_verilog -sv -I . {}; chparam -set BUFFERED {} tess_axis; hierarchy -top tess_axis; proc; flatten; \

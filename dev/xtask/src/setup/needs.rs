@@ -1,11 +1,11 @@
-//! Needs of the tests from the system.
+//! The tests' needs from the system.
 
 use super::{Need, has_program};
 use crate::command;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Needs of `cargo xtask test`.
+/// The needs of `cargo xtask test`.
 pub(super) const COMPARISONS: &[Need] = &[
     Need {
         what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
@@ -28,7 +28,7 @@ pub(super) const COMPARISONS: &[Need] = &[
     PYTHON,
 ];
 
-/// Needs of `cargo xtask test all` beyond it, the browser apart.
+/// The additional needs of `cargo xtask test all`, without the browser.
 pub(super) const BEYOND: &[Need] = &[
     Need {
         what: "an OpenGL driver through EGL (tests of wgpu's OpenGL backend)",
@@ -45,14 +45,14 @@ pub(super) const BEYOND: &[Need] = &[
     ICARUS,
 ];
 
-/// The interpreter that makes the virtual environment.
+/// The interpreter that makes virtual environments.
 pub(crate) const PYTHON: Need = Need {
     what: "Python 3.9 or later with the modules venv and ensurepip (tests of the Python package, tables of measurements)",
     packages: &["python3", "python3-venv"],
     is_there: has_python,
 };
 
-/// What runs programs in JavaScript.
+/// The runtime for JavaScript programs.
 pub(crate) const NODE: Need = Need {
     what: "Node.js with npm (drives the browser, runs the validator of glTF)",
     packages: &["nodejs", "npm"],
@@ -66,14 +66,14 @@ pub(crate) const VERILATOR: Need = Need {
     is_there: || ["verilator", "c++", "make"].into_iter().all(has_program),
 };
 
-/// The library of the `SystemC` modules.
+/// The library for the `SystemC` modules.
 pub(crate) const SYSTEMC: Need = Need {
     what: "SystemC (tests of the SystemC modules)",
     packages: &["libsystemc-dev"],
     is_there: || Path::new("/usr/include/systemc").exists(),
 };
 
-/// Synthesis of the circuit, and what proofs are made of.
+/// The synthesis tool, which also prepares proofs.
 #[cfg(feature = "kit")]
 pub(crate) const YOSYS: Need = Need {
     what: "Yosys (synthesis and proofs of the circuit)",
@@ -81,7 +81,7 @@ pub(crate) const YOSYS: Need = Need {
     is_there: || has_program("yosys") && has_program("yosys-smtbmc"),
 };
 
-/// The library of cells that a netlist of the circuit is made of.
+/// The cell library for netlists of the circuit.
 #[cfg(feature = "kit")]
 pub(crate) const CELLS: Need = Need {
     what: "the OSU 0.18 um cells (the circuit as gates)",
@@ -96,7 +96,7 @@ pub(crate) const ICARUS: Need = Need {
     is_there: || has_program("iverilog"),
 };
 
-/// Whether the loader and any driver's manifest are where Vulkan looks for them.
+/// Whether the loader, and some driver's manifest, are in the places where Vulkan looks for them.
 fn has_vulkan() -> bool {
     let has_driver = std::env::var_os("VK_DRIVER_FILES").is_some()
         || ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d"]
@@ -105,7 +105,8 @@ fn has_vulkan() -> bool {
     has_driver && has_library("libvulkan.so.1")
 }
 
-/// Whether EGL's dispatcher and any driver's manifest are where it looks for them.
+/// Whether EGL's dispatcher, and some driver's manifest, are in the places where EGL looks for
+/// them.
 fn has_opengl() -> bool {
     ["/usr/share/glvnd/egl_vendor.d", "/etc/glvnd/egl_vendor.d"].into_iter().any(has_files)
         && has_library("libEGL.so.1")

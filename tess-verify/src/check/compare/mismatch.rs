@@ -1,12 +1,11 @@
-//! A difference: the element, both values, and the stage of the specification that it points to.
+//! A difference: the element, its two values, and the stage of the specification that it points to.
 
 use crate::names::{Named, named};
 use std::fmt;
 use tess_core::FixedFactor;
 
 named! {
-    /// A stage on a patch's way, as far as a difference can be traced back; in the order of that
-    /// way.
+    /// A stage of processing to which a difference can be traced back; in the order of processing.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     #[non_exhaustive]
     pub enum SpecStage: "stage" {
@@ -24,9 +23,9 @@ named! {
         PointOrder = "point order",
         /// Connectivity (spec sections 7 and 8).
         Stitch = "stitch",
-        /// Another case was answered than was asked.
+        /// The case answered is not the case asked.
         Answer = "answer",
-        /// A digest over whole patches differs, every element of which is the model's.
+        /// A digest over whole patches differs, although every element agrees with the model's.
         Unknown = "unknown, every element is the model's",
     }
 }
@@ -45,23 +44,23 @@ pub enum Element {
     Count(&'static str),
     /// A coordinate, `u` or `v`, of a domain point.
     Point {
-        /// Number of the point.
+        /// The number of the point.
         index: usize,
         /// `u` or `v`.
         coordinate: &'static str,
     },
     /// One index of a primitive.
     Index {
-        /// Number of the primitive.
+        /// The number of the primitive.
         primitive: usize,
-        /// Position in the primitive, from 0.
+        /// The position in the primitive, from 0.
         position: usize,
     },
     /// The third coordinate of a vertex.
     Third {
-        /// Number of the primitive.
+        /// The number of the primitive.
         primitive: usize,
-        /// Position in the primitive, from 0.
+        /// The position in the primitive, from 0.
         position: usize,
     },
     /// The case that a record answers.
@@ -72,19 +71,19 @@ pub enum Element {
     Context {
         /// The factor.
         factor: FixedFactor,
-        /// Name of the field.
+        /// The name of the field.
         field: &'static str,
     },
     /// The location of a factor's point.
     Location {
         /// The factor.
         factor: FixedFactor,
-        /// Number of the point.
+        /// The number of the point.
         p: usize,
     },
     /// A processed factor of the triangle patch (x, 3, 3; x).
     Factor {
-        /// Bits of the raw factor x.
+        /// The bits of the raw factor x.
         x: u32,
         /// `outer` or `inside`.
         role: &'static str,
@@ -93,12 +92,12 @@ pub enum Element {
     Prepared {
         /// `unrounded` or `rounded`.
         result: &'static str,
-        /// Name of the factor.
+        /// The name of the factor.
         factor: &'static str,
     },
-    /// A point, or a primitive by its vertices, where the order is free: 16.16 bits of u and v.
+    /// Where the order is free: a point, or a primitive by its vertices, as 16.16 bits of u and v.
     Vertices(Vec<[u32; 2]>),
-    /// The fixed-point number that a binary32 factor with these bits became.
+    /// The fixed-point number of the binary32 factor with these bits.
     Conversion(u32),
     /// A digest that differs although every element agrees with the model's.
     Digest(&'static str),

@@ -13,15 +13,16 @@ use tess_core::{Config, Domain};
 pub struct MismatchGroup {
     /// The stage that they point to.
     pub stage: SpecStage,
-    /// The domain and configuration; `None` for records that are no single patches.
+    /// The domain and configuration; `None` for records that are not single patches.
     pub config: Option<(Domain, Config)>,
-    /// How many they are.
+    /// The number of differences.
     pub mismatches: u64,
-    /// The one whose case has the fewest indices in the model, the first of equals.
+    /// The difference whose case has the fewest indices in the model; the first one, if several
+    /// have as few.
     pub smallest: Difference,
 }
 
-/// Number, stage and configuration.
+/// The number, stage and configuration.
 impl fmt::Display for MismatchGroup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { stage, config, mismatches, .. } = self;
@@ -43,14 +44,14 @@ impl MismatchGroup {
         (self.stage, self.config)
     }
 
-    /// Indices of the smallest case, then its number.
+    /// The number of indices of the smallest case, then the number of its record.
     fn size(&self) -> (u32, u64) {
         let indices = |case: Case| case.patch().counts().indices;
         (self.smallest.case.map_or(0, indices), self.smallest.number)
     }
 }
 
-/// All groups, in any order. There are at most as many as stages and configurations.
+/// All groups, in any order. There is at most one per stage and configuration.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Groups(Vec<MismatchGroup>);
 
@@ -82,7 +83,7 @@ impl Groups {
         }
     }
 
-    /// The one with the smallest case first.
+    /// The groups; the one with the smallest case comes first.
     pub(super) fn sorted(&self) -> Vec<MismatchGroup> {
         let mut groups = self.0.clone();
         groups.sort_by_key(MismatchGroup::size);

@@ -1,8 +1,8 @@
-//! The factors that a conforming device may have processed in place of the given ones.
+//! The factors that a conforming device may process instead of the given ones.
 //!
-//! A factor whose multiple of 2^-16 lies 0.4 to 0.6 of the way between two integers has two legal
-//! fixed-point numbers. Edges of the same value must get the same number, or neighbouring patches
-//! would not meet. So a choice is made for each *value*, not for each factor.
+//! A factor has two legal fixed-point numbers if, in units of 2^-16, its fraction is from 0.4 to
+//! 0.6. Edges of the same value must get the same number, or neighbouring patches would not meet.
+//! So the choice is per *value*, not per factor.
 //!
 //! ```text
 //! factors    u0 = a   v0 = b   u1 = a   v1 = 3   inside_u = b   inside_v = 5      a and b are ambiguous
@@ -19,26 +19,26 @@
 //! ```
 //!
 //! - Six factors have at most six values, so `accepted` has at most 64 bits.
-//! - Choice 0 is the model's. A patch without ambiguous values has no other.
-//! - A value that does not show in an output is accepted either way; `check::consistency` therefore
-//!   takes a number for known only if every accepted choice agrees on it.
+//! Choice 0 is the model's own. A patch without ambiguous values has no other.
+//! A value that does not show in an output is accepted either way. `check::consistency` therefore
+//! takes a number as known only if every accepted choice agrees on it.
 
 use super::{Conversion, Denormals, Strength};
 use crate::case::Case;
 use crate::generate::from_fixed;
 use tess_core::{PatchFactors, ProcessedFactor, Tessellation};
 
-/// A value, rounded and clamped, that has two legal fixed-point numbers.
+/// A value, after rounding and clamping, that has two legal fixed-point numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Ambiguous {
-    /// Bits of the binary32.
+    /// The bits of the binary32.
     pub(crate) value: u32,
-    /// The two 15.16 numbers: the nearest, which is the model's, and the other.
+    /// The two 15.16 numbers: first the nearest, which is the model's, then the other one.
     pub(crate) numbers: [u32; 2],
 }
 
-/// The choices that explain one output: bit `n` of `accepted` says that choice `n` does, in which
-/// bit `i` says that value `i` became the second of its numbers.
+/// The choices that explain one output. Bit `n` of `accepted` is set if choice `n` does. Bit `i` of
+/// a choice is set if value `i` became the second of its numbers.
 ///
 /// A patch has at most six values, so there are at most 64 choices.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -51,7 +51,7 @@ pub(crate) struct Conversions {
 pub(crate) struct Alternatives {
     case: Case,
     pub(crate) values: Vec<Ambiguous>,
-    /// For each factor, the number of its value, if that is ambiguous.
+    /// For each factor, the index of its value in `values`, if that is ambiguous.
     value_of: PatchFactors<Option<usize>>,
 }
 
@@ -75,12 +75,12 @@ impl Alternatives {
         Self { case: *case, values, value_of }
     }
 
-    /// The numbers of all choices; 0 takes the model's number for each value.
+    /// All choices; choice 0 takes the model's number for each value.
     pub(crate) fn choices(&self) -> std::ops::Range<u64> {
         0..1 << self.values.len()
     }
 
-    /// The case whose exact output is legal if `choice` is what the device does.
+    /// The case whose exact output is legal if the device made this choice.
     pub(crate) fn case(&self, choice: u64) -> Case {
         let (mut raw, mut value_of) = (self.case.factors.iter(), self.value_of.iter());
         let factors = PatchFactors::from_fn(self.case.domain(), |_| {
@@ -92,10 +92,9 @@ impl Alternatives {
     }
 }
 
-/// The legal numbers of a factor that lies within 0.4 to 0.6 of the way between two: the nearest is
-/// at most half a unit away, and the other one at most 0.6 if the nearest is at least 0.4. A
-/// density, or a factor of an integer partitioning, was rounded up to an integer before, so it has
-/// one number.
+/// The two legal numbers of a factor that is 0.4 to 0.6 units away from both. The nearest is at
+/// most 0.5 units away; if it is at least 0.4 away, the other one is at most 0.6 away. A density,
+/// or a factor of an integer partitioning, has been rounded up to an integer, so it has one number.
 #[expect(clippy::float_arithmetic, reason = "exact: a binary32 scaled by 2^16 in binary64")]
 fn ambiguous(factor: &ProcessedFactor) -> Option<Ambiguous> {
     let scaled = f64::from(f32::from_bits(factor.rounded)) * 65536.0;
@@ -106,8 +105,8 @@ fn ambiguous(factor: &ProcessedFactor) -> Option<Ambiguous> {
     both_legal.then_some(Ambiguous { value: factor.rounded, numbers: [nearest, other] })
 }
 
-/// The case with its denormal outer factors flushed to zero, which culls it; `None` if there are
-/// none.
+/// The case with its denormal outer factors flushed to zero, which culls it; `None` if it has no
+/// such factors.
 #[must_use]
 pub fn flushed(case: &Case) -> Option<Case> {
     let is_denormal = |factor: f32| factor.is_subnormal() && factor > 0.0;
@@ -124,7 +123,7 @@ pub fn flushed(case: &Case) -> Option<Case> {
 }
 
 impl Strength {
-    /// The ways of converting the case's factors that explain an output; `None` if there is none.
+    /// The conversions of the case's factors that explain an output; `None` if none does.
     pub(crate) fn explain(self, case: &Case, observed: &Tessellation) -> Option<Conversions> {
         let equals = |case: &Case| self.equal(case, observed, &case.patch().tessellate());
         let alternatives = Alternatives::new(case, self.conversion);
@@ -150,8 +149,8 @@ mod tests {
         Alternatives::new(&case, Conversion::Within06Ulp).values.len()
     }
 
-    /// From 1 to 2 a binary32 has steps of 2^-23, which are 1/128 of 2^-16: 51 of them are 0.398
-    /// units and 52 are 0.406; from above, 77 are 0.602 and 76 are 0.594.
+    /// From 1 to 2, binary32 numbers have steps of 2^-23, which is 1/128 of 2^-16. So 51 steps are
+    /// 0.398 units and 52 are 0.406; 76 are 0.594 and 77 are 0.602.
     #[test]
     fn values_are_ambiguous_from_four_tenths_on() {
         let line = "case tri fractional_odd point ruler 40200000 40a00000 3fa00000 40900000";
@@ -160,7 +159,7 @@ mod tests {
         assert_eq!([51, 52, 76, 77].map(with), [0, 1, 1, 0], "0.4 to 0.6");
     }
 
-    /// 3 + 2^-17 lies halfway between two numbers, 3 + 0.3125 * 2^-16 near one.
+    /// 3 + 2^-17 is halfway between two numbers; 3 + 0.3125 * 2^-16 is near one of them.
     #[test]
     fn values_between_two_numbers_are_ambiguous() {
         let line = "case tri fractional_odd point ruler 40200000 40a00000 40400014 40900000";

@@ -1,9 +1,9 @@
-//! Comparison of outputs whose order is free: as multisets of places and of primitives.
+//! Comparison of outputs in any order: as multisets of places and of primitives.
 //!
-//! The model's distinct places are sorted, and each place gets its *rank*, its position in that
-//! list. An observed point has the rank of its place, or [`NOWHERE`] if the model has no such
-//! place. A primitive is a key made of its vertices' ranks; equal keys are equal primitives, so
-//! sorted keys are compared.
+//! The model's distinct places are sorted; the *rank* of a place is its position in that list. An
+//! observed point has the rank of its place, or [`NOWHERE`] if the model has no such place. A
+//! primitive becomes a key made of its vertices' ranks. Equal keys are equal primitives, so
+//! comparing sorted keys compares the outputs.
 //!
 //! ```text
 //! place (64 bits)   63..32  bits of u      31..0  bits of v       sorting it sorts by u, then v
@@ -11,18 +11,18 @@
 //!                   lines: 25..13, 12..0       points: 12..0      NOWHERE is 8191; ranks are below 4225
 //! ```
 //!
-//! The patch of one triangle, (0, 1), (0, 0), (1, 0): sorted, the places are (0, 0), (0, 1),
-//! (1, 0), so the triangle's ranks are 1, 0, 2. Its three keys, by the vertex that leads, are
-//! 1-0-2, 0-2-1 and 2-1-0; the smallest, 0-2-1, stands for all of them. The other orientation has
-//! 0-1-2, which is another key.
+//! Example: one triangle, (0, 1), (0, 0), (1, 0). The sorted places are (0, 0), (0, 1), (1, 0), so
+//! the triangle's ranks are 1, 0, 2. Depending on the leading vertex, its key is 1-0-2, 0-2-1 or
+//! 2-1-0; the smallest, 0-2-1, represents all three. With the other orientation the key is 0-1-2.
 //!
-//! - The leading vertex of a triangle is free, and its orientation is not.
-//! - A place may be listed more often than the model lists it if primitives use each of its points:
-//!   a device without an index buffer lists a vertex for each use.
-//! - Points that are primitives may be merged where they coincide, and may not be drawn more often.
+//! - The leading vertex of a triangle is free; its orientation is not.
+//! - A place may be listed more often than in the model if primitives use each of its points: a
+//!   device without an index buffer lists a vertex for each use.
+//! - Points that are primitives may be merged where they coincide, but may not be drawn more often
+//!   than in the model.
 //!
-//! Comparing sets of coordinate tuples is simpler. Ranks make a key fit 64 bits, and level 2 has
-//! 207 million indices to sort.
+//! Comparing sets of coordinate tuples would be simpler. With ranks, a key fits into 64 bits, which
+//! matters because level 2 has 207 million indices to sort.
 
 use super::Elements;
 use crate::case::Case;
@@ -31,25 +31,27 @@ use std::collections::BTreeMap;
 use std::iter::Peekable;
 use tess_core::{DomainPoint, Tessellation};
 
-/// An element that one output has more often than the other may.
+/// An element that two outputs do not have equally often, as far as they must.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Difference {
-    /// The domain points of the element: one, or a primitive's vertices; 16.16 bits of u and v.
+    /// The vertices of the element, as 16.16 bits of u and v: one for a point, several for a
+    /// primitive.
     pub(crate) vertices: Vec<[u32; 2]>,
-    /// How often the observed output has it.
+    /// How often the observed output has the element.
     pub(crate) observed: usize,
-    /// How often it should.
+    /// How often it should have it.
     pub(crate) expected: usize,
-    /// Of the elements that are wrong the other way round, too often instead of too rarely or the
-    /// reverse, the one most like this one.
+    /// The most similar element that is wrong in the opposite direction: too frequent if this one
+    /// is too rare, or the reverse.
     pub(crate) instead: Option<Box<Difference>>,
 }
 
-/// The first point, else the first primitive, that is not in both outputs as often as it must be.
+/// The first point that is not in both outputs as often as it must be; if there is none, the first
+/// such primitive.
 ///
-/// Points are compared as a set of places. Where primitives count, a place may be listed more often
-/// than the model lists it only as far as primitives use each of its points; and primitives are
-/// compared by the places of their vertices, the leading vertex of a triangle being free.
+/// Points are compared as a set of places. If primitives are compared too, a place may be listed
+/// more often than in the model only if primitives use each of its points. Primitives are compared
+/// by the places of their vertices, and the leading vertex of a triangle is free.
 pub(crate) fn first_difference(
     elements: Elements,
     case: &Case,
@@ -70,19 +72,21 @@ pub(crate) fn first_difference(
     })
 }
 
-/// The first point that is not listed as often as it must be where primitives count.
+/// The first point that is not listed as often as it must be when primitives are compared.
 pub(crate) fn first_stray(observed: &Tessellation, expected: &Tessellation) -> Option<Difference> {
     let known = DistinctPlaces::of(expected);
     let ranks = [known.ranks(observed), known.ranks(expected)];
     points(Elements::Primitives, observed, &known, &ranks)
 }
 
-/// The distinct places of the model's points, ascending: bits of u above bits of v.
+/// The distinct places of the model's points, ascending; u is in the upper bits, v in the lower
+/// ones.
 struct DistinctPlaces(Vec<u64>);
 
-/// The number of a place among them; [`NOWHERE`] for others. A patch has at most 4225 points.
+/// The position of a place in the sorted list; [`NOWHERE`] for other places. A patch has at most
+/// 4225 points.
 type Rank = u16;
-/// Bits of a rank in a primitive's key.
+/// The number of bits of a rank in a primitive's key.
 const RANK: u32 = 13;
 const NOWHERE: Rank = (1 << RANK) - 1;
 
@@ -101,7 +105,7 @@ impl DistinctPlaces {
         output.points.iter().map(|point| bounded(rank(point)).unwrap_or(NOWHERE)).collect()
     }
 
-    /// How often each place comes.
+    /// The number of occurrences of each place.
     fn times(&self, ranks: &[Rank]) -> Vec<usize> {
         let mut times = vec![0; self.0.len()];
         for &rank in ranks {
@@ -118,8 +122,7 @@ impl DistinctPlaces {
     }
 }
 
-/// The first place that only one output has, or that the observed one lists more often where it
-/// must not.
+/// The first place that only one output has, or that the observed output lists too often.
 fn points(
     elements: Elements,
     observed: &Tessellation,
@@ -146,7 +149,7 @@ fn points(
     Difference::first(wrong.into_iter().map(|(place, (o, e))| (vertices(place), o, e)))
 }
 
-/// For each place, whether primitives use every point that lies there.
+/// For each place, whether primitives use every point there.
 fn all_used(output: &Tessellation, ranks: &[Rank], places: usize) -> Vec<bool> {
     let mut is_used = vec![false; ranks.len()];
     for &index in &output.indices {
@@ -163,7 +166,7 @@ fn all_used(output: &Tessellation, ranks: &[Rank], places: usize) -> Vec<bool> {
     all_used
 }
 
-/// The first primitive that is not in both outputs equally often. Where points are the primitives,
+/// The first primitive that is not in both outputs equally often. If the primitives are points,
 /// coinciding ones may have been merged.
 fn primitives(
     size: usize,
@@ -188,7 +191,7 @@ fn primitives(
     Difference::first(wrong.map(|(key, observed, expected)| (vertices(key), observed, expected)))
 }
 
-/// The primitives of an output as sorted keys, made of ranks: equal keys are equal primitives.
+/// The primitives of an output as sorted keys made of ranks; equal keys are equal primitives.
 fn sorted_primitives(output: &Tessellation, ranks: &[Rank], size: usize) -> Vec<u64> {
     let vertex = |&index: &u32| u64::from(ranks.get(index as usize).copied().unwrap_or(NOWHERE));
     let key = |primitive: &[u32]| match primitive {
@@ -200,15 +203,15 @@ fn sorted_primitives(output: &Tessellation, ranks: &[Rank], size: usize) -> Vec<
     primitives
 }
 
-/// The smallest of the three keys that a triangle has, depending on the vertex that leads.
+/// The smallest of a triangle's three keys, one for each leading vertex.
 fn triangle([a, b, c]: [u64; 3]) -> u64 {
     let key = |a, b, c| a << (2 * RANK) | b << RANK | c;
     key(a, b, c).min(key(b, c, a)).min(key(c, a, b))
 }
 
 impl Difference {
-    /// The first of the wrong elements, with what is there instead: vertices, and how often
-    /// observed and expected.
+    /// The first of the wrong elements, together with the one that replaces it. Each item is an
+    /// element's vertices and its observed and expected number.
     fn first(wrong: impl Iterator<Item = (Vec<[u32; 2]>, usize, usize)>) -> Option<Self> {
         let difference =
             |(vertices, observed, expected)| Self { vertices, observed, expected, instead: None };
@@ -223,7 +226,8 @@ impl Difference {
         self.observed < self.expected
     }
 
-    /// How many vertices two elements have in common, then how near the others are.
+    /// The similarity of two elements: first by the number of common vertices, then by the
+    /// distances of the coordinates.
     fn likeness(&self, other: &Self) -> (usize, Reverse<u64>) {
         let common = self.vertices.iter().filter(|vertex| other.vertices.contains(vertex)).count();
         let coordinates = |one: &Self| one.vertices.as_flattened().to_vec();
@@ -232,7 +236,7 @@ impl Difference {
     }
 }
 
-/// The place of a point: bits of u above bits of v.
+/// The place of a point: u in the upper bits, v in the lower ones.
 fn place(point: &DomainPoint) -> u64 {
     u64::from(point.u.to_bits()) << 32 | u64::from(point.v.to_bits())
 }
@@ -246,7 +250,7 @@ const fn low(place: u64) -> u32 {
     place as u32
 }
 
-/// Each element of two sorted lists with the number of times that each of them has it.
+/// Each element of two sorted lists, with its number of occurrences in each.
 fn counts<T: Copy + Ord>(a: &[T], b: &[T]) -> impl Iterator<Item = (T, usize, usize)> {
     let (mut a, mut b) = (a.iter().copied().peekable(), b.iter().copied().peekable());
     std::iter::from_fn(move || {
@@ -264,7 +268,7 @@ fn take<T: Ord>(list: &mut Peekable<impl Iterator<Item = T>>, element: T) -> usi
 mod tests {
     use super::*;
 
-    /// A point that is missing is shown with the nearest one of those that are too many.
+    /// A missing point is shown with the nearest superfluous one.
     #[test]
     fn the_nearest_point_stands_instead() {
         let line =
@@ -281,8 +285,8 @@ mod tests {
         assert_eq!(first.instead.map(|other| other.vertices), Some(vec![[0x101, 0]]), "beside it");
     }
 
-    /// Each index of a patch in turn names another point: what is missing and what is there instead
-    /// are the two primitives, by the places of their vertices.
+    /// Each index of a patch is changed in turn. The difference then shows both primitives, the
+    /// missing one and the one in its place, by their vertices.
     #[test]
     fn primitives_that_differ_are_shown_by_their_vertices() {
         let of = "40000000 40000000 40000000 40000000 40000000 40000000";
@@ -318,7 +322,8 @@ mod tests {
         }
     }
 
-    /// The vertices of a triangle from the smallest on; a line's as they are.
+    /// The vertices of a triangle, rotated so that the smallest comes first; those of a line
+    /// unchanged.
     fn least_turned(mut vertices: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
         if let [a, b, c] = vertices[..] {
             let turns = [[a, b, c], [b, c, a], [c, a, b]];
@@ -327,7 +332,7 @@ mod tests {
         vertices
     }
 
-    /// The triangle in the head of this file.
+    /// The triangle of the example at the head of this file.
     #[test]
     fn keys_of_one_triangle() {
         let points = [(0, 0x1_0000), (0, 0), (0x1_0000, 0)];

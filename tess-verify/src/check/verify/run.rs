@@ -1,4 +1,4 @@
-//! Compares units and adds up what was compared.
+//! Compares units and sums up the results.
 
 use super::units::VALUES;
 use super::{Subject, Unit, Units};
@@ -16,35 +16,36 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder, Tessellation};
 
-/// The comparison of one subject in one backend.
+/// The result of comparing one subject on one backend.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SubjectRow {
     /// The subject.
     pub subject: Subject,
-    /// Name of the backend.
+    /// The name of the backend.
     pub backend: &'static str,
-    /// Elements compared: patches, binary32 factors or locations.
+    /// The number of elements compared: patches, binary32 factors or locations.
     pub compared: u64,
-    /// Units in which something differed that is not known.
+    /// The number of units with a difference that is not known.
     pub mismatches: u64,
-    /// How many of them point to each stage, by their first difference.
+    /// The number of those units by the stage that their first difference points to.
     pub stages: BTreeMap<SpecStage, u64>,
-    /// Patches that differ and are known.
+    /// The number of patches that differ in a known way.
     pub known: u64,
     /// The first difference, as text.
     pub first: Option<String>,
-    /// Whether its patch is right when it is asked for again by itself: what came before matters.
+    /// Whether its patch is right when the backend repeats it by itself, so that earlier work
+    /// matters.
     pub passes_alone: bool,
 }
 
-/// Compares the units of a subject that are in the shard, one row for each backend. A patch that
-/// differs is no mismatch if that is `known`.
+/// Compares those units of a subject that are in the shard; returns one row per backend. A patch
+/// that differs is not a mismatch if the difference is `known`.
 ///
-/// Give one list of backends for each thread to use, all lists with the same backends. `progress`
-/// is called from any thread with the number of units that are done, and the number of all.
+/// Pass one list of backends per thread; all lists must have the same backends. `progress` is
+/// called from any thread with the number of finished units and the number of all.
 ///
 /// # Errors
-/// A backend that could not run, or no backend at all.
+/// A backend could not run, or there is none.
 pub fn verify(
     workers: &mut [Vec<Box<dyn Backend>>],
     subject: Subject,
@@ -80,11 +81,11 @@ pub fn verify(
     Ok(rows.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// The comparison of one unit.
+/// The result of comparing one unit.
 struct Compared {
     elements: u64,
     known: u64,
-    /// The first difference that is not known, as text, and its stage.
+    /// The first difference that is not known, with its stage and text.
     first: Option<(SpecStage, String)>,
     passes_alone: bool,
 }
@@ -110,7 +111,7 @@ impl SubjectRow {
 }
 
 impl Compared {
-    /// Elements that are no patches, of which none is known.
+    /// The result for elements that are not patches, among which no difference can be known.
     fn values(elements: u64, name: &str, mismatch: Option<Mismatch>) -> Self {
         let first = mismatch.map(|mismatch| (mismatch.stage, format!("{name}: {mismatch}")));
         Self { elements, known: 0, first, passes_alone: false }

@@ -1,4 +1,4 @@
-//! Subjects of a comparison.
+//! The subjects of a comparison.
 
 use crate::names::Named;
 
@@ -8,29 +8,29 @@ use crate::names::Named;
 pub enum Subject {
     /// The generated level 1.
     Level1,
-    /// The cases of the generated level 2 beyond level 1.
+    /// The cases of the generated level 2 that are not in level 1.
     Level2,
     /// All 2^32 binary32 factors, as outer and as inside factor, in every partitioning.
     Factors,
-    /// All fixed-point factors: contexts and locations, in both parities and split orders.
+    /// All fixed-point factors: their contexts and locations, in both parities and split orders.
     Locations,
     /// All pairs of an outer and an inside factor, in both split orders.
     Transitions,
     /// All pairs of inside factors, and all isolines.
     Interiors,
-    /// Random patches of every configuration: every domain, partitioning, output and split order.
+    /// Random patches in every configuration of domain, partitioning, output and split order.
     ///
-    /// Each unit has its own seed, so a larger number of patches begins with the same patches.
+    /// Each unit has its own seed, so a run with more patches includes those of a run with fewer.
     Random {
-        /// Number of patches of each configuration.
+        /// The number of patches per configuration.
         patches: u64,
-        /// Seed of all of them.
+        /// The seed of all patches.
         seed: u64,
     },
 }
 
 impl Subject {
-    /// Every subject that is finite, the fastest first.
+    /// Every finite subject, the fastest first.
     pub const ALL: [Self; 6] = [
         Self::Level1,
         Self::Transitions,

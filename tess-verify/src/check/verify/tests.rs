@@ -1,4 +1,4 @@
-//! The units of each subject: whole, disjoint, and the same each time.
+//! The units of each subject are complete, disjoint and reproducible.
 
 use super::subject::Subject;
 use super::units::{Unit, Units};
@@ -30,7 +30,8 @@ fn as_many_random_patches_of_each_configuration_as_asked_for() {
     assert!(counts.values().all(|&count| count == 5000), "{counts:?}");
 }
 
-/// Seeds tell apart, and so do the units of one seed; a longer run begins with a shorter one's.
+/// Patches differ between seeds and between units of one seed; a longer run begins with the patches
+/// of a shorter one.
 #[test]
 fn random_patches_depend_on_the_seed_alone() {
     let factors = |cases: &[Case]| {
@@ -56,7 +57,7 @@ fn factors_cover_every_binary32() {
     assert_eq!(Units::of(Subject::Locations).count(), 252, "as many as golden/place.csv has rows");
 }
 
-/// Every case of level 2 is in one of the two subjects, and none is in both.
+/// Every case of level 2 is in exactly one of the two subjects.
 #[test]
 fn levels_are_compared_once() {
     let texts = |subject| -> BTreeSet<String> {
@@ -73,7 +74,7 @@ fn levels_are_compared_once() {
     assert_eq!(&one | &two, whole.collect(), "level 2");
 }
 
-/// However many patches are asked for, a unit is made when it is its turn, and not before.
+/// A unit is made only when its turn comes, whatever the number of patches.
 #[test]
 fn as_many_random_patches_as_there_are_numbers() {
     let units = Units::of(Subject::Random { patches: u64::MAX, seed: 1 });
@@ -85,7 +86,7 @@ fn as_many_random_patches_as_there_are_numbers() {
     assert!(matches!(mine[..], [Some(_), Some(_), None]), "{mine:?}");
 }
 
-/// The units of factors follow each other and reach all bits, one partitioning after another.
+/// The units of factors are contiguous and cover all bit patterns, one partitioning after another.
 #[test]
 fn factors_are_all_there() {
     let factors = Units::of(Subject::Factors);

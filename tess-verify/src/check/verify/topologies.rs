@@ -1,10 +1,10 @@
-//! Every topology there is, by integer factors (spec section 12.8).
+//! Every topology, by integer factors (spec section 12.8).
 
 use crate::case::Case;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
-/// Every pair of an outer and an inside factor: a transition depends on the two point counts alone.
-/// Four outer factors at a time, along either axis of a quad; three on a triangle.
+/// Every pair of an outer and an inside factor, because a transition depends only on the two point
+/// counts. On quads along both axes, and on triangles.
 pub(super) fn transitions() -> impl Iterator<Item = Case> {
     let pairs = (1..=64u8).flat_map(|inside| (1..=64u8).map(move |outer| (outer, inside)));
     SplitOrder::ALL.into_iter().flat_map(move |split| {
@@ -21,7 +21,8 @@ pub(super) fn transitions() -> impl Iterator<Item = Case> {
     })
 }
 
-/// Triangles, quads of every two inside factors and isolines of every two factors.
+/// Triangles by inside factor, quads by every pair of inside factors, and isolines by every pair of
+/// factors.
 pub(super) fn interiors() -> impl Iterator<Item = Case> {
     let pairs = (1..=64u8).flat_map(|a| (1..=64u8).map(move |b| (a, b)));
     pairs.flat_map(|(a, b)| {
@@ -36,7 +37,7 @@ pub(super) fn interiors() -> impl Iterator<Item = Case> {
     })
 }
 
-/// A patch with these integer factors; `None` for a wrong number of them.
+/// A patch with these integer factors; `None` if their number is not the domain's.
 fn integer(domain: Domain, split: SplitOrder, factors: &[u8]) -> Option<Case> {
     let output = OutputPrimitive::TriangleCw;
     let config = Config { partitioning: Partitioning::Integer, output, split };
@@ -48,7 +49,7 @@ fn integer(domain: Domain, split: SplitOrder, factors: &[u8]) -> Option<Case> {
 mod tests {
     use super::*;
 
-    /// The pairs of outer factors 7 and 64 with inside factor 5: behind 64 comes 1.
+    /// The patches of outer factors 7 and 64 with inside factor 5; the factor after 64 is 1.
     #[test]
     fn pairs_come_in_both_axes_and_on_triangles() {
         let all: Vec<Case> = transitions().collect();

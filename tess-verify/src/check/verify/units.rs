@@ -1,4 +1,4 @@
-//! The subjects of a comparison, cut into units.
+//! Cuts the subjects of a comparison into units.
 
 use super::subject::Subject;
 use super::topologies::{interiors, transitions};
@@ -8,7 +8,7 @@ use crate::generate::{GenLevel, Selection, configurations, random_patch};
 use std::collections::HashSet;
 use tess_core::{Config, Domain, Parity, Partitioning, SplitOrder};
 
-/// Random patches of one configuration, drawn from the unit's seed.
+/// Random patches of one configuration, drawn from a seed of their own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RandomUnit {
     domain: Domain,
@@ -18,7 +18,7 @@ pub(super) struct RandomUnit {
 }
 
 impl RandomUnit {
-    /// The patches, always the same.
+    /// The patches, the same each time.
     pub(super) fn cases(&self) -> Vec<Case> {
         let &Self { domain, config, seed, patches } = self;
         let mut random = SplitMix64::new(seed);
@@ -34,36 +34,37 @@ pub(super) enum Unit {
     Patches(Vec<Case>),
     /// Random patches of one configuration.
     Random(RandomUnit),
-    /// Factor processing of the binary32 numbers with 2^20 consecutive bit patterns.
+    /// Factor processing of 2^20 binary32 numbers with consecutive bit patterns.
     Values {
         /// The partitioning.
         partitioning: Partitioning,
-        /// The first bits.
+        /// The first bit pattern.
         first: u32,
     },
     /// Contexts and locations of all fixed-point factors with one integer part.
     Bucket {
-        /// Split order.
+        /// The split order.
         split: SplitOrder,
-        /// Parity.
+        /// The parity.
         parity: Parity,
-        /// Integer part.
+        /// The integer part.
         bucket: u32,
     },
 }
 
-/// How many binary32 numbers a unit has.
+/// The number of binary32 numbers per unit.
 pub(super) const VALUES: u32 = 1 << 20;
-/// How many units the binary32 numbers make in one partitioning.
+/// The number of units that cover the binary32 numbers, per partitioning.
 const VALUE_UNITS: u64 = (1 << 32) / VALUES as u64;
-/// How many patches a unit has at most.
+/// The largest number of patches in a unit.
 const PATCHES: usize = 1024;
-/// How many random patches a unit has at most: large batches, as each is one configuration's.
+/// The largest number of random patches in a unit. It is larger, because such a unit is one batch
+/// of one configuration.
 const RANDOM_PATCHES: u64 = 4096;
 
-/// The units of a subject, always the same in the same order.
+/// The units of a subject, the same and in the same order each time.
 ///
-/// A unit is made when it is asked for: there may be more than fit into memory.
+/// A unit is made on request, because not all of them may fit into memory.
 #[derive(Clone, Debug)]
 pub(super) struct Units(UnitSource);
 
@@ -93,7 +94,7 @@ impl Units {
         })
     }
 
-    /// How many there are.
+    /// The number of units.
     pub(super) fn count(&self) -> u64 {
         match &self.0 {
             UnitSource::Patches(cases) => cases.len().div_ceil(PATCHES) as u64,
@@ -105,7 +106,7 @@ impl Units {
         }
     }
 
-    /// Unit `number`; `None` from [`Units::count`] on.
+    /// Unit `number`; `None` if it is not below [`Units::count`].
     pub(super) fn get(&self, number: u64) -> Option<Unit> {
         let index = usize::try_from(number).ok()?;
         match &self.0 {
@@ -135,14 +136,14 @@ impl Units {
     }
 }
 
-/// The seed of a unit of a configuration: each configuration has a seed drawn from the subject's,
-/// and each of its units a seed drawn from that.
+/// The seed of a unit: the configuration's seed is drawn from the subject's, and the unit's from
+/// the configuration's.
 fn seed_of_unit(seed: u64, configuration: usize, number: u64) -> u64 {
     let of_configuration = SplitMix64::after(seed, configuration as u64).next_u64();
     SplitMix64::after(of_configuration, number).next_u64()
 }
 
-/// The cases of level 2, most of which level 1 does not have, without those that it has.
+/// The cases of level 2 that level 1 does not have.
 fn beyond_level_one() -> impl Iterator<Item = Case> {
     let known: HashSet<Case> = Selection::level(GenLevel::One, 1).cases().collect();
     Selection::level(GenLevel::Two, 1).cases().filter(move |case| !known.contains(case))

@@ -10,22 +10,22 @@
 use crate::show::picture::Colour;
 use tess_core::PrimitiveOrigin;
 
-/// Edges and numbers.
+/// The colour of edges and numbers.
 pub(super) const INK: Colour = Colour(0x26, 0x32, 0x38);
-/// The ground, and behind numbers.
+/// The colour of the ground, and of the plates behind numbers.
 pub(super) const PAPER: Colour = Colour(0xff, 0xff, 0xff);
-/// The outline of the domain.
+/// The colour of the domain's outline.
 pub(super) const GRID: Colour = Colour(0xb0, 0xbe, 0xc5);
-/// Triangles whose colour means nothing.
+/// The colour of triangles when colours have no meaning.
 pub(super) const PLAIN: Colour = Colour(0xdc, 0xe9, 0xf5);
-/// Points.
+/// The colour of points.
 pub(super) const POINT: Colour = Colour(0x15, 0x5f, 0xa0);
-/// Elements that differ.
+/// The colour of elements that differ.
 pub(super) const DIFFERENT: Colour = Colour(0xd5, 0x1f, 0x1f);
-/// The inside of primitives that differ.
+/// The colour of the inside of primitives that differ.
 pub(super) const DIFFERENT_FILL: Colour = Colour(0xf8, 0xc8, 0xc8);
 
-/// From the first primitive to the last: blue over green to yellow, light enough for ink.
+/// The colours from the first primitive to the last: blue, green and yellow, light enough for ink.
 const SCALE: [Colour; 5] = [
     Colour(0x7d, 0x9b, 0xe0),
     Colour(0x6f, 0xc1, 0xd8),
@@ -34,7 +34,7 @@ const SCALE: [Colour; 5] = [
     Colour(0xfb, 0xd7, 0x5c),
 ];
 
-/// The colour of element `t` of `count`.
+/// The colour of element `t` of `count` on the scale.
 pub(super) fn along_scale(t: usize, count: usize) -> Colour {
     let position = t as f64 / count.saturating_sub(1).max(1) as f64 * (SCALE.len() - 1) as f64;
     let low = (position as usize).min(SCALE.len() - 2);
@@ -48,8 +48,8 @@ fn mix(from: Colour, to: Colour, part: f64) -> Colour {
     Colour(channel(from.0, to.0), channel(from.1, to.1), channel(from.2, to.2))
 }
 
-/// Transitions stand out; rings alternate; the centre has its own. Minimum patches and other
-/// outputs than triangles have no ring.
+/// The colour of a triangle by its origin: transitions stand out, rings alternate, and the centre
+/// has its own. Minimum patches, and outputs other than triangles, have no rings.
 pub(super) const fn of_ring(origin: Option<PrimitiveOrigin>) -> Colour {
     match origin {
         Some(PrimitiveOrigin::Transition { edge, .. }) if edge % 2 == 0 => Colour(0xf6, 0xc2, 0x8b),

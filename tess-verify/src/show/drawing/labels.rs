@@ -1,16 +1,16 @@
-//! Where numbers go, and how large they can be.
+//! The places and sizes of numbers.
 #![expect(clippy::float_arithmetic, reason = "positions of a drawing, in pixels")]
 
 use crate::show::picture::{Position, number_width};
 
-/// Digits below this height cannot be read.
+/// Digits of less than this height are unreadable.
 const SMALLEST: f64 = 4.5;
 /// Digits need not be higher than this.
 const LARGEST: f64 = 13.0;
 
-/// A disc around each point that leaves room for its nearest neighbour: the radius.
+/// The radius of a disc around each point that leaves room for its nearest neighbour.
 ///
-/// Of points that coincide on the picture the first has the room, the others none.
+/// If points coincide in the picture, the first one gets the room and the others get none.
 pub(super) fn disc_radii(points: &[Position]) -> Vec<f64> {
     const LARGEST_RADIUS: f64 = 15.0;
     const COINCIDE: f64 = 2.0;
@@ -25,16 +25,17 @@ pub(super) fn disc_radii(points: &[Position]) -> Vec<f64> {
     (0..points.len()).map(radius).collect()
 }
 
-/// The radius of a number's disc and the height of its digits, if the disc can hold it.
+/// The radius of a number's disc and the height of its digits; `None` if the disc cannot hold it.
 pub(super) fn in_disc(number: u32, radius: f64) -> Option<(f64, f64)> {
-    // Digits fit if their diagonal is a diameter; two digits at least, so that discs are alike.
+    // Digits fit if their diagonal is at most the diameter. Room is made for two digits at least,
+    // so that discs look the same.
     let diagonal_per_height = libm::hypot(number_width(number.max(10), 1.0), 1.0);
     let height = (1.7 * radius / diagonal_per_height).min(LARGEST);
     let needed = (height * diagonal_per_height / 1.7).max(6.0).min(radius);
     (height >= SMALLEST).then_some((needed, height))
 }
 
-/// Centre and height of a primitive's number: in the middle of its incircle or segment.
+/// The centre and height of a primitive's number: in the middle of its incircle or segment.
 pub(super) fn in_primitive(number: u32, corners: &[Position]) -> Option<(Position, f64)> {
     let (centre, room) = match corners {
         [a, b] => (middle(*a, *b), distance(*a, *b) * 0.4),
@@ -61,7 +62,7 @@ fn distance(a: Position, b: Position) -> f64 {
     libm::hypot(a[0] - b[0], a[1] - b[1])
 }
 
-/// Centre and radius; `None` for a triangle without an inside.
+/// The centre and radius; `None` for a triangle without an inside.
 fn incircle(a: Position, b: Position, c: Position) -> Option<(Position, f64)> {
     let sides = [distance(b, c), distance(c, a), distance(a, b)];
     let perimeter: f64 = sides.iter().sum();
@@ -82,8 +83,8 @@ mod tests {
         (found - expected).abs() < 1e-9
     }
 
-    /// Points that coincide have one disc; others have the room to their neighbours, 15 pixels at
-    /// most.
+    /// Points that coincide share one disc. Others have the room to their neighbours, up to 15
+    /// pixels.
     #[test]
     fn discs_have_room() {
         let points = [[0.0, 0.0], [1.0, 0.0], [40.0, 0.0], [50.0, 0.0], [52.0, 0.0]];
@@ -94,8 +95,8 @@ mod tests {
         assert!(all, "{radii:?}");
     }
 
-    /// The incircle of a triangle of 30, 40 and 50 pixels has a radius of 10 and its centre 10 from
-    /// both legs.
+    /// The incircle of a triangle of 30, 40 and 50 pixels has a radius of 10, and its centre is 10
+    /// away from both legs.
     #[test]
     fn numbers_stand_in_the_middle() {
         let (centre, radius) = incircle([0.0, 0.0], [40.0, 0.0], [0.0, 30.0]).expect("an inside");

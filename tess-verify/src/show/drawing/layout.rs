@@ -1,4 +1,4 @@
-//! From domain points to pixels, and how large things are drawn.
+//! Conversion of domain points to pixels, and the sizes of drawn elements.
 #![expect(
     clippy::float_arithmetic,
     clippy::cast_precision_loss,
@@ -8,10 +8,10 @@
 use crate::show::picture::Position;
 use tess_core::{Domain, DomainPoint};
 
-/// Where a domain lies in a square picture.
+/// The placement of a domain in a square picture.
 ///
-/// Quads and isolines fill a square, u to the right, v down. Triangles are equilateral with w = 1
-/// at the top, u = 1 at the right, v = 1 at the left: clockwise stays clockwise.
+/// Quads and isolines fill a square, with u to the right and v down. Triangles are equilateral,
+/// with w = 1 at the top, u = 1 at the right and v = 1 at the left, so clockwise stays clockwise.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layout {
     origin: Position,
@@ -43,7 +43,7 @@ impl Layout {
         [0, 1].map(|axis| self.origin[axis] + u * self.along_u[axis] + v * self.along_v[axis])
     }
 
-    /// Any bits, so that a faulty point is drawn where it lies.
+    /// Points of any bits, so that a faulty point is drawn where it is.
     pub(super) fn place_all(&self, points: &[DomainPoint]) -> Vec<Position> {
         let [u, v] = [|p: &DomainPoint| p.u.to_bits(), |p: &DomainPoint| p.v.to_bits()];
         let unit = |bits: u32| f64::from(bits) / 65536.0;
@@ -60,17 +60,17 @@ impl Layout {
     }
 }
 
-/// Finer meshes have finer edges.
+/// The width of edges: finer meshes have finer edges.
 pub(super) fn edge_width(points: usize) -> f64 {
     (18.0 / (points as f64).sqrt()).clamp(0.4, 1.5)
 }
 
-/// Finer meshes have smaller points.
+/// The radius of points: finer meshes have smaller points.
 pub(super) fn dot_radius(points: usize) -> f64 {
     (30.0 / (points as f64).sqrt()).clamp(0.8, 4.0)
 }
 
-/// A mark stands out around a point.
+/// The radius of a mark, which is larger than the point that it surrounds.
 pub(super) fn mark_radius(points: usize) -> f64 {
     dot_radius(points) + 2.0
 }
@@ -79,7 +79,8 @@ pub(super) fn mark_radius(points: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Between the smallest and the largest, sizes fall with the root of the number of points.
+    /// Between the smallest and the largest, sizes fall with the square root of the number of
+    /// points.
     #[test]
     fn finer_meshes_are_drawn_finer() {
         let all = [4, 400, 10_000].map(|points| [edge_width(points), dot_radius(points)]);

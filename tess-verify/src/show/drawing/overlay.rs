@@ -1,4 +1,4 @@
-//! One result over another, what differs in red.
+//! One result drawn over another, with differences in red.
 
 use super::colours::{DIFFERENT, DIFFERENT_FILL, GRID};
 use super::layout::{self, Layout};
@@ -6,22 +6,22 @@ use super::{DrawOptions, Drawing, corners};
 use crate::show::picture::{Colour, Position, Shape};
 use crate::vectors::Listing;
 
-/// How many elements differ between two results of one case.
+/// The number of elements that differ between two results of one case.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Differences {
     /// Points whose bits differ, and points that one result lacks.
     pub points: usize,
     /// Primitives whose indices differ, and primitives that one result lacks.
     pub primitives: usize,
-    /// Differences that a picture cannot show as they are, a line each: primitives that are
-    /// missing, have no extent or name points that are not there.
+    /// Differences that a picture cannot show as they are, one line each: primitives that are
+    /// missing, have no extent, or name points that do not exist.
     pub in_words: Vec<String>,
 }
 
-/// Draws the expected result in grey and what is observed differently in red.
+/// Draws the expected result in grey, and the differences of the observed one in red.
 ///
-/// A primitive that is missing or cannot be drawn is marked by a red outline of the expected one,
-/// one without extent by discs at its corners.
+/// A primitive that is missing or cannot be drawn is marked by a red outline of the expected one. A
+/// primitive without extent is marked by discs at its corners.
 #[must_use]
 pub fn overlay(
     expected: &Listing,
@@ -57,7 +57,7 @@ pub fn differing(expected: &Listing, observed: &Listing) -> [Vec<usize>; 2] {
     [points, primitives]
 }
 
-/// Calls `each` with the positions at which two lists differ, and what they have there.
+/// Calls `each` with each position at which two lists differ, and with their elements there.
 fn for_each_difference<T: PartialEq>(
     expected: impl IntoIterator<Item = T>,
     observed: impl IntoIterator<Item = T>,
@@ -87,7 +87,7 @@ fn disc(centre: Position, points: usize, fill: Colour) -> Shape {
     Shape::Disc { centre, radius: layout::mark_radius(points), fill, rim: DIFFERENT }
 }
 
-/// The shapes that mark primitive `t`, and what is wrong in words if they do not show it.
+/// The shapes that mark primitive `t`, and a description of the fault if they do not show it.
 fn mark_primitive(
     t: usize,
     expected: Option<&[u32]>,
@@ -123,8 +123,8 @@ fn indices(primitive: &[u32]) -> String {
     format!("`{}`", words.join(" "))
 }
 
-/// A primitive in red: an outline, filled if it is a triangle and there is a colour; a disc if it
-/// is a point.
+/// A primitive in red: an outline, filled if it is a triangle and a colour is given; or a disc if
+/// it is a point.
 fn red(mut corners: Vec<Position>, fill: Option<Colour>, points: usize) -> Vec<Shape> {
     let mut shapes = Vec::new();
     match (corners.len(), fill) {
@@ -143,7 +143,8 @@ fn red(mut corners: Vec<Position>, fill: Option<Colour>, points: usize) -> Vec<S
 mod tests {
     use super::*;
 
-    /// A primitive that is a point is marked by a disc, which a line of one point would not show.
+    /// A primitive that is a point is marked by a disc, because a line of one point would be
+    /// invisible.
     #[test]
     fn points_are_marked_by_discs() {
         let line = "case tri integer point ruler 40000000 40000000 40000000 40000000";

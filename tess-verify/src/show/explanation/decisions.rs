@@ -1,4 +1,4 @@
-//! The decisions of factor processing, and why (spec section 3).
+//! The decisions of factor processing, with their reasons (spec section 3).
 
 use super::factors::named;
 use crate::names::Named;
@@ -6,7 +6,7 @@ use tess_core::{
     Domain, FixedFactor, Parity, Partitioning, Patch, PatchFactors, ProcessedFactor, ProcessedPatch,
 };
 
-/// One sentence for each decision, in the order of the specification's steps.
+/// One sentence per decision, in the order of the specification's steps.
 pub(super) fn decisions(patch: &Patch, raw: &PatchFactors) -> Vec<String> {
     let mut sentences = vec![cull(raw)];
     if let Some(processed) = patch.processed().factors() {
@@ -76,7 +76,8 @@ fn rounding(processed: &PatchFactors<ProcessedFactor>) -> Vec<String> {
     changed.map(sentence).collect()
 }
 
-/// An inside factor of one that is even for lack of a fractional partitioning.
+/// Sentences about inside factors that are 1 and even, which happens in partitionings with integer
+/// factors.
 fn inside_one(processed: &PatchFactors<ProcessedFactor>) -> Vec<String> {
     let is_even_one = |factor: &ProcessedFactor| {
         factor.fixed == FixedFactor::ONE && factor.context.parity == Parity::Even
@@ -107,7 +108,7 @@ mod tests {
     use super::*;
     use crate::case::Case;
 
-    /// The threshold itself is no picture frame; the next float is.
+    /// The threshold itself does not make a picture frame; the next float does.
     #[test]
     fn a_picture_frame_begins_above_its_threshold() {
         for (inside, expected) in [("3f800040", "no picture frame"), ("3f800041", "picture frame")]

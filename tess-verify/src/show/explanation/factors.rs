@@ -6,7 +6,7 @@ use crate::names::Named;
 use std::fmt;
 use tess_core::{FactorContext, Patch, PatchFactors, ProcessedFactor};
 
-/// A binary32 number; NaN and infinities have no `value` in JSON.
+/// A binary32 number. NaN and infinities have no `value` in JSON.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Float {
@@ -20,7 +20,7 @@ impl Float {
     }
 }
 
-/// One factor on its way. A culled patch has raw factors alone.
+/// One factor through all steps. If the patch is culled, there are only raw factors.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(crate) struct FactorReport {
@@ -68,7 +68,8 @@ pub(super) struct Processed {
     pub(super) context: Context,
 }
 
-/// The six numbers of spec section 4, and the half edge that a transition stitch walks.
+/// The six numbers of spec section 4, and the positions of the half edge that a transition stitch
+/// visits.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Context {
@@ -107,7 +108,7 @@ impl From<&ProcessedFactor> for Processed {
     }
 }
 
-/// The specification's name of a factor, which the model names after a field.
+/// The specification's name of a factor, from the name of the model's field.
 pub(super) fn name(field: &'static str) -> &'static str {
     match field {
         "u0" => "U=0",
@@ -121,7 +122,7 @@ pub(super) fn name(field: &'static str) -> &'static str {
     }
 }
 
-/// Every factor of a patch with its name: outer, then inside.
+/// Every factor of a patch with its name: first the outer ones, then the inside ones.
 pub(super) fn named<T: Copy>(factors: &PatchFactors<T>) -> Vec<(&'static str, T)> {
     let names = factors.domain().factor_names().iter().copied().map(name);
     names.zip(factors.iter()).collect()

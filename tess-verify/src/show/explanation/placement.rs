@@ -1,34 +1,34 @@
-//! One placement in one dimension with its intermediate values (spec section 5).
+//! One placement in one dimension, with its intermediate values (spec section 5).
 
 use std::fmt;
 use tess_core::FactorContext;
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::place::{Blend, placement};
 
-/// `place(context of factor, position)` and how it came about.
+/// `place(context of factor, position)`, and how it is computed.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Placement {
     factor: &'static str,
     position: u32,
     location: u32,
-    /// Absent for the exact middle of an even edge.
+    /// `None` for the exact middle of an even edge.
     half_edge: Option<HalfEdge>,
 }
 
-/// The places that are blended on the half edge.
+/// The two places that are blended on the half edge.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 struct HalfEdge {
-    /// Whether the location is ONE minus that of the mirrored position.
+    /// Whether the location is ONE minus the location of the mirrored position.
     flipped: bool,
     /// The position after mirroring.
     position: u32,
-    /// Position in the coarser subdivision, times `inv_floor`.
+    /// The position in the coarser subdivision, times `inv_floor`.
     coarse: u32,
-    /// Position in the finer subdivision, times `inv_ceil`.
+    /// The position in the finer subdivision, times `inv_ceil`.
     fine: u32,
-    /// Weight of `fine`, of 65536.
+    /// The weight of `fine`, in 1/65536.
     fraction: u32,
 }
 
@@ -50,7 +50,7 @@ impl Placement {
         }
     }
 
-    /// The location that came out.
+    /// The resulting location.
     pub(super) const fn location(&self) -> u32 {
         self.location
     }

@@ -1,4 +1,4 @@
-//! Where one domain point comes from (spec section 6).
+//! The origin of one domain point (spec section 6).
 
 use super::Fixed;
 use super::factors::{name, named};
@@ -8,7 +8,7 @@ use tess_core::fixed_point::{HALF, TWO_THIRDS};
 use tess_core::{Patch, PatchFactors, PointOrigin};
 use tess_core::{ProcessedFactor, QuadFactors, TriangleFactors};
 
-/// One point: its place in the walk, and the placements that its coordinates are made of.
+/// One point: its place in the walk, and the placements that make up its coordinates.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(crate) struct PointReport {
@@ -17,7 +17,7 @@ pub(crate) struct PointReport {
     u: Fixed,
     v: Fixed,
     placements: Vec<Placement>,
-    /// How the coordinates follow from the placements.
+    /// The rule that derives the coordinates from the placements.
     rule: String,
 }
 
@@ -132,7 +132,7 @@ fn corner() -> Origin {
     (vec![], "a corner of the minimum patch".to_owned())
 }
 
-/// A location in words.
+/// A description of a location.
 fn describe(location: PointOrigin, factors: Option<&PatchFactors<ProcessedFactor>>) -> String {
     let place = place(location, factors);
     match location {
@@ -144,7 +144,7 @@ fn describe(location: PointOrigin, factors: Option<&PatchFactors<ProcessedFactor
     }
 }
 
-/// The corner, line, edge or centre of a location in words.
+/// A description of a location's corner, line, edge or centre.
 pub(super) fn place(
     location: PointOrigin,
     factors: Option<&PatchFactors<ProcessedFactor>>,
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
     use tess_core::{Config, OutputPrimitive, Partitioning};
 
-    /// On quads and isolines, where coordinates are places, the places shown are the coordinates.
+    /// On quads and isolines, where coordinates are places, the places shown equal the coordinates.
     #[test]
     fn places_are_the_coordinates() {
         for partitioning in Partitioning::ALL {

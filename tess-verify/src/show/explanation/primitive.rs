@@ -1,4 +1,4 @@
-//! Where one primitive comes from (spec sections 7 and 8).
+//! The origin of one primitive (spec sections 7 and 8).
 
 use super::{PointReport, structure};
 use std::fmt;
@@ -10,7 +10,7 @@ use tess_core::{Patch, PrimitiveOrigin};
 pub(crate) struct PrimitiveReport {
     primitive: u32,
     location: String,
-    /// Number of the primitive within its line, stitch or centre.
+    /// The number of the primitive within its line, stitch or centre.
     step: u32,
     vertices: Vec<PointReport>,
 }

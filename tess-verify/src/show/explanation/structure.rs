@@ -19,11 +19,11 @@ pub(super) struct Stitch {
     pub(super) place: String,
     pub(super) first: u32,
     pub(super) count: u32,
-    /// The indices of the row outside; empty where no two rings are stitched.
+    /// The indices of the outer row; empty if no two rings are stitched here.
     pub(super) outer_row: Vec<u32>,
-    /// The indices of the row inside.
+    /// The indices of the inner row.
     pub(super) inner_row: Vec<u32>,
-    /// One letter a triangle: `O` advances on the outer row, `I` on the inner one.
+    /// One letter per triangle: `O` advances on the outer row, `I` on the inner one.
     pub(super) steps: String,
 }
 
@@ -68,7 +68,8 @@ fn letters(patch: &Patch, stitch: &tess_core::Stitch) -> String {
     letters
 }
 
-/// Equal places that follow each other: the place, the number of the first element there, how many.
+/// Runs of equal adjacent places: each with the place, the number of its first element, and its
+/// length.
 fn runs(places: impl Iterator<Item = String>) -> Vec<(String, u32, u32)> {
     let mut runs: Vec<(String, u32, u32)> = Vec::new();
     for (position, place) in (0..).zip(places) {
@@ -80,7 +81,7 @@ fn runs(places: impl Iterator<Item = String>) -> Vec<(String, u32, u32)> {
     runs
 }
 
-/// The stitch between two rings that a primitive belongs to.
+/// The stitch between two rings to which a primitive belongs.
 const fn kind(origin: PrimitiveOrigin) -> Option<StitchKind> {
     match origin {
         PrimitiveOrigin::Transition { edge, .. } => Some(StitchKind::Transition { edge }),
@@ -89,7 +90,7 @@ const fn kind(origin: PrimitiveOrigin) -> Option<StitchKind> {
     }
 }
 
-/// A primitive's place in words, without its number there.
+/// A description of a primitive's place, without its number there.
 pub(super) fn describe(origin: PrimitiveOrigin) -> String {
     match origin {
         PrimitiveOrigin::Sequence { .. } => "in order".to_owned(),

@@ -1,4 +1,4 @@
-//! An explanation as text for people.
+//! An explanation as plain text.
 
 use super::PatchReport;
 use super::factors::FactorReport;
@@ -74,7 +74,7 @@ impl PatchReport {
     }
 }
 
-/// A number with the word for what it counts.
+/// A number followed by the right form of its noun.
 fn counted(number: u32, [one, many]: [&str; 2]) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
@@ -110,13 +110,13 @@ fn write_context(f: &mut fmt::Formatter<'_>, factor: &FactorReport) -> fmt::Resu
     )
 }
 
-/// A float that fits a column: very long ones in scientific notation.
+/// A float that fits the column; very long ones are in scientific notation.
 fn shorten(value: f32) -> String {
     let plain = value.to_string();
     if plain.len() > 10 { format!("{value:.3e}") } else { plain }
 }
 
-/// A row with its runs joined: `20..24 16`.
+/// A row with its runs abbreviated: `20..24 16`.
 fn row(indices: &[u32]) -> String {
     let mut words: Vec<String> = Vec::new();
     let mut rest = indices;
@@ -129,7 +129,7 @@ fn row(indices: &[u32]) -> String {
     words.join(" ")
 }
 
-/// How many indices from the first on go up by one each, or down by one each.
+/// The length of the longest beginning in which the indices go up by one each, or down by one each.
 fn run_length(indices: &[u32]) -> usize {
     let length = |step: i64| {
         let follows = |pair: &&[u32]| i64::from(pair[1]) - i64::from(pair[0]) == step;
@@ -142,7 +142,7 @@ fn run_length(indices: &[u32]) -> usize {
 mod tests {
     use super::*;
 
-    /// Ten characters fit the column.
+    /// The column has room for ten characters.
     #[test]
     fn long_floats_are_shortened() {
         let all = [0.123_456_78, 0.012_345_678, 1.5, 16_777_216.0, 1.0e-40].map(shorten);

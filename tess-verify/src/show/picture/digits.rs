@@ -1,10 +1,10 @@
-//! Numbers as strokes, so that every form of a picture looks the same without a font.
+//! Numbers as strokes, so that pictures look the same in every format, without a font.
 #![expect(clippy::float_arithmetic, reason = "positions of a drawing, in pixels")]
 
 use super::Position;
 
-/// Digits on a grid 4 wide and 6 high, y down: x and y of each corner, and a comma between two
-/// lines.
+/// Digits on a grid 4 wide and 6 high, with y pointing down: x and y of each corner. A comma
+/// separates two lines.
 const STROKES: [&str; 10] = [
     "10 30 41 45 36 16 05 01 10",
     "11 20 26, 16 36",
@@ -18,11 +18,11 @@ const STROKES: [&str; 10] = [
     "05 16 36 45 41 30 10 01 02 13 33 42",
 ];
 
-/// Grid units from one digit to the next.
+/// The grid units from one digit to the next.
 const ADVANCE: f64 = 6.0;
-/// Grid units across a digit.
+/// The width of a digit in grid units.
 const WIDTH: f64 = 4.0;
-/// Grid units from top to bottom.
+/// The height of a digit in grid units.
 const HEIGHT: f64 = 6.0;
 
 /// The lines of a number, centred at a position.
@@ -50,7 +50,7 @@ pub(in crate::show) fn width(number: u32, height: f64) -> f64 {
     (gaps * ADVANCE + WIDTH) * height / HEIGHT
 }
 
-/// A pen that suits digits of this height.
+/// The stroke width for digits of this height.
 pub(super) fn stroke_width(height: f64) -> f64 {
     height / 7.5
 }

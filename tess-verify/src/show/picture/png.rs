@@ -14,7 +14,7 @@ pub(in crate::show) fn render(picture: &Picture) -> io::Result<Vec<u8>> {
     pixels.encode_png().map_err(|error| io::Error::other(format!("cannot write PNG: {error}")))
 }
 
-/// Draws a shape; one without any extent leaves no mark.
+/// Draws a shape; a shape without any extent leaves no mark.
 fn draw(pixels: &mut Pixmap, shape: &Shape) {
     match shape {
         Shape::Polygon { corners, fill } => {
@@ -76,7 +76,7 @@ mod tests {
     const RED: Colour = Colour(200, 0, 0);
     const BLUE: Colour = Colour(0, 0, 200);
 
-    /// The pixel at a place of a decoded picture.
+    /// The pixel at a position of a decoded picture.
     fn pixel(pixels: &Pixmap, [x, y]: [u32; 2]) -> Colour {
         let pixel = pixels.pixel(x, y).expect("within the picture").demultiply();
         Colour(pixel.red(), pixel.green(), pixel.blue())
@@ -102,7 +102,7 @@ mod tests {
         for (at, expected) in [
             ([5, 5], RED),
             ([15, 15], white),
-            // The line is as wide as it should be, its ends and its bend are round.
+            // The line has its full width, and its ends and its bend are round.
             ([28, 20], BLUE),
             ([32, 20], BLUE),
             ([27, 20], white),

@@ -1,15 +1,15 @@
-//! Vector files that were damaged at random: an error that says where, or a file that reads back
-//! equal; never a panic, nor more memory than a record needs.
+//! Vector files with random damage cause an error that names its place, or read back equal. They
+//! never cause a panic, nor use more memory than a record needs.
 
 use crate::vectors::{Listing, Record, Values, VectorError, VectorFile};
 use proptest::prelude::*;
 use std::fs::read_to_string;
 
-/// The most memory that a file of a few kilobytes may take: a record of the largest patch is 130
+/// The most memory that a file of a few kilobytes may use. A record of the largest patch needs 130
 /// KB.
 const MOST_BYTES: u64 = 2 << 20;
 
-/// The first lines of a golden file, with as many records as its header then says.
+/// The first lines of a golden file, with a header that announces this number of records.
 fn excerpt(name: &str, records: usize) -> String {
     let path = format!("{}/../golden/{name}", env!("CARGO_MANIFEST_DIR"));
     let text = read_to_string(path).expect("readable");
@@ -37,7 +37,7 @@ fn files() -> impl Strategy<Value = String> {
     prop::sample::select(names.map(|name| excerpt(name, 4)).to_vec())
 }
 
-/// The damage to a file at a place in it, given in 1/65536 of its length.
+/// Damage to a file at a place, in 1/65536 of the file's length.
 #[derive(Clone, Debug)]
 enum Damage {
     Byte(u16, u8),
@@ -125,7 +125,7 @@ fn in_lines(bytes: &mut Vec<u8>, change: impl FnOnce(&mut Vec<Vec<u8>>)) {
     *bytes = lines.join(&b'\n');
 }
 
-/// A file's records as text, after its header and column names.
+/// A file's records as text, preceded by its header and column names.
 fn read(bytes: &[u8]) -> Result<String, VectorError> {
     let mut file = VectorFile::new("damaged", bytes)?;
     let mut text = file.header().head();

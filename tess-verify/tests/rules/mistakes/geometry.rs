@@ -1,5 +1,5 @@
-//! Coordinates that are exchanged, mirrored, moved or rounded, and triangles that turn the other
-//! way.
+//! Mistakes: coordinates that are exchanged, mirrored, moved or rounded, and triangles that turn
+//! the other way.
 
 use super::places::*;
 use super::*;
@@ -8,10 +8,10 @@ pub(super) fn all() -> Vec<Mistake> {
     [exchanged(), turned(), moved(), rounded()].into_iter().flatten().collect()
 }
 
-/// A change of places, in the domains that have it.
+/// A change of places, in the domains to which it applies.
 type Change = fn(Domain, [u32; 2]) -> Option<[u32; 2]>;
 
-/// The triangles turn with the change, or are turned back.
+/// The triangles turn as the change turns them, or are turned back.
 fn both_ways(name: &'static str, change: Change) -> Mistake {
     [false, true].into_iter().fold(Mistake::new(name), |mistake, is_turned| {
         let label = if is_turned { "turned back" } else { "as it is" };
@@ -96,7 +96,7 @@ fn turned() -> Vec<Mistake> {
     vec![all, clockwise, some, edge]
 }
 
-/// One point of a patch is moved.
+/// Moves one point of a patch.
 fn moves(
     mistake: Mistake,
     name: &'static str,
@@ -107,7 +107,7 @@ fn moves(
     mistake.spoils(name, move |cases, i, output| {
         if let Some(point) = which(&cases[i], output).filter(|_| is_moved(i)) {
             let [u, v] = [output.points[point].u.to_bits(), output.points[point].v.to_bits()];
-            // Along the edge, so that it stays on it.
+            // The point moves along the edge, so that it stays on it.
             let moved = match [u, v] {
                 [0, v] => [0, v.saturating_sub(by)],
                 [u, 0] => [u.saturating_sub(by), 0],
@@ -175,7 +175,7 @@ fn moved() -> Vec<Mistake> {
     vec![edge, inner, inner_always, line, far]
 }
 
-/// Coordinates with fewer bits.
+/// Coordinates that are rounded to fewer bits.
 fn rounded() -> Vec<Mistake> {
     let to = |name: &'static str, label: &'static str, round: fn(u32) -> u32| {
         Mistake::new(name).answers(label, move |_, output| {

@@ -1,4 +1,4 @@
-//! Levels that are ignored, exchanged, shared, or another patch's.
+//! Mistakes: levels that are ignored, exchanged, shared, or taken from another patch.
 
 use super::places::*;
 use super::*;
@@ -7,7 +7,7 @@ pub(super) fn all() -> Vec<Mistake> {
     [ignored(), exchanged(), shared(), of_other_patches()].into_iter().flatten().collect()
 }
 
-/// A device that mixes levels up, and discards the patches that it should.
+/// A device that mixes levels up, but still discards the patches that should be discarded.
 pub(super) fn mixes(
     mistake: Mistake,
     name: impl Into<String>,
@@ -19,7 +19,7 @@ pub(super) fn mixes(
     })
 }
 
-/// A variant for each of some numbers.
+/// A variant for each of these values.
 pub(super) fn for_each<T: Copy + std::fmt::Debug + Sync + 'static>(
     mistake: Mistake,
     values: impl IntoIterator<Item = T>,
@@ -89,7 +89,7 @@ fn exchanged() -> Vec<Mistake> {
     ]
 }
 
-/// A level in the place of others: of the outer or inner ones, as some function of them.
+/// A level used in place of others: one of the outer or inner levels, or a function of them.
 fn shared() -> Vec<Mistake> {
     let largest = |levels: &[f32]| levels.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let least = |levels: &[f32]| levels.iter().copied().fold(f32::INFINITY, f32::min);
@@ -144,7 +144,7 @@ fn shared() -> Vec<Mistake> {
     vec![for_inner, for_outer, from_outer, from_inner]
 }
 
-/// Levels of the patches around a patch.
+/// Levels taken from the patches around a patch.
 fn of_other_patches() -> Vec<Mistake> {
     fn other(
         mistake: Mistake,

@@ -1,5 +1,5 @@
-//! Every kind of mistake, planted in the model's output, beside what each standard's rules make of
-//! it.
+//! Tests of every kind of mistake: each is planted in the model's output and judged by the rules of
+//! each standard.
 //!
 //! ```text
 //!  cases of `tess gen --rules` ──► a device with one mistake ──► Checker ──► rules that it breaks
@@ -9,17 +9,17 @@
 //!
 //! The model itself breaks some rules of Vulkan on some patches. A mistake counts as broken where a
 //! rule judges a patch wrong more often than it does with the model. Every variant of a mistake is
-//! planted under every domain and spacing that it can show in, and each of these must be broken, or
-//! the row says which sentence of the standard allows it.
+//! planted under every domain and spacing in which it can show. Each of these must be broken, or
+//! the row of the table quotes the sentence of the standard that allows it.
 //!
 //! - Vulkan has no pow2, so only Direct3D judges it.
-//! - Where a standard allows a mistake, 100 patches are judged.
-//! - Patches are judged until the first broken rule, so a row has the rules that see a mistake
+//! - Where a standard allows a mistake, only 100 patches are judged.
+//! - Patches are judged up to the first broken rule, so a row lists the rules that detect a mistake
 //!   first.
-//! - A variant that changes no answer of a domain and spacing is not planted there. Each is planted
-//!   somewhere.
-//! - OpenGL has Vulkan's rules, which [`opengl_has_the_rules_of_vulkan`] shows, so both are one
-//!   column.
+//! - A variant that changes no answer of a domain and spacing is not planted there. Each variant is
+//!   planted somewhere.
+//! - OpenGL has Vulkan's rules, which [`opengl_has_the_rules_of_vulkan`] checks, so one column is
+//!   for both.
 
 mod geometry;
 mod levels;
@@ -34,29 +34,29 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 use tess_core::{Domain, OutputPrimitive, Partitioning};
 
-/// The case that a device answers instead of a case of a list.
+/// The case that a device answers in place of a case in a list.
 type Other = dyn Fn(&[Case], usize) -> Case + Sync;
-/// Changes a right answer to a case of a list.
+/// Changes a correct answer to a case in a list.
 type Spoil = dyn Fn(&[Case], usize, &mut Tessellation) + Sync;
 
-/// How a device answers a case of the list that it is asked.
+/// How a device answers a case of the list.
 enum Device {
     /// As if it were asked another case.
     Asks(Box<Other>),
-    /// With a right answer that it spoils.
+    /// With a correct answer that it changes.
     Spoils(Box<Spoil>),
 }
 
 /// A mistake with its variants.
 struct Mistake {
-    /// The words for it in the table.
+    /// Its text in the table.
     name: &'static str,
     variants: Vec<Variant>,
     /// The domains and spacings in which a standard allows it, with the reason.
     allowed: Vec<Allowed>,
 }
 
-/// One device that makes the mistake.
+/// A device that makes the mistake.
 struct Variant {
     name: String,
     device: Device,
@@ -67,12 +67,13 @@ struct Variant {
 /// A sentence by which a standard allows a mistake.
 struct Allowed {
     standard: Specification,
-    /// Words that the domain and spacing must all be among; without words, everywhere.
+    /// Words that must all occur in the name of the domain and spacing; an empty text means
+    /// everywhere.
     only: &'static str,
     because: &'static str,
 }
 
-/// The standards that have a column.
+/// The standards that have a column in the table.
 const STANDARDS: [Specification; 2] = [VULKAN, Specification::D3d11];
 
 impl Mistake {
@@ -90,7 +91,7 @@ impl Mistake {
         self.with(name, Device::Asks(Box::new(move |cases, i| other(&cases[i]))))
     }
 
-    /// A device that answers by the cases before or after it too.
+    /// A device whose answers also depend on the cases before or after.
     fn remembers(
         self,
         name: impl Into<String>,
@@ -99,7 +100,7 @@ impl Mistake {
         self.with(name, Device::Asks(Box::new(other)))
     }
 
-    /// A device that spoils right answers.
+    /// A device that changes correct answers.
     fn answers(
         self,
         name: impl Into<String>,
@@ -108,7 +109,7 @@ impl Mistake {
         self.with(name, Device::Spoils(Box::new(move |cases, i, out| spoil(&cases[i], out))))
     }
 
-    /// A device that spoils answers depending on their number.
+    /// A device that changes answers depending on their number.
     fn spoils(
         self,
         name: impl Into<String>,
@@ -117,7 +118,7 @@ impl Mistake {
         self.with(name, Device::Spoils(Box::new(spoil)))
     }
 
-    /// Plants the variants in the whole sequence of patches.
+    /// Plants the variants in the whole sequence of patches only.
     fn in_sequence(mut self) -> Self {
         self.variants.iter_mut().for_each(|variant| variant.is_of_sequence = true);
         self
@@ -162,12 +163,12 @@ fn all() -> Vec<Mistake> {
 
 /// A group of patches, with the model's answers and how often they break each rule.
 struct Group {
-    /// Domain and spacing, such as `quad fractional_odd`; `all` for the whole sequence.
+    /// Domain and spacing, such as `quad fractional_odd`, or `all` for the whole sequence.
     name: String,
     cases: Vec<Case>,
     answers: Vec<Tessellation>,
-    /// For each standard, what its rules say of the model's answers to the first patches, as far as
-    /// was asked.
+    /// For each standard, the judgement of the model's answers to the first patches, as many as
+    /// were needed so far.
     model: [Mutex<(Judge, Vec<Vec<u64>>)>; 2],
 }
 
@@ -178,7 +179,8 @@ impl Group {
         Self { name: name.to_owned(), cases, answers, model }
     }
 
-    /// The patches of `tess gen --rules` by domain and spacing, and all of them.
+    /// The patches of `tess gen --rules`, grouped by domain and spacing, and a group of all of
+    /// them.
     fn all() -> Vec<Self> {
         let split = Some(tess_core::SplitOrder::Ruler);
         let selection = Selection { split, ..Selection::level(GenLevel::Rules, 1) };
@@ -192,7 +194,7 @@ impl Group {
         groups.into_iter().map(|(name, cases)| Self::new(&name, cases)).collect()
     }
 
-    /// The answer of a device, if it is another one than the model's.
+    /// The answer of a device, if it differs from the model's.
     fn other_answer(&self, device: &Device, i: usize) -> Option<Tessellation> {
         let answer = match device {
             Device::Asks(other) => {
@@ -211,13 +213,13 @@ impl Group {
         (answer != self.answers[i]).then_some(answer)
     }
 
-    /// The first patch for which a device has another answer than the model.
+    /// The first patch for which a device's answer differs from the model's.
     fn first_other(&self, device: &Device) -> Option<usize> {
         (0..self.cases.len()).find(|&i| self.other_answer(device, i).is_some())
     }
 
-    /// The rules that a device breaks first, and more often than the model does; empty if it breaks
-    /// none among `patches`.
+    /// The rules that a device breaks first and more often than the model does; empty if it breaks
+    /// none for `patches`.
     fn first_broken(
         &self,
         device: &Device,
@@ -243,7 +245,8 @@ impl Group {
         BTreeSet::new()
     }
 
-    /// How often the model's answer to a patch breaks each rule, after all patches before it.
+    /// How often the model's answer to a patch breaks each rule, when judged after all patches
+    /// before it.
     fn of_model(&self, standard: usize, patch: usize) -> Vec<u64> {
         let mut model = self.model[standard].lock().expect("no panic");
         let (judge, found) = &mut *model;
@@ -266,25 +269,26 @@ impl Group {
         if is_allowed {
             return self.first_broken(device, standard, first..all.min(first + OF_ALLOWED));
         }
-        // Patches just before the first other answer are the likeliest to be compared with it.
+        // The rules are likeliest to compare the first differing answer with the patches just
+        // before it.
         let near =
             self.first_broken(device, standard, first.saturating_sub(NEAR)..all.min(first + NEAR));
         if near.is_empty() { self.first_broken(device, standard, 0..all) } else { near }
     }
 }
 
-/// How many patches after the first other answer are judged if a standard allows it.
+/// How many patches from the first differing answer on are judged if a standard allows the mistake.
 const OF_ALLOWED: usize = 100;
 
-/// How many patches before a device's first other answer are judged with it, unless no rule is
-/// broken then.
+/// How many patches before a device's first differing answer are judged with it. All are judged if
+/// these break no rule.
 const NEAR: usize = 25;
 
-/// A checker that tells how often each patch breaks each rule.
+/// A checker that returns how often each patch breaks each rule.
 struct Judge {
     checker: Checker,
     rules: Vec<&'static str>,
-    /// How often all patches so far break each rule.
+    /// How often all patches so far broke each rule.
     sums: Vec<u64>,
 }
 
@@ -306,18 +310,18 @@ impl Judge {
     }
 }
 
-/// What became of a mistake under one standard.
+/// The result of a mistake under one standard.
 #[derive(Default)]
 struct Outcome {
     /// The rules that each variant breaks first in each group.
     broken: Vec<BTreeSet<&'static str>>,
-    /// The groups in which a variant breaks none, with the variant.
+    /// The groups in which a variant breaks no rule, with the variant.
     held: Vec<(String, String)>,
 }
 
 impl Outcome {
-    /// A small set of rules of which each variant breaks one in each group: the most frequent ones
-    /// first.
+    /// A small set of rules such that each variant breaks one of them in each group: the most
+    /// frequent rules come first.
     fn rules(&self) -> Vec<&'static str> {
         let mut left: Vec<_> = self.broken.iter().collect();
         let mut chosen = Vec::new();
@@ -329,8 +333,8 @@ impl Outcome {
     }
 }
 
-/// Rules whose messages name a mistake, of which the first one is taken if several see it equally
-/// often.
+/// Rules whose messages name a mistake. The first of these is taken if several rules detect it
+/// equally often.
 const TELLING: [&str; 10] = [
     "inner-levels",
     "segments",
@@ -354,7 +358,7 @@ fn most_frequent(sets: &[&BTreeSet<&'static str>]) -> Option<&'static str> {
     best.map(|(rule, _)| rule)
 }
 
-/// Plants every variant of a mistake; the outcome for each standard.
+/// Plants every variant of a mistake and returns the outcome for each standard.
 fn plant(mistake: &Mistake, groups: &[Group]) -> [Outcome; 2] {
     let mut outcomes = [Outcome::default(), Outcome::default()];
     for variant in &mistake.variants {
@@ -387,7 +391,7 @@ impl Allowed {
     }
 }
 
-/// The cell of a mistake, and the combinations that pass though no sentence allows them.
+/// The table cell of a mistake, and the combinations that pass although no sentence allows them.
 fn cell(mistake: &Mistake, standard: Specification, outcome: &Outcome) -> (String, Vec<String>) {
     let allowed: Vec<_> =
         mistake.allowed.iter().filter(|allowed| allowed.standard == standard).collect();
@@ -450,8 +454,8 @@ fn table() -> (Vec<String>, Vec<String>) {
     (lines, faults)
 }
 
-/// Each mistake is broken by the rules that docs/rules.md names, or allowed by the sentence that it
-/// has.
+/// Each mistake is detected by the rules that docs/rules.md names, or allowed by the sentence that
+/// it quotes.
 #[test]
 fn mistakes_are_broken_or_allowed() {
     let (lines, faults) = table();
@@ -467,7 +471,7 @@ fn mistakes_are_broken_or_allowed() {
     assert_eq!(documented, lines, "the table should be:\n{}", lines.join("\n"));
 }
 
-/// The column of Vulkan is OpenGL's too.
+/// Vulkan's column is valid for OpenGL too.
 #[test]
 fn opengl_has_the_rules_of_vulkan() {
     let rows = |standard| Checker::new(standard).report().rows;

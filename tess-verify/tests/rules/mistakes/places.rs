@@ -1,4 +1,4 @@
-//! Changes of places, levels and states that mistakes are made of.
+//! Changes of places, levels and states from which mistakes are made.
 
 use super::*;
 use tess_core::{Config, PatchFactors};
@@ -8,17 +8,17 @@ pub(super) fn levels(case: &Case) -> Vec<f32> {
     case.factors.iter().collect()
 }
 
-/// How many of the levels are outer ones.
+/// The number of outer levels.
 pub(super) fn outer(case: &Case) -> usize {
     case.domain().outer_factors()
 }
 
-/// The case with levels by position.
+/// The case with other levels, which the function returns by position.
 pub(super) fn with_levels(case: &Case, level: impl Fn(usize) -> f32) -> Case {
     Case { factors: PatchFactors::from_fn(case.domain(), level), ..*case }
 }
 
-/// The case with each level changed; the function is given its position.
+/// The case with each level changed; the function receives its position and the level.
 pub(super) fn each(case: &Case, change: impl Fn(usize, f32) -> f32) -> Case {
     let levels = levels(case);
     with_levels(case, |position| change(position, levels[position]))
@@ -35,8 +35,8 @@ pub(super) fn taken(case: &Case, from: impl Fn(usize) -> usize) -> Case {
     with_levels(case, |position| levels[from(position)])
 }
 
-/// Whether an outer level discards the patch. A device that mixes levels up does not make a patch
-/// of it.
+/// Whether an outer level discards the patch. A device that mixes levels up must not make a patch
+/// of such a case.
 pub(super) fn is_discarded(case: &Case) -> bool {
     case.factors.outer().any(|level| level.is_nan() || level <= 0.0)
 }
@@ -46,8 +46,8 @@ pub(super) fn with_config(case: &Case, change: impl Fn(Config) -> Config) -> Cas
     Case { config: change(case.config), ..*case }
 }
 
-/// Whether a case is drawn as points, lines or triangles that a standard speaks of: lines of
-/// triangles and quads are a debugging view.
+/// Whether a case is drawn as points, lines or triangles that a standard knows; lines of triangles
+/// and quads are a debugging view.
 pub(super) fn has_primitives(case: &Case) -> bool {
     case.domain() == Domain::Isoline || case.config.output != OutputPrimitive::Line
 }
@@ -60,15 +60,15 @@ pub(super) fn move_all(output: &mut Tessellation, place: impl Fn([u32; 2]) -> [u
     }
 }
 
-/// Exchanges the second and third vertex of every triangle.
+/// Exchanges the second and third vertices of every triangle.
 pub(super) fn turn_all(case: &Case, output: &mut Tessellation) {
     if case.primitive_size() == 3 {
         output.indices.chunks_mut(3).for_each(|triangle| triangle.swap(1, 2));
     }
 }
 
-/// The numbers of the points on an outer edge in the order of their distance from its start, ends
-/// included, by coordinates.
+/// The numbers of the points on an outer edge, including its ends, in the order of their distance
+/// from its start, by coordinates.
 pub(super) fn edge_points(case: &Case, output: &Tessellation, edge: usize) -> Vec<usize> {
     let along = |point: &DomainPoint| {
         let [u, v] = [point.u.to_bits(), point.v.to_bits()];
@@ -87,7 +87,7 @@ pub(super) fn edge_points(case: &Case, output: &Tessellation, edge: usize) -> Ve
     on.into_iter().map(|(_, i)| i).collect()
 }
 
-/// Puts the points of an outer edge, except its ends, at other places along it.
+/// Moves the points of an outer edge, except its ends, to other places along it.
 pub(super) fn place_along(
     case: &Case,
     output: &mut Tessellation,

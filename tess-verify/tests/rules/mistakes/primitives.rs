@@ -1,4 +1,4 @@
-//! Primitives and points that are missing, repeated, wrong or in another order.
+//! Mistakes: primitives and points that are missing, repeated, wrong or in another order.
 
 use super::places::*;
 use super::*;
@@ -81,8 +81,8 @@ fn degenerate() -> Vec<Mistake> {
     vec![left_out.vulkan_allows("", "a primitive without area covers nothing (22.6, 22.7)"), added]
 }
 
-/// Exchanges the diagonal of each pair of triangles whose four vertices are all wanted; a pair's
-/// triangles are used once.
+/// Exchanges the diagonal of each pair of triangles whose four vertices are all wanted. A triangle
+/// is used in one pair at most.
 fn flip(
     case: &Case,
     output: &mut Tessellation,
@@ -118,7 +118,7 @@ fn flip(
     }
 }
 
-/// Triangles that join other vertices.
+/// Triangles that join other vertices than the model's.
 fn joined() -> Vec<Mistake> {
     let is_on = |[u, v]: [u32; 2], domain: Domain| {
         u == 0
@@ -157,7 +157,7 @@ fn joined() -> Vec<Mistake> {
             let domain = case.domain();
             flip(case, output, 1, |corners| {
                 let on = corners.iter().filter(|place| is_on(**place, domain)).count();
-                // Two of the outline and two inside, so that neighbours stay joined.
+                // Two on the outline and two inside, so that neighbours stay joined.
                 on == 2
             });
         });
@@ -242,7 +242,7 @@ fn isolines() -> Vec<Mistake> {
     vec![reversed.vulkan_allows("isoline", direction), joined, short]
 }
 
-/// Isolines at the place that has none.
+/// Isolines at the side that has none.
 fn isolines_at_1() -> Vec<Mistake> {
     let last = Mistake::new("an isoline is drawn at v = 1, and none at v = 0").answers(
         "moved",

@@ -1,4 +1,4 @@
-//! Levels that are clamped or rounded in another way, and the patch without an inside.
+//! Mistakes: levels that are clamped or rounded in another way, and the patch without an inside.
 
 #![expect(clippy::float_arithmetic, clippy::float_cmp, reason = "mistakes in binary32")]
 
@@ -16,7 +16,8 @@ fn at_most(level: f32, most: f32) -> f32 {
 }
 
 fn clamped() -> Vec<Mistake> {
-    // The largest number of segments is 63 under fractional odd spacing, which is no mistake there.
+    // Under fractional odd spacing the largest number of segments is 63, so ending at 63 is not a
+    // mistake there.
     let high = for_each(
         Mistake::new("levels end at a smaller number"),
         [62.0, 61.5, 32.0, 16.0f32],
@@ -71,7 +72,7 @@ const fn step(partitioning: Partitioning) -> f32 {
     }
 }
 
-/// Levels to the number of segments that they ask for.
+/// Rounds a level to the number of segments that it asks for.
 fn whole(case: &Case, position: usize, level: f32) -> f32 {
     let is_density = case.domain() == Domain::Isoline && position == 0;
     let level = level.max(1.0).ceil();
@@ -142,7 +143,7 @@ fn rounded() -> Vec<Mistake> {
     vec![down, nearest, threshold, pow2]
 }
 
-/// Levels that are a step off, lose their fraction, or take another one's parity.
+/// Levels that are a step off, lose their fraction, or take another level's parity.
 fn changed() -> Vec<Mistake> {
     let steps = (0..6).flat_map(|position| [(position, 1.0f32), (position, -1.0)]);
     let more = for_each(

@@ -1,4 +1,4 @@
-//! Lines that are divided as another spacing, or another split order, divides them.
+//! Mistakes: lines that are divided as under another spacing or another split order.
 
 #![expect(clippy::float_arithmetic, clippy::float_cmp, reason = "a mistake in binary32")]
 
@@ -21,7 +21,7 @@ fn whole_patch() -> Mistake {
     })
 }
 
-/// The number of isolines by the spacing of their segments.
+/// The number of isolines rounded according to the spacing of their segments.
 fn density() -> Mistake {
     Mistake::new("the number of isolines follows the spacing").asks("density", |case| {
         let odd = case.config.partitioning == Partitioning::FractionalOdd;
@@ -37,12 +37,13 @@ fn density() -> Mistake {
     })
 }
 
-/// Places along a line of n segments by another spacing of as many: equal, or with two shorter
-/// ones.
+/// Places along a line of n segments under another spacing with as many segments: equal, or two
+/// shorter ones.
 fn other_places(case: &Case, n: usize) -> Vec<u32> {
     let number = u32::try_from(n).expect("at most 64");
     let parity = if n.is_multiple_of(2) { Parity::Even } else { Parity::Odd };
-    // Under fractional spacing, equal segments; under equal spacing, two that are shorter.
+    // In place of fractional spacing, equal segments; in place of equal spacing, two that are
+    // shorter.
     let less = if case.config.partitioning.has_integer_factors() { 0x8000 } else { 0 };
     let fixed = FixedFactor::from_bits((number << 16) - less);
     let context = FactorContext::new(fixed, parity, SplitOrder::Ruler);
@@ -58,13 +59,13 @@ fn edge() -> Mistake {
             }
             let n = edge_points(case, output, edge).len() - 1;
             let places = other_places(case, n);
-            // Of 3 segments with fractional spacing, all lengths are those of a level.
+            // With fractional spacing, all lengths of 3 segments belong to some level.
             place_along(case, output, edge, |k, _| places[k]);
         })
     })
 }
 
-/// The columns, rows or rings of the inside by another spacing.
+/// The columns, rows or rings of the inside, divided by another spacing.
 fn inside() -> Mistake {
     let name = "the inside is spaced by another mode, with as many segments";
     (0..2).fold(Mistake::new(name), |mistake, axis| {
@@ -100,7 +101,7 @@ fn split() -> Mistake {
         )
 }
 
-/// One line's shorter segments at the other split order's place.
+/// The shorter segments of one edge at the places of the other split order.
 fn split_of_edge() -> Mistake {
     let name = "the shorter segments of one edge are at another place";
     (0..4).fold(Mistake::new(name), |mistake, edge| {

@@ -1,5 +1,5 @@
-//! State of the first or the previous patch, patches that are discarded or not, and whatever is
-//! kept between patches.
+//! Mistakes: state of the first or previous patch, patches that are wrongly discarded or kept, and
+//! anything else that is kept between patches.
 
 use super::places::*;
 use super::*;
@@ -9,7 +9,7 @@ pub(super) fn all() -> Vec<Mistake> {
     [kept(), discarded(), leaked()].into_iter().flatten().collect()
 }
 
-/// The part of the state that a device keeps.
+/// The part of the state that a device keeps from another patch.
 #[derive(Clone, Copy, Debug)]
 enum State {
     Domain,
@@ -51,9 +51,10 @@ fn kept() -> Vec<Mistake> {
     ]
 }
 
-/// A device that makes a patch of what is to be discarded, and the reverse.
+/// Devices that make a patch of what should be discarded, and devices that discard what should be a
+/// patch.
 fn discarded() -> Vec<Mistake> {
-    // Levels that are wrongly taken for positive count as 1.
+    // Levels that are wrongly taken as positive count as 1.
     fn passes(mistake: Mistake, name: &'static str, is_passed: fn(f32) -> bool) -> Mistake {
         mistake.asks(name, move |case| {
             each(case, |p, level| if p < outer(case) && is_passed(level) { 1.0 } else { level })

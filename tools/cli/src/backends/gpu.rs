@@ -11,7 +11,7 @@ use tess_verify::workloads::IndexWidth;
 use tess_verify::{Answers, Backend, BackendError};
 use tess_wgpu::{Gpu, ReadBack, Tessellator};
 
-/// `tess-gpu` on the first adapter that there is, with WebGPU's default limits.
+/// `tess-gpu` on the first available adapter, with WebGPU's default limits.
 #[derive(Debug)]
 pub(crate) struct GpuBackend {
     gpu: Gpu,
@@ -20,7 +20,7 @@ pub(crate) struct GpuBackend {
 }
 
 impl GpuBackend {
-    /// Opens the adapter, for indices of 16 or 32 bits. Errors: exit code 3 if there is none.
+    /// Opens the adapter, for indices of 16 or 32 bits. Errors: exit code 3 if there is no adapter.
     pub(crate) fn open(index_type: IndexWidth) -> Result<Self, Failure> {
         let gpu = pollster::block_on(Gpu::open()).map_err(Failure::unavailable)?;
         let tessellator = Tessellator::new(&gpu.device);
@@ -40,7 +40,7 @@ impl GpuBackend {
     }
 }
 
-/// The setup that the program runs: indices of each patch's own points, as in the model.
+/// The setup that the program uses: indices count each patch's own points, as in the model.
 pub(crate) fn setup_of(domain: Domain, config: Config, index_type: IndexWidth) -> Setup {
     let index_type = match index_type {
         IndexWidth::U16 => tess_gpu::IndexType::U16,
@@ -98,7 +98,7 @@ impl Backend for GpuBackend {
     }
 }
 
-/// The patches of a batch, one after another, as the specification numbers them.
+/// Splits a batch into its patches, in the numbering of the specification.
 pub(crate) fn split_by_patch(output: &ReadBack, setup: Setup) -> Answers<Tessellation> {
     let each = setup.indices_per_primitive() as usize;
     let end = [output.points.len(), output.indices.len() / each];
@@ -124,7 +124,7 @@ pub(crate) fn split_by_patch(output: &ReadBack, setup: Setup) -> Answers<Tessell
         .collect()
 }
 
-/// The point of these words, which must say that they belong to this patch.
+/// The point in these words. Errors: the words name another patch.
 fn own_point(patch: usize, words: [u32; 2]) -> Result<DomainPoint, BackendError> {
     let packed = PackedPoint(words);
     if packed.patch() as usize == patch {

@@ -1,6 +1,6 @@
 //! The implementations that commands run, chosen by `--backend`.
 //!
-//! Each has an adapter here that implements the verification kit's [`Backend`].
+//! Each one has an adapter here that implements the verification kit's [`Backend`].
 
 #[cfg(feature = "gpu")]
 pub(crate) mod gpu;
@@ -17,18 +17,18 @@ use tess_simd::{Level, LevelUnavailableError};
 use tess_verify::workloads::IndexWidth;
 use tess_verify::{Backend, CoreBackend};
 
-/// The names that `--backend` takes.
+/// The names that `--backend` accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BackendName {
     /// The golden model
     Core,
-    /// Batches on the CPU, a patch in each lane
+    /// Batches on the CPU, one patch per lane
     Simd,
     /// Compute shaders
     Gpu,
 }
 
-/// The options that choose a backend.
+/// The options that select a backend.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct BackendArgs {
     /// Implementation to run
@@ -50,7 +50,7 @@ pub(crate) struct BackendOptions {
     pub(crate) index_type: IndexWidth,
 }
 
-/// Widths of indices.
+/// The widths of indices.
 pub(crate) const INDEX_WIDTHS: Choices<IndexWidth> =
     &[("u16", IndexWidth::U16, "16 bits"), ("u32", IndexWidth::U32, "32 bits")];
 
@@ -60,8 +60,8 @@ fn cpu_level(name: &str) -> Result<Level, String> {
 }
 
 impl BackendArgs {
-    /// Makes the chosen backend ready. Errors: exit code 2 if it has no such options, 3 if this
-    /// build or this machine does not have it, with the next step.
+    /// Makes the selected backend ready. Errors: exit code 2 if it does not have these options; 3,
+    /// with the next step, if this build or this machine does not have it.
     pub(crate) fn select(self) -> Result<Box<dyn Backend>, Failure> {
         self.options.fit(&[self.backend])?;
         self.options.select(self.backend)
@@ -70,7 +70,7 @@ impl BackendArgs {
 
 impl BackendOptions {
     /// Refuses options that none of the backends in use has. Errors: exit code 2 if a CPU level is
-    /// asked for without the simd backend, or 16-bit indices without a backend that has them.
+    /// given without the simd backend, or 16-bit indices without a backend that supports them.
     pub(crate) fn fit(self, backends: &[BackendName]) -> Result<(), Failure> {
         let has = |name: BackendName| backends.contains(&name);
         if self.cpu_level.is_some() && !has(BackendName::Simd) {
@@ -78,22 +78,22 @@ impl BackendOptions {
         }
         if self.index_type == IndexWidth::U16 && !has(BackendName::Simd) && !has(BackendName::Gpu) {
             return Err(Failure::bad_input(
-                "--index-type u16 goes with --backend simd or gpu; core has indices of 32 bits alone",
+                "--index-type u16 goes with --backend simd or gpu; core only has 32-bit indices",
             ));
         }
         Ok(())
     }
 
-    /// The CPU level to run the simd backend at. Errors: exit code 3 if this machine cannot run the
-    /// one that is asked for.
+    /// The CPU level at which to run the simd backend. Errors: exit code 3 if this machine cannot
+    /// run the requested one.
     pub(crate) fn level(self) -> Result<Level, Failure> {
         let level = self.cpu_level.unwrap_or_else(Level::detect);
         level.require().map_err(unavailable)?;
         Ok(level)
     }
 
-    /// Makes a backend ready as these options say, as far as they are for it. Errors: exit code 3
-    /// if this build or this machine does not have it, with the next step.
+    /// Makes a backend ready with those of the options that apply to it. Errors: exit code 3, with
+    /// the next step, if this build or this machine does not have it.
     pub(crate) fn select(self, name: BackendName) -> Result<Box<dyn Backend>, Failure> {
         match name {
             BackendName::Core => Ok(Box::new(CoreBackend)),
@@ -105,7 +105,7 @@ impl BackendOptions {
         }
     }
 
-    /// The words on a command line that choose this backend in this way.
+    /// The words on a command line that select this backend with these options.
     pub(crate) fn words(self, backend: &str) -> String {
         match self.index_type {
             IndexWidth::U16 => format!("{backend} --index-type u16"),
@@ -127,11 +127,11 @@ fn unavailable(error: LevelUnavailableError) -> Failure {
     Failure::unavailable(format!("{error}; leave out --cpu-level for the best"))
 }
 
-/// The failure of asking for a backend that this build does not have.
+/// The failure for a backend that this build does not have.
 #[cfg(not(feature = "gpu"))]
 pub(crate) fn not_built_in(name: &str) -> Failure {
     Failure::unavailable(format!(
-        "this build of tess has no {name} backend: build it with --features {name}; --backend core is always \
-         there"
+        "this build of tess has no {name} backend: build it with --features {name}, or use --backend \
+         core instead"
     ))
 }

@@ -1,4 +1,4 @@
-//! The SIMD backend as a backend under test.
+//! `tess-simd` as a backend under test.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -13,7 +13,7 @@ use tess_verify::{Answers, Backend, BackendError};
 #[derive(Debug)]
 pub(crate) struct Simd<I> {
     level: Level,
-    /// One for each configuration that was asked for.
+    /// One tessellator per configuration used so far.
     tessellators: HashMap<Config, Tessellator>,
     output: Output<DomainPoint, I>,
 }
@@ -44,7 +44,7 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
             }
         };
         let mut all = Vec::with_capacity(patches.len());
-        // Small batches: a batch's points and indices must be countable in 32 bits.
+        // Batches are small, because a batch's points and indices must be countable in 32 bits.
         for batch in patches.chunks(4096) {
             tessellator
                 .tessellate(batch, Numbering::PerPatch, output)

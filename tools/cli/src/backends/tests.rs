@@ -1,4 +1,4 @@
-//! A fault in an adapter's answers is seen.
+//! A fault in an adapter's output is detected.
 
 #[cfg(feature = "gpu")]
 use super::gpu::GpuBackend;
@@ -11,7 +11,7 @@ use tess_verify::vectors::VectorFile;
 #[cfg(feature = "gpu")]
 use tess_verify::workloads::IndexWidth;
 
-/// One index that is one too high, in a backend with 16-bit indices.
+/// One index is one too high, in a backend with 16-bit indices.
 #[test]
 fn narrow_indices_that_differ() {
     let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden/cases.txt");
@@ -24,7 +24,7 @@ fn narrow_indices_that_differ() {
     }
 }
 
-/// Backends with 16-bit indices, the last of which is wrong in one patch.
+/// Backends with 16-bit indices, each with one wrong index.
 fn faulty() -> Vec<Box<dyn Backend>> {
     let simd = Simd::<u16>::with_level(Level::Baseline).expect("every machine has it");
     Vec::from([

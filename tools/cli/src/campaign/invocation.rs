@@ -1,28 +1,29 @@
-//! The run: the words, the options that decide what is compared, and the program itself.
+//! The run: its words, the options that decide what is compared, and the program itself.
 
 use clap::{ArgMatches, Command};
 use std::collections::BTreeMap;
 
-/// The options that say where a shard's files lie, or which shard it is. Shards of one campaign
-/// differ in them. The baseline is compared by its cases.
+/// The options that select a shard, or name its files. They differ between the shards of one
+/// campaign. The baseline is compared by its cases.
 const PLACES: [&str; 11] = [
     "shard", "given", "report", "junit", "file", "cases", "failures", "coverage", "picture",
     "json", "known",
 ];
 
-/// One run of the program, as its command line says it.
+/// One run of the program, from its command line.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Invocation {
-    /// The words of the command line, the program's name first.
+    /// The words of the command line; the first is the program's name.
     pub(crate) words: Vec<String>,
-    /// Name of the command, such as `verify`.
+    /// The name of the command, such as `verify`.
     pub(crate) command: String,
-    /// The values of every option that decides what is compared, defaults too; `true` for a flag.
+    /// The values of every option that decides what is compared, including defaults; `true` for a
+    /// flag.
     pub(crate) options: BTreeMap<String, Vec<String>>,
 }
 
 impl Invocation {
-    /// The run of these words, which `program` has taken to be `matches`.
+    /// The run of these words, which `program` has parsed into `matches`.
     pub(crate) fn new(words: Vec<String>, program: &Command, matches: &ArgMatches) -> Self {
         let Some((name, matches)) = matches.subcommand() else { return Self::default() };
         let command = program.find_subcommand(name);
@@ -43,18 +44,18 @@ impl Invocation {
     }
 }
 
-/// The commit that the program was built from: its number, with `+changes` if a source file
-/// differed from it, or `unknown`.
+/// The commit from which the program was built: its hash, with `+changes` if a source file differed
+/// from it, or `unknown`.
 pub(crate) const fn commit() -> &'static str {
     env!("TESS_COMMIT")
 }
 
-/// Digest of the program's own file; `None` if it cannot be read.
+/// The digest of the program's own file; `None` if it cannot be read.
 pub(crate) fn executable() -> Option<String> {
     Some(digest(&std::fs::read(std::env::current_exe().ok()?).ok()?))
 }
 
-/// Digest of 64 bits, eight bytes a step: a report has one of the whole program.
+/// A 64-bit digest that takes eight bytes per step, which is fast enough for the whole program.
 pub(super) fn digest(bytes: &[u8]) -> String {
     let step = |digest: u64, word: u64| {
         let product = (digest ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -64,7 +65,7 @@ pub(super) fn digest(bytes: &[u8]) -> String {
     let mut last = [0; 8];
     last[..rest.len()].copy_from_slice(rest);
     let words = words.iter().chain([&last]).map(|word| u64::from_le_bytes(*word));
-    // The length tells zeros at the end apart.
+    // The length distinguishes texts that differ only in zeros at the end.
     format!("{:016x}", words.chain([bytes.len() as u64]).fold(0, step))
 }
 
@@ -73,7 +74,7 @@ mod tests {
     use super::digest;
     use std::collections::BTreeSet;
 
-    /// Every changed byte, zeros behind the last one, and two words in each other's place.
+    /// Any changed byte, zeros added at the end, and two exchanged words change the digest.
     #[test]
     fn every_change_changes_the_digest() {
         let bytes: Vec<u8> = (0..37).map(|i| i * 7).collect();

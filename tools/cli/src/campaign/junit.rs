@@ -1,9 +1,9 @@
-//! `JUnit` XML, in the form that Jenkins, GitLab and their like read.
+//! `JUnit` XML, in the form that Jenkins, GitLab and similar tools read.
 
 use super::report::{First, Report, ReportPart, RunState, period_text};
 use std::fmt::Write;
 
-/// Some test cases under a name.
+/// A named group of test cases.
 #[derive(Clone, Debug)]
 pub(crate) struct JunitSuite {
     pub(crate) name: String,
@@ -11,7 +11,8 @@ pub(crate) struct JunitSuite {
     pub(crate) tests: Vec<JunitCase>,
 }
 
-/// One test case. Its class and name stay the same from build to build, so that its history is one.
+/// A test case. Its class and name stay the same from build to build, so that tools can show its
+/// history.
 #[derive(Clone, Debug)]
 pub(crate) struct JunitCase {
     pub(crate) class: String,
@@ -20,18 +21,18 @@ pub(crate) struct JunitCase {
     pub(crate) outcome: Outcome,
 }
 
-/// How a test case ended; what is wrong in a line, and in full.
+/// The result of a test case; a fault comes as one line and in full.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
     Passed,
     /// Something differs.
     Failed(String, String),
-    /// It could not be tested.
+    /// The test case could not be run.
     Error(String, String),
 }
 
 impl JunitSuite {
-    /// A run: a test case for each part, and one for the run itself if it did not come to its end.
+    /// A run as a suite: a test case for each part, and one for the run itself if it ended early.
     pub(crate) fn of_run(report: &Report) -> Self {
         let name = format!("tess {}", report.command);
         let class = name.replace(' ', ".");
@@ -98,8 +99,8 @@ impl JunitCase {
 }
 
 impl Outcome {
-    /// The outcome of a comparison in which so many of so many differ: the first, and the period of
-    /// all.
+    /// The outcome of a comparison with this many mismatches among this many cases. The message has
+    /// the first difference and the period of all.
     pub(crate) fn of(
         (mismatches, cases): (u64, u64),
         first: Option<&First>,
@@ -123,12 +124,12 @@ fn of_end(report: &Report) -> Outcome {
     }
 }
 
-/// Such as `1.050`.
+/// Seconds in decimal, such as `1.050`.
 pub(crate) fn seconds(milliseconds: u64) -> String {
     format!("{}.{:03}", milliseconds / 1000, milliseconds % 1000)
 }
 
-/// Text for an attribute or an element. What XML 1.0 has no way to write becomes U+FFFD.
+/// Text for an attribute or an element. Characters that XML 1.0 cannot represent become U+FFFD.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,4 +1,4 @@
-//! The `--known` option: what may differ, as a documented deviation of a device does.
+//! The `--known` option: known differences, such as documented deviations of a device.
 
 use super::Placed;
 use super::invocation::digest;
@@ -29,11 +29,11 @@ pub(crate) struct KnownArgs {
     known: Option<PathBuf>,
 }
 
-/// Known differences, and the file that they come from.
+/// The known differences, and the file from which they were read.
 #[derive(Debug, Default)]
 pub(crate) struct Baseline {
     pub(crate) known: Arc<Known>,
-    /// The report's entry of the file, before anything is compared.
+    /// The report's entry about the file, before anything has been compared.
     file: Option<KnownCases>,
 }
 
@@ -43,7 +43,7 @@ impl KnownArgs {
         self.known.as_deref().map(|path| Role::input("--known", path))
     }
 
-    /// Refuses a baseline that is the very file which it is to judge. Errors: it is.
+    /// Refuses a baseline that is the file under test itself. Errors: it is that file.
     pub(crate) fn refuse_judged(&self, what: &str, judged: &Role<'_>) -> Result<(), Failure> {
         if self.role().is_some_and(|known| known.is_same_file(judged)) {
             let message = format!("--known is {what} itself: every difference would be known");
@@ -52,10 +52,11 @@ impl KnownArgs {
         Ok(())
     }
 
-    /// The baseline for a comparison, or for judging by rules; of nothing without the option.
+    /// Reads the baseline for a comparison, or for judging by rules; it is empty without the
+    /// option.
     ///
     /// # Errors
-    /// It cannot be read or is malformed.
+    /// The file cannot be read or is malformed.
     pub(crate) fn read(&self, rules: Option<Specification>) -> Result<Baseline, Failure> {
         let Some(path) = &self.known else { return Ok(Baseline::default()) };
         if path.as_os_str() == "-" {
@@ -66,7 +67,7 @@ impl KnownArgs {
             Known::read(&input::name(path), reader, rules, &today()).map_err(Failure::bad_input)?;
         let mut lines: Vec<String> = known.lines().map(|line| line + "\n").collect();
         let entries = lines.len() as u64;
-        // Of the set of lines: neither order nor remarks change it.
+        // The digest is that of a set of lines: their order and remarks do not matter.
         lines.sort_unstable();
         let digest = Some(digest(lines.concat().as_bytes()));
         let file = Some(path.to_string_lossy().into_owned());
@@ -81,9 +82,9 @@ fn today() -> String {
     date(since.map_or(0, |since| since.as_secs()) / 86_400)
 }
 
-/// The date of a day since 1970, such as 2027-06-30.
+/// The date of a day, counted from 1970-01-01, such as 2027-06-30.
 fn date(day: u64) -> String {
-    // A year begins with March, so that its leap day is the last.
+    // Years begin in March here, so that the leap day is the last day of a year.
     let day = day + 719_468;
     let (era, day) = (day / 146_097, day % 146_097);
     let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
@@ -95,16 +96,16 @@ fn date(day: u64) -> String {
 }
 
 impl Baseline {
-    /// Puts into the report which baseline there is, so that a run that ends early says it too.
+    /// Adds the baseline to the report, so that the report of a run that ends early names it too.
     pub(crate) fn note(&self, recorder: &Recorder) {
         recorder.update(|report| report.known.clone_from(&self.file));
     }
 
-    /// Ends a run and writes its report. If it came to its end, that says what became of the
-    /// baseline, and it is a difference if a line has expired or is not met.
+    /// Ends a run and writes its report. If the run was complete, the report has the outcome of the
+    /// baseline, and an expired or unmet line counts as a difference.
     ///
     /// # Errors
-    /// The run's; a report that cannot be written.
+    /// Those of the run, and a report that cannot be written.
     pub(crate) fn finish(
         &self,
         recorder: Recorder,
@@ -144,7 +145,7 @@ impl Baseline {
 mod tests {
     use super::date;
 
-    /// Around leap days, of which 2100 has none.
+    /// Dates around leap days; 2100 has none.
     #[test]
     fn days_have_dates() {
         for (day, expected) in [

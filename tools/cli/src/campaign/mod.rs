@@ -1,9 +1,9 @@
-//! Work that is cut into shards for many machines: which shard a command does, what it reports,
-//! what is known to differ.
+//! Work that is cut into shards for many machines: which shard a command does, what it reports, and
+//! which differences are known.
 //!
-//! `shard` finds the shard on the command line or in the environment. `invocation` says what was
-//! run, and `recorder` writes that with what was found as a `report`, and as `junit`. `known` reads
-//! the baseline. `tess merge` (`commands/merge`) proves from the reports that all shards ran.
+//! `shard` finds the shard on the command line or in the environment. `invocation` describes the
+//! run, and `recorder` writes it and its results as a `report` and as `junit`. `known` reads the
+//! baseline. `tess merge` (`commands/merge`) proves from the reports that all shards ran.
 //! docs/campaigns.md describes both formats.
 
 mod invocation;

@@ -1,4 +1,4 @@
-//! Writes the report of a run when it ends, however it ends.
+//! Writes the report of a run when the run ends, in whatever way.
 
 use super::invocation::{Invocation, commit, executable};
 use super::junit::JunitSuite;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// The options that ask for a report.
+/// The options that request a report.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct ReportArgs {
     /// Write a report of the run to this file: a line of JSON that `tess merge` reads
@@ -38,7 +38,7 @@ impl ReportArgs {
         places.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?)))
     }
 
-    /// Begins to record a run. Errors: places that cannot be written or are no files.
+    /// Begins to record a run. Errors: a place that cannot be written or is not a file.
     pub(crate) fn begin(
         &self,
         invocation: &Invocation,
@@ -46,8 +46,10 @@ impl ReportArgs {
     ) -> Result<Recorder, Failure> {
         for (option, path) in self.places() {
             if !OutputFile::would_be_file(path) {
-                let message =
-                    format!("{option} {} is no file; a whole file is written", path.display());
+                let message = format!(
+                    "{option} {} is not a regular file; give the path of a file",
+                    path.display()
+                );
                 return Err(Failure::bad_input(message));
             }
             OutputArgs { file: path.to_owned() }.require_writable()?;
@@ -71,7 +73,7 @@ impl ReportArgs {
         Ok(Recorder { files, live, _guard: Some(guard) })
     }
 
-    /// Each file with what belongs into it.
+    /// Each file with its content.
     fn contents(&self, report: &Report) -> impl Iterator<Item = (&Path, String)> {
         let line = self.report.as_deref().map(|path| (path, report.line()));
         let xml = self.junit.as_deref().map(|path| (path, JunitSuite::of_run(report).to_xml()));
@@ -81,7 +83,7 @@ impl ReportArgs {
     fn interrupt(&self, live: Live) {
         let report = live.ended(RunState::Interrupted);
         for (path, text) in self.contents(&report) {
-            // Nobody is left to be told; `tess merge` says that the report is missing.
+            // There is nobody to tell; `tess merge` reports that the file is missing.
             _ = OutputArgs { file: path.to_owned() }.write(text.as_bytes());
         }
     }
@@ -104,7 +106,7 @@ fn begun(invocation: &Invocation, placed: Placed) -> Report {
     }
 }
 
-/// A run that goes on.
+/// A run in progress.
 struct Live {
     report: Report,
     since: Instant,
@@ -120,7 +122,7 @@ impl Live {
 /// The record of one run.
 pub(crate) struct Recorder {
     files: ReportArgs,
-    /// `None` if nobody asked for it, and when it is written.
+    /// `None` if no report was requested, or once it is written.
     live: Arc<Mutex<Option<Live>>>,
     _guard: Option<Guard>,
 }
@@ -136,15 +138,15 @@ fn lock(live: &Mutex<Option<Live>>) -> MutexGuard<'_, Option<Live>> {
 }
 
 impl Recorder {
-    /// Adds what is known so far, from any thread. Without a report to write, nothing is done.
+    /// Adds results so far, from any thread. Does nothing if no report is to be written.
     pub(crate) fn update(&self, add: impl FnOnce(&mut Report)) {
         if let Some(live) = lock(&self.live).as_mut() {
             add(&mut live.report);
         }
     }
 
-    /// Writes the report of a run that ended, and gives its end. Errors: the run's; a file that
-    /// cannot be written.
+    /// Writes the report of a run that has ended, and passes on how it ended. Errors: those of the
+    /// run, and a file that cannot be written.
     pub(crate) fn finish(self, ended: Result<Exit, Failure>) -> Result<Exit, Failure> {
         let Some(live) = lock(&self.live).take() else { return ended };
         let state = match &ended {

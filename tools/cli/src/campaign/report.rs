@@ -3,40 +3,40 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The name of a report's form.
+/// The name and version of the report's format.
 pub(crate) const FORMAT: &str = "tess-report 1";
 
-/// One run of a command on one shard.
+/// A run of a command on one shard.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Report {
     /// [`FORMAT`].
     pub(crate) format: String,
-    /// Version of the program.
+    /// The version of the program.
     pub(crate) version: String,
-    /// Commit of the program, perhaps with `+changes`, or `unknown`.
+    /// The commit of the program, possibly with `+changes`, or `unknown`.
     pub(crate) commit: String,
-    /// Digest of the program's file.
+    /// The digest of the program's file.
     #[serde(default)]
     pub(crate) executable: Option<String>,
-    /// Name of the command.
+    /// The name of the command.
     pub(crate) command: String,
-    /// The words of the command line, the program first.
+    /// The words of the command line; the first is the program's name.
     pub(crate) words: Vec<String>,
     /// The options that decide what is compared.
     pub(crate) options: BTreeMap<String, Vec<String>>,
     #[serde(default)]
     pub(crate) seed: Option<u64>,
-    /// Number of the shard, from 1.
+    /// The number of the shard, from 1.
     pub(crate) shard: u64,
-    /// Number of shards.
+    /// The number of shards.
     pub(crate) shards: u64,
-    /// The option or variable that says the shard.
+    /// The option or variable that selected the shard.
     #[serde(default)]
     pub(crate) shard_from: Option<String>,
     /// How the run ended.
     pub(crate) state: RunState,
-    /// Why it failed.
+    /// The reason of a failure.
     #[serde(default)]
     pub(crate) message: Option<String>,
     pub(crate) cases: u64,
@@ -46,13 +46,13 @@ pub(crate) struct Report {
     pub(crate) stages: BTreeMap<String, u64>,
     #[serde(default)]
     pub(crate) first: Option<First>,
-    /// The distance whose multiples lie between the numbers of all records that differ.
+    /// The greatest common divisor of the distances between the records that differ.
     #[serde(default)]
     pub(crate) period: Option<u64>,
-    /// The fate of the baseline, if there is one.
+    /// The outcome of the baseline, if there is one.
     #[serde(default)]
     pub(crate) known: Option<KnownCases>,
-    /// The cases and mismatches again, in parts.
+    /// The same cases and mismatches, by part.
     #[serde(default)]
     pub(crate) parts: Vec<ReportPart>,
     pub(crate) milliseconds: u64,
@@ -67,7 +67,7 @@ pub(crate) enum RunState {
     /// A signal ended it, or the reader of stdout left.
     #[default]
     Interrupted,
-    /// It could not do what it was asked for.
+    /// The run could not do what was asked.
     Failed,
 }
 
@@ -75,25 +75,25 @@ pub(crate) enum RunState {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct First {
-    /// The case line, if one patch shows it.
+    /// The case line, if a single patch shows the difference.
     pub(crate) case: Option<String>,
     /// The difference.
     pub(crate) difference: String,
-    /// Whether the case is known to be right by itself.
+    /// Whether the case is known to pass by itself.
     #[serde(default)]
     pub(crate) passes_alone: bool,
 }
 
-/// The words on a case that differs and passes alone.
-pub(crate) const PASSES_ALONE: &str = "passes alone: asked again, or in another record, the same case is right, so what came before matters";
+/// The explanation of a case that differs but passes by itself.
+pub(crate) const PASSES_ALONE: &str = "passes alone: when it is repeated, or in another record, the same case is right, so earlier work matters";
 
-/// The words on the numbers of all records that differ.
+/// The explanation of a period in the numbers of the records that differ.
 pub(crate) fn period_text(period: u64) -> String {
     format!("the numbers of all records that differ are multiples of {period} apart")
 }
 
 impl First {
-    /// The case, the difference, and whether it passes alone, with this between them.
+    /// The case, the difference, and whether the case passes by itself, separated by `between`.
     pub(crate) fn text(&self, between: &str) -> String {
         let Self { case, difference, passes_alone } = self;
         let alone = passes_alone.then_some(PASSES_ALONE);
@@ -102,21 +102,21 @@ impl First {
     }
 }
 
-/// The baseline, and what became of the known differences.
+/// The baseline, and the outcome of the known differences.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct KnownCases {
-    /// The file, as the command line names it.
+    /// The file's name on the command line.
     #[serde(default)]
     pub(crate) file: Option<String>,
-    /// Digest of its cases, in alphabetical order.
+    /// The digest of its lines, in alphabetical order.
     #[serde(default)]
     pub(crate) digest: Option<String>,
-    /// How many cases may differ.
+    /// The number of lines.
     pub(crate) entries: u64,
-    /// How many of them differed.
+    /// The number of lines that were met.
     pub(crate) different: u64,
-    /// The lines of those that were asked and no longer differ.
+    /// The lines whose cases were compared and no longer differ.
     pub(crate) gone: Vec<String>,
 }
 
@@ -143,13 +143,14 @@ impl Report {
         }
     }
 
-    /// Adds to the sums. A report of others may be at their end.
+    /// Adds a part to the sums. They saturate, because another program's report may hold any
+    /// numbers.
     fn add(&mut self, part: &ReportPart) {
         self.cases = self.cases.saturating_add(part.cases);
         self.mismatches = self.mismatches.saturating_add(part.mismatches);
     }
 
-    /// Adds to the part of this name and to the sums.
+    /// Adds to the part with this name, and to the sums.
     pub(crate) fn add_to_part(&mut self, name: &str, more: ReportPart) {
         self.add(&more);
         let known = self.parts.iter_mut().find(|part| part.name == name);
@@ -163,7 +164,7 @@ impl Report {
         }
     }
 
-    /// Adds mismatches of stages.
+    /// Adds mismatches by stage.
     pub(crate) fn add_stages<S: ToString>(&mut self, stages: impl IntoIterator<Item = (S, u64)>) {
         for (stage, more) in stages {
             let stage = self.stages.entry(stage.to_string()).or_default();
@@ -171,7 +172,7 @@ impl Report {
         }
     }
 
-    /// The report as a line.
+    /// The report as a line of JSON.
     ///
     /// # Panics
     /// Never: the keys of its maps are text.
@@ -179,7 +180,8 @@ impl Report {
         serde_json::to_string(self).expect("keys are text") + "\n"
     }
 
-    /// The report of a line. Errors: it is no report of this form, or contradicts itself; why.
+    /// Parses a report from a line. Errors, in words: the line is not a report of this format, or
+    /// contradicts itself.
     pub(crate) fn parse(line: &str) -> Result<Self, String> {
         #[derive(Deserialize)]
         struct FormatOnly {

@@ -1,5 +1,5 @@
-//! Which part of the work a command does: `--shard`, or what a batch system says in the
-//! environment.
+//! Selects the part of the work that a command does: by `--shard`, or by a batch system's
+//! environment variables.
 
 use crate::failure::Failure;
 use crate::output::note;
@@ -21,23 +21,23 @@ pub(crate) struct ShardArgs {
     given: Option<Shard>,
 }
 
-/// A part of the work, and who said so.
+/// A part of the work, and what selected it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Placed {
     pub(crate) shard: Shard,
-    /// `--shard`, or the variable that numbers the part; `None` if all is done because nobody said
-    /// anything.
+    /// `--shard`, or the variable that numbers the part; `None` if nothing selected a part and all
+    /// the work is done.
     pub(crate) source: Option<&'static str>,
 }
 
 impl Placed {
-    /// All of the work, which cannot be cut.
+    /// All of the work, for work that cannot be cut.
     pub(crate) const WHOLE: Self = Self { shard: Shard::WHOLE, source: None };
 }
 
 const OPTION: &str = "--shard";
 
-/// Such as `3/8`, or `3/8 (from SLURM_ARRAY_TASK_ID)` if no option says it.
+/// For example `3/8`, or `3/8 (from SLURM_ARRAY_TASK_ID)` if a variable selected it.
 impl fmt::Display for Placed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.shard.part + 1, self.shard.of)?;
@@ -47,14 +47,14 @@ impl fmt::Display for Placed {
 }
 
 impl ShardArgs {
-    /// The part to do. Errors: variables of a batch system that contradict each other, or from
-    /// which no part follows; a status file that cannot be touched.
+    /// The part to do. Errors: a batch system's variables contradict each other or do not determine
+    /// a part; a status file cannot be touched.
     pub(crate) fn place(self) -> Result<Placed, Failure> {
         if let Some(shard) = self.given {
             return Ok(Placed { shard, source: Some(OPTION) });
         }
         let given = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
-        // What is not UTF-8 is no number, and is shown as such.
+        // Text that is not UTF-8 is not a number; the error shows it as far as possible.
         let value = |name: &str| given(name).map(|value| value.to_string_lossy().into_owned());
         let placed = from_environment(&value).map_err(|message| {
             Failure::bad_input(format!(
@@ -62,7 +62,7 @@ impl ShardArgs {
             ))
         })?;
         if let (Some(BAZEL), Some(file)) = (placed.source, given("TEST_SHARD_STATUS_FILE")) {
-            // This is how a test says to its runner that it does its shard alone.
+            // By touching this file, a test tells its runner that it supports shards.
             let path = Path::new(&file);
             let touched = File::options().append(true).create(true).open(path);
             touched.map_err(|error| Failure::file("touch", path, &error))?;
@@ -73,8 +73,8 @@ impl ShardArgs {
         Ok(placed)
     }
 
-    /// All of what cannot be cut. Errors: a batch system asks for parts, so that everything would
-    /// be done several times.
+    /// All of the work, for work that cannot be cut. Errors: a batch system selects a part, so
+    /// everything would be done several times.
     pub(crate) fn whole(self, what: &str) -> Result<Placed, Failure> {
         let placed = self.place()?;
         if placed.shard == Shard::WHOLE {
@@ -89,7 +89,7 @@ impl ShardArgs {
 const BAZEL: &str = "TEST_SHARD_INDEX";
 const SLURM: &str = "SLURM_ARRAY_TASK_ID";
 const KUBERNETES: &str = "JOB_COMPLETION_INDEX";
-/// The number of shards where the batch system does not say it.
+/// The number of shards, for a batch system that does not provide it.
 const TOTAL: &str = "TESS_SHARDS";
 
 /// The values of environment variables that are set and not empty.
@@ -108,17 +108,17 @@ fn from_environment(value: Environment<'_>) -> Result<Placed, String> {
     }
 }
 
-/// Bazel and googletest count from 0.
+/// The part from Bazel or googletest, which count from 0.
 fn bazel(value: Environment<'_>) -> Result<Option<Shard>, String> {
     const OF: &str = "TEST_TOTAL_SHARDS";
     match number(value, BAZEL)? {
-        None if number(value, OF)?.is_some() => Err(format!("{OF} is set, and {BAZEL} is not")),
+        None if number(value, OF)?.is_some() => Err(format!("{OF} is set, but {BAZEL} is not")),
         None => Ok(None),
         Some(part) => part_of(BAZEL, part, OF, other(value, BAZEL, OF)?).map(Some),
     }
 }
 
-/// Kubernetes counts from 0, and does not say how many there are.
+/// The part from Kubernetes, which counts from 0 and does not provide the number of parts.
 fn kubernetes(value: Environment<'_>) -> Result<Option<Shard>, String> {
     let Some(part) = number(value, KUBERNETES)? else { return Ok(None) };
     let of = other(value, KUBERNETES, TOTAL)
@@ -126,13 +126,13 @@ fn kubernetes(value: Environment<'_>) -> Result<Option<Shard>, String> {
     part_of(KUBERNETES, part, TOTAL, of).map(Some)
 }
 
-/// A variable that belongs to one that is set.
+/// The value of a variable that must be set together with another one.
 fn other(value: Environment<'_>, set: &str, name: &str) -> Result<u64, String> {
-    number(value, name)?.ok_or_else(|| format!("{set} is set, and {name} is not"))
+    number(value, name)?.ok_or_else(|| format!("{set} is set, but {name} is not"))
 }
 
-/// Slurm counts from where the array begins. Only a whole array, which begins with 0 or 1 and
-/// leaves nothing out, says which part of everything a task is.
+/// The part from Slurm, which counts from the first index of the array. Only an array that begins
+/// with 0 or 1 and has no gaps determines a task's part of the whole.
 fn slurm(value: Environment<'_>) -> Result<Option<Shard>, String> {
     let Some(task) = number(value, SLURM)? else { return Ok(None) };
     let other = |name| other(value, SLURM, name);
@@ -153,15 +153,15 @@ fn part_of(index: &str, part: u64, total: &str, of: u64) -> Result<Shard, String
     if part < of {
         return Ok(Shard { part, of });
     }
-    Err(format!("{index} says part {part}, counted from 0, and {total} says {of} parts"))
+    Err(format!("{index} selects part {part}, counted from 0, but {total} is {of}"))
 }
 
 fn number(value: Environment<'_>, name: &str) -> Result<Option<u64>, String> {
     let Some(text) = value(name) else { return Ok(None) };
-    text.parse().map(Some).map_err(|_| format!("{name} is `{text}`, which is no number"))
+    text.parse().map(Some).map_err(|_| format!("{name} is `{text}`, which is not a number"))
 }
 
-/// `I/N`, with I in 1..=N.
+/// Parses `I/N`, with I in 1..=N.
 pub(crate) fn shard(text: &str) -> Result<Shard, String> {
     let parts = text.split_once('/');
     let numbers = parts.and_then(|(i, n)| Some((i.parse::<u64>().ok()?, n.parse::<u64>().ok()?)));
@@ -213,10 +213,10 @@ mod tests {
         for (variables, why) in [
             ("TEST_SHARD_INDEX=0", "TEST_TOTAL_SHARDS is not"),
             ("TEST_TOTAL_SHARDS=8", "TEST_SHARD_INDEX is not"),
-            ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=8", "says part 8, counted from 0"),
-            ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=-1", "which is no number"),
+            ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=8", "selects part 8, counted from 0"),
+            ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=-1", "which is not a number"),
             ("JOB_COMPLETION_INDEX=0", "set it to the completions of the Job"),
-            ("JOB_COMPLETION_INDEX=3 TESS_SHARDS=3", "says part 3, counted from 0"),
+            ("JOB_COMPLETION_INDEX=3 TESS_SHARDS=3", "selects part 3, counted from 0"),
             ("SLURM_ARRAY_TASK_ID=3", "SLURM_ARRAY_TASK_MIN is not"),
             (
                 "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_MAX=3 \
@@ -228,7 +228,7 @@ mod tests {
                  SLURM_ARRAY_TASK_COUNT=2",
                 "leaves no number out",
             ),
-            (&format!("SLURM_ARRAY_TASK_ID=9 {ARRAY}"), "says part 8, counted from 0"),
+            (&format!("SLURM_ARRAY_TASK_ID=9 {ARRAY}"), "selects part 8, counted from 0"),
             (&format!("SLURM_ARRAY_TASK_ID=0 {ARRAY}"), "less than 1"),
             (
                 "TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=0 JOB_COMPLETION_INDEX=1 TESS_SHARDS=8",

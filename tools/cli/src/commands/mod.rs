@@ -1,4 +1,4 @@
-//! The commands, a folder each.
+//! The commands, one folder each.
 
 mod bench;
 mod check;
@@ -48,7 +48,7 @@ pub(crate) enum Command {
     Verify(verify::VerifyCommand),
 }
 
-/// A command that this build leaves out, whatever it is asked.
+/// A command that this build leaves out, whatever its arguments.
 #[cfg(not(all(feature = "probe", feature = "shaders")))]
 #[derive(Debug, clap::Args)]
 #[command(disable_help_flag = true)]
@@ -59,7 +59,7 @@ pub(crate) struct LeftOut {
 
 #[cfg(not(all(feature = "probe", feature = "shaders")))]
 impl LeftOut {
-    /// Says which feature has the command, by whose name it goes.
+    /// Names the feature that provides the command; both have the same name.
     fn run(&self, feature: &str) -> Failure {
         let asked =
             self.words.iter().map(|word| format!(" {}", word.display())).collect::<String>();
@@ -70,7 +70,7 @@ impl LeftOut {
     }
 }
 
-/// Runs a command. Errors: as each command says.
+/// Runs a command. Errors: those of the command.
 pub(crate) fn run(command: &Command, invocation: &Invocation) -> Result<Exit, Failure> {
     match command {
         Command::Patch(args) => patch::run(args),

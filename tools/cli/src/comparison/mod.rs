@@ -1,4 +1,5 @@
-//! What commands that judge a device share: the freedoms that they grant, and the verdict by rules.
+//! The parts that commands which judge a device share: the freedoms that they grant, and the
+//! verdict by rules.
 
 pub(crate) mod rules;
 

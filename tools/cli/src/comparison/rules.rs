@@ -11,11 +11,12 @@ use tess_verify::Named;
 use tess_verify::check::Known;
 use tess_verify::rules::{RuleRow, RulesReport};
 
-/// Prints a report and adds each rule to the run's: how many patches it judged, and how many of
-/// them break it. Different if a rule is broken, unless so often is known.
+/// Prints a report and adds each rule to the run's report: the number of patches that it judged,
+/// and of those that break it. The result is `Different` if a rule is broken, unless it is known to
+/// be broken this often.
 ///
 /// # Errors
-/// It cannot be written.
+/// Stdout cannot be written.
 pub(crate) fn conclude(
     tested: &str,
     report: &RulesReport,

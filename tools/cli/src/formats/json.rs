@@ -17,7 +17,7 @@ struct Document<'a> {
     primitives: Vec<&'a [u32]>,
 }
 
-/// NaN and infinities are no JSON numbers: their `value` is null, `bits` has them.
+/// NaN and infinities are not JSON numbers: their `value` is null, and `bits` has them.
 #[derive(Serialize)]
 struct Factor {
     name: &'static str,
@@ -25,7 +25,7 @@ struct Factor {
     value: f32,
 }
 
-/// `u_bits` and `v_bits` are exact 16.16 numbers; `u` and `v` are the same values, exactly.
+/// `u_bits` and `v_bits` are 16.16 numbers; `u` and `v` are exactly the same values.
 #[derive(Serialize)]
 struct Point {
     u_bits: u32,

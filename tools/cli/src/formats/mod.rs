@@ -1,4 +1,4 @@
-//! One tessellated patch in the forms that `--format` offers.
+//! One tessellated patch in the formats of `--format`.
 
 mod json;
 
@@ -10,7 +10,7 @@ use tess_verify::show::{DrawOptions, Drawing, draw};
 use tess_verify::vectors::Listing;
 use tess_verify::{Backend, Case};
 
-/// The forms of a patch.
+/// The formats of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// A listing as in golden/cases.txt, which `tess check -` reads
@@ -19,11 +19,11 @@ pub(crate) enum Format {
     Csv,
     /// Everything: factors, points (exact and as floats), primitives
     Json,
-    /// A Wavefront mesh in the plane, (u, v) as (x, y)
+    /// A Wavefront mesh in the plane, with (u, v) as (x, y)
     Obj,
     /// A picture of 800 x 800 pixels; `tess draw` can do more
     Svg,
-    /// The same as pixels
+    /// The same picture as pixels
     Png,
 }
 
@@ -32,7 +32,7 @@ impl FileForm for Format {
     const COMMON_EXTENSIONS: &'static [&'static str] = &["txt"];
 }
 
-/// The forms of a picture.
+/// The formats of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PictureFormat {
     /// Scalable vector graphics
@@ -46,7 +46,7 @@ impl FileForm for PictureFormat {
 }
 
 impl PictureFormat {
-    /// The bytes of a picture in this form. Errors: the pixels cannot be encoded.
+    /// The bytes of a picture in this format. Errors: the pixels cannot be encoded.
     pub(crate) fn render(self, drawing: &Drawing) -> Result<Vec<u8>, Failure> {
         match self {
             Self::Svg => Ok(drawing.to_svg().into_bytes()),
@@ -55,18 +55,18 @@ impl PictureFormat {
     }
 }
 
-/// A patch as some backend tessellated it.
+/// A patch as a backend tessellated it.
 #[derive(Clone, Debug)]
 pub(crate) struct OnePatch {
-    /// The case and its result.
+    /// The case and its output.
     pub(crate) listing: Listing,
-    /// Who tessellated it.
+    /// The name of the backend.
     pub(crate) backend: &'static str,
 }
 
 impl OnePatch {
-    /// Has a backend tessellate one patch. Errors: the backend could not run, or returned another
-    /// number of patches than one.
+    /// Tessellates one patch on a backend. Errors: the backend could not run, or did not return
+    /// exactly one patch.
     pub(crate) fn tessellate(backend: &mut dyn Backend, case: Case) -> Result<Self, Failure> {
         let mut results = backend.tessellate(case.config, &[case.factors])?;
         let name = backend.name();
@@ -90,7 +90,7 @@ impl OnePatch {
 }
 
 impl Format {
-    /// The bytes of a file in this form. Errors: the picture could not be made.
+    /// The bytes of a file in this format. Errors: the picture could not be made.
     pub(crate) fn render(self, patch: &OnePatch) -> Result<Vec<u8>, Failure> {
         Ok(match self {
             Self::Text => patch.listing.to_file(patch.backend).into_bytes(),

@@ -1,4 +1,4 @@
-//! The files of one command must be different files, so that no output replaces what is read.
+//! The files of one command must be distinct, so that no output replaces an input.
 
 use super::file::{folder_of, follow};
 use crate::failure::Failure;
@@ -6,7 +6,7 @@ use same_file::Handle;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A file of a command, by the option that names it.
+/// A file of a command, with the option that names it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Role<'a> {
     option: &'a str,
@@ -32,7 +32,7 @@ impl<'a> Role<'a> {
         Self { option, path, standard: Standard::Output }
     }
 
-    /// Whether two roles have the same file.
+    /// Whether two roles use the same file.
     pub(crate) fn is_same_file(&self, other: &Self) -> bool {
         self.identity().is_some_and(|own| other.identity() == Some(own))
     }
@@ -42,13 +42,14 @@ impl<'a> Role<'a> {
         Self::output("stdout", Path::new("-"))
     }
 
-    /// The file or place behind the path; `None` of a device and of a path that leads nowhere.
+    /// The file or place that the path leads to; `None` for a device and for a path that leads
+    /// nowhere.
     pub(crate) fn identity(&self) -> Option<Identity> {
         let is_standard = self.path.as_os_str() == "-";
         let there = match self.standard {
             Standard::Input if is_standard => Handle::stdin().ok().and_then(key),
             Standard::Output if is_standard => Handle::stdout().ok().and_then(key),
-            // A pipe is not opened: that waits for its other end.
+            // A pipe is not opened, because that would wait for its other end.
             _ => self.path.is_file().then(|| key_of(self.path)).flatten(),
         };
         match there {
@@ -58,7 +59,7 @@ impl<'a> Role<'a> {
         }
     }
 
-    /// Where a file will be, or a pipe or an unreadable file is.
+    /// The place of a file that does not exist yet, of a pipe, or of an unreadable file.
     fn place(&self) -> Option<PathBuf> {
         let path = follow(self.path).ok()?;
         let is_device = path.metadata().is_ok_and(|found| is_device(&found));
@@ -82,7 +83,7 @@ pub(crate) enum Identity {
     Place(PathBuf),
 }
 
-/// Device and number of a file: thousands of files need no descriptor each.
+/// The device and number of a file. Thousands of files then need no descriptors.
 #[cfg(unix)]
 type FileKey = (u64, u64);
 #[cfg(not(unix))]
@@ -100,7 +101,7 @@ fn key_of(path: &Path) -> Option<FileKey> {
     Handle::from_path(path).ok()
 }
 
-/// The key of what is open, if that is a regular file.
+/// The key of an open file, if it is a regular one.
 #[cfg(unix)]
 fn key(handle: Handle) -> Option<FileKey> {
     is_regular(handle.as_file()).then(|| (handle.dev(), handle.ino()))
@@ -115,7 +116,7 @@ fn is_regular(file: &fs::File) -> bool {
     file.metadata().is_ok_and(|found| found.is_file())
 }
 
-/// Whether a file is a device such as `/dev/null`, which every role may use at once.
+/// Whether a file is a device such as `/dev/null`, which several roles may use at once.
 #[cfg(unix)]
 fn is_device(found: &fs::Metadata) -> bool {
     std::os::unix::fs::FileTypeExt::is_char_device(&found.file_type())
@@ -126,7 +127,7 @@ fn is_device(found: &fs::Metadata) -> bool {
     !found.is_file()
 }
 
-/// Refuses an output that is the same file as an input or as another output, whether by one path,
+/// Refuses an output that is the same file as an input or another output, whether by equal paths,
 /// by links or by redirection. Errors: exit code 2, with the first two roles of one file.
 pub(crate) fn refuse_shared(roles: &[Role<'_>]) -> Result<(), Failure> {
     let is_output = |role: &Role<'_>| role.standard == Standard::Output;
@@ -134,7 +135,7 @@ pub(crate) fn refuse_shared(roles: &[Role<'_>]) -> Result<(), Failure> {
     let outputs: Vec<_> = outputs.map(|(at, role)| (at, role.identity())).collect();
     for (number, role) in roles.iter().enumerate() {
         let Some(identity) = role.identity() else { continue };
-        // Two outputs meet at the second of them.
+        // Two outputs of one file are reported at the second of them.
         let same = outputs.iter().find(|(at, other)| {
             other.as_ref() == Some(&identity) && (*at < number || !is_output(role))
         });

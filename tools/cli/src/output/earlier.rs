@@ -1,14 +1,14 @@
-//! Removes what an earlier run left where this one will write, before anything can fail.
+//! Removes the results of an earlier run that this run will replace, before anything can fail.
 //!
 //! ```text
-//! tess check - --cases a.txt --report r.jsonl     r.jsonl says "done" since yesterday
+//! tess check - --cases a.txt --report r.jsonl     r.jsonl has said "done" since yesterday
 //!                                                 1. r.jsonl is removed   2. stdin is empty: exit code 2
 //! ```
 //!
-//! Whoever reads the file afterwards trusts it, so a run that ends early, for whatever reason, must
-//! leave none. That is why the words are looked at here and not the options: a command line that is
-//! no command counts too. A file that begins as no file of that kind does is kept, and so is one
-//! that the command reads.
+//! Other programs trust these files, so a run that ends early, for any reason, must not leave old
+//! ones. That is why this module looks at the words and not at parsed options: the command line may
+//! not even be valid. A file is kept if its beginning shows another kind of file, and also if the
+//! command reads it.
 
 use super::distinct::Role;
 use super::file::{Destination, is_gone};
@@ -18,18 +18,18 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// A kind of file, by what stands in its beginning.
+/// A kind of file, recognized by its beginning.
 #[derive(Clone, Copy, Debug)]
 struct TrustedForm {
     option: &'static str,
     name: &'static str,
-    /// It begins with this,
+    /// The file begins with this,
     begins: &'static str,
-    /// and has this among its first bytes.
+    /// and contains this in its first bytes.
     has: &'static str,
 }
 
-/// How many bytes are looked at.
+/// The number of bytes that are examined.
 const BEGINNING: u64 = 4096;
 
 const fn form(
@@ -48,8 +48,8 @@ const CHECK: [TrustedForm; 3] =
 const MERGE: [TrustedForm; 1] = [JUNIT];
 const COVERAGE: [TrustedForm; 1] = [form("--merged", "coverage file", UCIS)];
 
-/// The outputs of a command that are trusted when it has ended. What it adds to, as `--coverage` of
-/// other commands, is none: that stays as it was.
+/// The outputs of a command that others trust once it has ended. A file to which a command adds,
+/// such as that of `--coverage` of other commands, is not one of them: it stays unchanged.
 fn trusted(command: &OsStr) -> &'static [TrustedForm] {
     match command.to_str() {
         Some("check") => &CHECK,
@@ -63,16 +63,16 @@ fn trusted(command: &OsStr) -> &'static [TrustedForm] {
 struct Named {
     form: TrustedForm,
     path: PathBuf,
-    /// The number of the word that has the path.
+    /// The index of the word that has the path.
     at: usize,
 }
 
-/// Removes the outputs of earlier runs that these words of a command line name, the program first.
-/// Errors: the first that is kept because it is no file of its kind, or cannot be removed. The
-/// others are removed all the same.
+/// Removes the outputs of earlier runs that these words of a command line name; the first word is
+/// the program. Errors: the first file that is kept because it is of another kind, or that cannot
+/// be removed. The remaining ones are removed nevertheless.
 pub(crate) fn remove_earlier(words: &[OsString]) -> Result<(), Failure> {
     let forms = words.get(1).map_or(&[][..], |command| trusted(command));
-    // After `--` there are no options.
+    // After `--` there are no more options.
     let end = words.iter().position(|word| word == "--").unwrap_or(words.len());
     let named: Vec<Named> = (2..end).flat_map(|at| named(&words[..end], at, forms)).collect();
     let mut removed = Ok(());
@@ -84,7 +84,7 @@ pub(crate) fn remove_earlier(words: &[OsString]) -> Result<(), Failure> {
     removed
 }
 
-/// The outputs that a word names, by itself or for the next one.
+/// The outputs that a word names, by itself or through the next word.
 fn named(words: &[OsString], at: usize, forms: &'static [TrustedForm]) -> Vec<Named> {
     let named = |form: &TrustedForm| {
         if words[at] == form.option {
@@ -99,7 +99,7 @@ fn named(words: &[OsString], at: usize, forms: &'static [TrustedForm]) -> Vec<Na
     forms.iter().filter_map(named).collect()
 }
 
-/// The text behind the first `=` of a word.
+/// The text after the first `=` of a word.
 #[cfg(unix)]
 fn value(word: &OsStr) -> Option<&OsStr> {
     use std::os::unix::ffi::OsStrExt;
@@ -117,7 +117,8 @@ impl Named {
     fn remove<'a>(&self, mut others: impl Iterator<Item = &'a OsStr>) -> Result<(), Failure> {
         let Self { form, path, .. } = self;
         let own = Role::output(form.option, path);
-        // What is no file is refused by the command, which knows why, or written as it is.
+        // The command itself refuses a path that is not a file, with a better reason, or writes to
+        // it as it is.
         let found = Destination::of(path).map_err(|error| Failure::write(path, error))?;
         let Destination::File(file) = found else { return Ok(()) };
         let is_own = |other: &Role<'_>| own.is_same_file(other);
@@ -133,7 +134,7 @@ impl Named {
             form.fits(&file).or_else(|error| if is_gone(&error) { Ok(true) } else { Err(error) });
         if !fits.map_err(|error| Failure::file("read", path, &error))? {
             return Err(Failure::bad_input(format!(
-                "{} {} is there, and is no {}: it is kept; give another file, or remove it",
+                "{} {} exists and is not a {}, so it is kept; give another file, or remove it",
                 form.option,
                 path.display(),
                 form.name
@@ -147,7 +148,7 @@ impl Named {
 }
 
 impl TrustedForm {
-    /// Whether a file begins so. One without a byte may become anything.
+    /// Whether a file has such a beginning. An empty file may become anything.
     fn fits(&self, file: &Path) -> io::Result<bool> {
         let mut bytes = Vec::new();
         File::open(file)?.take(BEGINNING).read_to_end(&mut bytes)?;

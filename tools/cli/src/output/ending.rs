@@ -1,14 +1,14 @@
-//! Cleanups before a signal ends the process: half-written files go, reports are ended.
+//! Cleanups before a signal ends the process: they remove partial files and complete reports.
 
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 
-/// Something to do before the process ends early.
+/// Work to do before the process ends early.
 pub(crate) type Cleanup = Box<dyn FnOnce() + Send>;
 
 struct Cleanups {
-    /// In the order in which they were asked for; the last is done first.
+    /// In the order of registration; the last one runs first.
     pending: BTreeMap<u64, Cleanup>,
     next: u64,
 }
@@ -19,7 +19,7 @@ fn lock() -> MutexGuard<'static, Cleanups> {
     CLEANUPS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Dropped when the cleanup is no longer needed.
+/// A registered cleanup. Dropping the guard cancels it.
 #[derive(Debug)]
 pub(crate) struct Guard(u64);
 
@@ -30,8 +30,8 @@ impl Drop for Guard {
     }
 }
 
-/// Makes something and says what undoes it. No signal ends the process between the two. Errors: it
-/// cannot be made.
+/// Makes something and registers the cleanup that undoes it. No signal ends the process between the
+/// two. Errors: it cannot be made.
 pub(crate) fn guarded<T>(
     make: impl FnOnce() -> io::Result<(T, Cleanup)>,
 ) -> io::Result<(T, Guard)> {
@@ -45,9 +45,10 @@ pub(crate) fn guarded<T>(
     Ok((made, Guard(number)))
 }
 
-/// Starts to listen to the signals by which users and batch systems end a process: the cleanups are
-/// done before it ends as it would have without. Where no thread can be started, signals end the
-/// process at once. A terminal that closes does so too, as `nohup` has it ignored.
+/// Starts to listen for the signals with which users and batch systems end a process. The cleanups
+/// run first; the process then ends as it would have without them. If no thread can be started,
+/// signals end the process at once. So does a closing terminal, because `nohup` sets that signal to
+/// be ignored.
 #[cfg(unix)]
 fn listen() {
     use signal_hook::consts::{SIGINT, SIGTERM};
@@ -57,14 +58,14 @@ fn listen() {
         let signal = take.recv().ok().and_then(|mut signals| signals.forever().next());
         let Some(signal) = signal else { return };
         loop {
-            // Not locked meanwhile, as a cleanup may write a file.
+            // The lock is not held during a cleanup, because a cleanup may write a file.
             let cleanup = lock().pending.pop_last();
             let Some((_, cleanup)) = cleanup else { break };
             cleanup();
         }
         _ = low_level::emulate_default_handler(signal);
     };
-    // Signals are caught once there is a thread that takes them, and before anything is made.
+    // Signals are caught once there is a thread to handle them, and before anything is made.
     if std::thread::Builder::new().spawn(wait).is_ok()
         && let Ok(signals) = Signals::new([SIGINT, SIGTERM])
     {
@@ -72,6 +73,6 @@ fn listen() {
     }
 }
 
-/// Elsewhere temporary files stay behind when the process is ended from outside.
+/// On other systems, temporary files remain when the process is ended from outside.
 #[cfg(not(unix))]
 const fn listen() {}

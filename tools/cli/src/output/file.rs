@@ -1,4 +1,4 @@
-//! Files that are there whole or not at all, and what is no regular file.
+//! Files that exist whole or not at all, and paths that are not regular files.
 
 use super::ending::{self, Guard};
 use super::stdout;
@@ -8,20 +8,20 @@ use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
-/// The kind of place that a path given to `-o` names.
+/// The kind of place that a path given to `-o` leads to.
 #[derive(Debug)]
 pub(super) enum Destination {
     /// Standard output.
     Stdout,
-    /// A pipe or a device, which is written as it is.
+    /// A pipe or a device, which is written directly.
     Stream(PathBuf),
-    /// A regular file, or one that is not there yet; no symbolic link.
+    /// A regular file, or one that does not exist yet; never a symbolic link.
     File(PathBuf),
 }
 
 impl Destination {
-    /// Finds out what is there, following symbolic links. Errors: a folder, a file that may not be
-    /// written, a circle of links.
+    /// Finds out what the path leads to, following symbolic links. Errors: a folder, a file without
+    /// write permission, a cycle of links.
     pub(super) fn of(path: &Path) -> io::Result<Self> {
         const STDOUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
         if STDOUT.iter().any(|name| path.as_os_str() == *name) {
@@ -36,8 +36,8 @@ impl Destination {
             Ok(found) if is_descriptor || path == Path::new("/dev/stderr") || !found.is_file() => {
                 Ok(Self::Stream(path.to_owned()))
             }
-            // A file that may not be written is not replaced either. Another run may remove it
-            // meanwhile.
+            // A file without write permission must not be replaced either. Another run may remove
+            // the file meanwhile.
             Ok(_) => match File::options().write(true).open(path) {
                 Err(error) if !is_gone(&error) => Err(error),
                 _ => follow(path).map(Self::File),
@@ -48,12 +48,12 @@ impl Destination {
     }
 }
 
-/// Whether a file was not there.
+/// Whether the error is that a file does not exist.
 pub(super) fn is_gone(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::NotFound
 }
 
-/// The path that a chain of symbolic links ends at, whether anything is there or not.
+/// The path at which a chain of symbolic links ends, whether or not anything exists there.
 pub(super) fn follow(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..40 {
@@ -72,25 +72,25 @@ pub(super) fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Opens a pipe or a device; a file behind a descriptor is continued.
+/// Opens a pipe or a device. A file behind a descriptor is appended to.
 pub(super) fn open_stream(path: &Path) -> io::Result<File> {
     File::options().append(true).open(path)
 }
 
-/// Temporary files have names that are short wherever they are, and belong to this program.
+/// Temporary files have short names that show that they belong to this program.
 pub(super) fn temporary<'a, 'b>() -> Builder<'a, 'b> {
     let mut builder = Builder::new();
     builder.prefix(".tess-");
     builder
 }
 
-/// The permissions of a new file or folder; the user's mask takes away from them.
+/// The permissions of a new file or folder; the user's mask removes some of them.
 #[cfg(unix)]
 pub(super) fn permissions(mode: u32) -> fs::Permissions {
     std::os::unix::fs::PermissionsExt::from_mode(mode)
 }
 
-/// A file beside the one that it becomes when it is whole.
+/// A temporary file next to the path that it will take when it is complete.
 #[derive(Debug)]
 pub(crate) struct Partial {
     file: NamedTempFile,
@@ -99,7 +99,7 @@ pub(crate) struct Partial {
 }
 
 impl Partial {
-    /// For a path that is no symbolic link. Errors: the folder cannot be written.
+    /// Begins a file for a path that is not a symbolic link. Errors: the folder cannot be written.
     pub(super) fn of(path: &Path) -> io::Result<Self> {
         let replaced = path.metadata().ok();
         let (file, guard) = ending::guarded(|| {
@@ -122,13 +122,13 @@ impl Partial {
         builder.permissions(old.clone().unwrap_or_else(|| permissions(0o666)));
         let file = builder.tempfile_in(folder)?;
         if let Some(old) = old {
-            // The mask may have taken bits away that the file had.
+            // The user's mask may have removed permissions that the old file had.
             file.as_file().set_permissions(old)?;
         }
         Ok(file)
     }
 
-    /// Puts the whole file in its place. Errors: it cannot be put there; then it is removed.
+    /// Moves the complete file into its place. Errors: it cannot be moved; then it is removed.
     pub(super) fn persist(self) -> io::Result<()> {
         persist(self.file, &self.path)
     }
@@ -139,8 +139,8 @@ fn persist(file: NamedTempFile, path: &Path) -> io::Result<()> {
     file.persist(path).map(drop).map_err(|error| error.error)
 }
 
-/// Windows replaces no file that another program looks at: that takes a moment, and may happen
-/// again.
+/// Windows does not replace a file that another program is examining. That lasts only a moment, but
+/// may recur.
 #[cfg(windows)]
 #[expect(clippy::disallowed_methods, reason = "nothing tells when the other program is done")]
 fn persist(mut file: NamedTempFile, path: &Path) -> io::Result<()> {
@@ -166,8 +166,8 @@ impl Write for Partial {
     }
 }
 
-/// Makes a file of this content, unless there is a file already. Errors: the folder cannot be
-/// written, or the path is none of a file.
+/// Creates a file with this content, unless a file exists already. Errors: the folder cannot be
+/// written, or the path does not lead to a file.
 pub(crate) fn create_unless_there(path: &Path, content: &[u8]) -> io::Result<()> {
     let mut partial = Partial::of(&follow(path)?)?;
     partial.write_all(content)?;
@@ -177,12 +177,12 @@ pub(crate) fn create_unless_there(path: &Path, content: &[u8]) -> io::Result<()>
     }
 }
 
-/// An output that is written in any order and put in its place at the end.
+/// An output that can be written in any order, and is moved into its place at the end.
 #[derive(Debug)]
 pub(crate) enum OutputFile {
-    /// Becomes the file.
+    /// A file that will take its place.
     Partial(Partial),
-    /// Copied to stdout at the end, or to a pipe or a device that is open already.
+    /// A file that is copied at the end: to stdout, or to a pipe or a device that is already open.
     Spool(File, Option<File>),
 }
 
@@ -199,8 +199,8 @@ impl OutputFile {
         }
     }
 
-    /// Whether a path leads to no pipe, no device and not to stdout. It opens nothing, as opening a
-    /// pipe waits for its reader.
+    /// Whether a path leads neither to a pipe nor to a device nor to stdout. Nothing is opened,
+    /// because opening a pipe waits for its reader.
     pub(crate) fn would_be_file(path: &Path) -> bool {
         !matches!(Destination::of(path), Ok(Destination::Stdout | Destination::Stream(_)))
     }
@@ -212,13 +212,13 @@ impl OutputFile {
         }
     }
 
-    /// Writes bytes to a place of the file, from any thread. Errors: they cannot be written.
+    /// Writes bytes at an offset of the file, from any thread. Errors: they cannot be written.
     pub(crate) fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<()> {
         write_at(self.file(), bytes, offset)
     }
 
-    /// Puts the whole output in its place. Errors: it cannot be put there; then nothing is, or what
-    /// was there before.
+    /// Moves the complete output into its place. Errors: it cannot be moved; then the place is as
+    /// it was before.
     pub(crate) fn finish(self) -> io::Result<()> {
         match self {
             Self::Partial(partial) => partial.persist(),
@@ -245,8 +245,8 @@ fn write_at(file: &File, mut bytes: &[u8], mut offset: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// A file for what goes to a pipe in the end. Errors: the folder for temporary files cannot be
-/// written.
+/// A temporary file for an output that finally goes to a pipe. Errors: the folder for temporary
+/// files cannot be written.
 fn spool() -> Result<File, Failure> {
     let folder = std::env::temp_dir();
     tempfile::tempfile_in(&folder)

@@ -1,4 +1,4 @@
-//! A new folder of files, there whole or not at all.
+//! A new folder of files that exists whole or not at all.
 
 use super::ending::{self, Guard};
 use super::file::{folder_of, temporary};
@@ -8,7 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// A folder beside the one that it becomes when all its files are written.
+/// A temporary folder next to the path that it will take when all its files are written.
 #[derive(Debug)]
 pub(crate) struct NewFolder {
     folder: TempDir,
@@ -17,7 +17,7 @@ pub(crate) struct NewFolder {
     _guard: Guard,
 }
 
-/// Refuses `-` where a folder is needed. Errors: the path is `-`.
+/// Refuses `-` as the path of a folder. Errors: the path is `-`.
 pub(crate) fn refuse_stdout(folder: &Path, why: &str) -> Result<(), Failure> {
     if folder.as_os_str() == "-" {
         return Err(Failure::bad_input(format!("{why}: give a folder with -o")));
@@ -26,8 +26,8 @@ pub(crate) fn refuse_stdout(folder: &Path, why: &str) -> Result<(), Failure> {
 }
 
 impl NewFolder {
-    /// Begins a folder, and makes those that it lies in. Errors: it is there already, or cannot be
-    /// made.
+    /// Begins a folder, and creates its parent folders. Errors: the path exists already, or the
+    /// folder cannot be created.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         if path.symlink_metadata().is_ok() {
             return Err(io::Error::new(
@@ -38,10 +38,10 @@ impl NewFolder {
         Self::replacing(path).map(|new| Self { replaces: false, ..new })
     }
 
-    /// Begins a folder that takes the place of one with everything in it.
+    /// Begins a folder that will replace another one with all its contents.
     ///
     /// # Errors
-    /// It cannot be made.
+    /// The folder cannot be created.
     pub(crate) fn replacing(path: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder_of(path))?;
         let (folder, guard) = ending::guarded(|| {
@@ -56,12 +56,12 @@ impl NewFolder {
         Ok(Self { folder, becomes: path.to_owned(), replaces: true, _guard: guard })
     }
 
-    /// Where its files are written.
+    /// The path at which its files are written.
     pub(crate) fn path(&self) -> &Path {
         self.folder.path()
     }
 
-    /// Puts the whole folder in its place. Errors: it cannot be put there; then it is removed.
+    /// Moves the complete folder into its place. Errors: it cannot be moved; then it is removed.
     pub(crate) fn finish(mut self) -> io::Result<()> {
         let aside = temporary().tempdir_in(folder_of(&self.becomes))?;
         let old = aside.path().join("old");

@@ -1,20 +1,20 @@
-//! The form of a file: as asked for, or as its name says, never against its name.
+//! The format of a file: the requested one, or the one that its name implies. The two must agree.
 
 use crate::failure::Failure;
 use clap::ValueEnum;
 use std::path::Path;
 
-/// A form that files can have; its names on the command line are extensions of files.
+/// A format of files; its names on the command line are file extensions.
 pub(crate) trait FileForm: ValueEnum + PartialEq {
-    /// The form of a file without a telling name; `None` if it must be asked for.
+    /// The format of a file whose name implies none; `None` if a format must then be requested.
     const DEFAULT: Option<Self>;
 
-    /// Extensions that belong to [`Self::DEFAULT`] but that files of other forms may have too.
+    /// Extensions that belong to [`Self::DEFAULT`], but that files of other formats may have too.
     const COMMON_EXTENSIONS: &'static [&'static str] = &[];
 }
 
-/// The form that is asked for, else the form that the file's name says, else the default. Errors:
-/// the name says another form than the one asked for, or one that there is not.
+/// The requested format, or the one that the file's name implies, or the default. Errors: the name
+/// implies another format than the requested one, or an unknown one.
 pub(crate) fn choose<F: FileForm>(asked: Option<F>, file: &Path) -> Result<F, Failure> {
     let extension = file.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let extension = extension.unwrap_or_default();
@@ -30,14 +30,14 @@ pub(crate) fn choose<F: FileForm>(asked: Option<F>, file: &Path) -> Result<F, Fa
         (Some(form), _, _) | (None, Some(form), _) => Ok(form),
         (None, None, Some(form)) if is_common || is_no_name(file) => Ok(form),
         (None, None, _) => Err(Failure::bad_input(format!(
-            "cannot tell what to write to {}: name it .{}, or say --format",
+            "cannot tell what to write to {}: name it .{}, or use --format",
             file.display(),
             names::<F>().join(", .")
         ))),
     }
 }
 
-/// Stdout, pipes and devices have names that say nothing.
+/// Whether the path is that of stdout, a pipe or a device, whose name implies no format.
 fn is_no_name(file: &Path) -> bool {
     file.starts_with("/dev") || file.starts_with("/proc")
 }

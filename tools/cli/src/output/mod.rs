@@ -1,8 +1,8 @@
-//! Where results go: stdout, a pipe, or a file that is there whole or not at all.
+//! Where results go: stdout, a pipe, or a file that exists whole or not at all.
 //!
-//! [`mod@file`] is the one way in which commands write files, [`stdout()`] the one way to stdout.
-//! Both name [`ending`] what must not stay behind when a signal ends the process. [`form`] chooses
-//! the form of a file by its name. [`earlier`] removes what a run before this one left.
+//! Commands write files only through [`mod@file`], and stdout only through [`stdout()`]. Both
+//! register with [`ending`] what a signal must not leave behind. [`form`] chooses a file's format
+//! by its name. [`earlier`] removes the results of an earlier run.
 
 mod distinct;
 mod earlier;
@@ -35,14 +35,14 @@ pub(crate) struct OutputArgs {
 }
 
 impl OutputArgs {
-    /// Writes `content` to stdout or to the file. Errors: the place cannot be written; a file that
-    /// was there is then as it was.
+    /// Writes `content` to stdout or to the file. Errors: the place cannot be written; an earlier
+    /// file there is then unchanged.
     pub(crate) fn write(&self, content: &[u8]) -> Result<(), Failure> {
         self.stream(|out| out.write_all(content))
     }
 
-    /// Writes to stdout or to the file what `content` writes, as it comes. Errors: the place cannot
-    /// be written; a file that was there is then as it was.
+    /// Writes the output of `content` to stdout or to the file as it comes. Errors: the place
+    /// cannot be written; an earlier file there is then unchanged.
     pub(crate) fn stream(
         &self,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -67,8 +67,8 @@ impl OutputArgs {
         write().map_err(|error| Failure::write(&self.file, error))
     }
 
-    /// Refuses a place that cannot be written, before long work for it. Errors: as
-    /// [`OutputArgs::write`] would; but a pipe is not opened, which waits for its reader.
+    /// Refuses a place that cannot be written, before long work begins. Errors: those of
+    /// [`OutputArgs::write`]. A pipe is not opened, because that would wait for its reader.
     pub(crate) fn require_writable(&self) -> Result<(), Failure> {
         let attempt = || match Destination::of(&self.file)? {
             Destination::Stdout | Destination::Stream(_) => Ok(()),
@@ -87,42 +87,42 @@ impl OutputArgs {
         matches!(Destination::of(&self.file), Ok(Destination::Stdout))
     }
 
-    /// Refuses to write bytes that are no text to a terminal. Errors: the result goes to stdout,
-    /// and that is a terminal.
+    /// Refuses to write binary data to a terminal. Errors: the result goes to stdout, and stdout is
+    /// a terminal.
     pub(crate) fn refuse_terminal(&self, what: &str) -> Result<(), Failure> {
         if self.is_stdout() && io::stdout().is_terminal() {
             let message =
-                format!("{what} is no text for a terminal: add -o FILE, or redirect stdout");
+                format!("{what} cannot be shown on a terminal: add -o FILE, or redirect stdout");
             return Err(Failure::bad_input(message));
         }
         Ok(())
     }
 }
 
-/// Stdout, buffered. It must be flushed, or errors are lost.
+/// Buffered stdout. Flush it, or errors are lost.
 ///
-/// A write fails with [`io::ErrorKind::BrokenPipe`] when the reader has left;
-/// [`Failure::write`] makes that a quiet end.
+/// A write fails with [`io::ErrorKind::BrokenPipe`] when the reader has left; [`Failure::write`]
+/// turns that into a quiet end.
 pub(crate) fn stdout() -> BufWriter<StdoutLock<'static>> {
     BufWriter::new(io::stdout().lock())
 }
 
-/// A progress bar over `length` of what `unit` names, on stderr if that is a terminal. Its message,
-/// if one is set, says what is being done.
+/// A progress bar over `length` elements named `unit`, on stderr if that is a terminal. Its
+/// message, if one is set, shows the current work.
 pub(crate) fn progress(length: u64, unit: &str) -> ProgressBar {
     let template = format!("{{bar:30}} {{human_pos}}/{{human_len}} {unit}, {{eta}} left  {{msg}}");
     let style = ProgressStyle::with_template(&template);
     let bar = ProgressBar::new(length);
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    // The bar ticks from a thread, and panics if there is none.
+    // The bar ticks from a thread of its own, and panics if none can be started.
     if !bar.is_hidden() && startable(1) == 1 {
         bar.enable_steady_tick(Duration::from_millis(200));
     }
     bar
 }
 
-/// Prints results to stdout as soon as they are ready, with the progress bar out of their way.
-/// Errors: stdout cannot be written.
+/// Prints results to stdout as soon as they are ready, without disturbing the progress bar. Errors:
+/// stdout cannot be written.
 pub(crate) fn print(bar: &ProgressBar, text: &str) -> Result<(), Failure> {
     let print = || {
         let mut out = stdout();
@@ -132,7 +132,7 @@ pub(crate) fn print(bar: &ProgressBar, text: &str) -> Result<(), Failure> {
     bar.suspend(print).map_err(|error| Failure::write(Path::new("-"), error))
 }
 
-/// A number with what it counts: `1 point`, `2 points`.
+/// A number with its noun: `1 point`, `2 points`.
 pub(crate) fn counted(number: u64, one: &str) -> String {
     let ending = match number {
         1 => "",
@@ -142,20 +142,20 @@ pub(crate) fn counted(number: u64, one: &str) -> String {
     format!("{number} {one}{ending}")
 }
 
-/// Says something on stderr that is no part of the result.
+/// Prints a message that is not part of the result to stderr.
 pub(crate) fn note(message: &str) {
-    // A closed stderr does not change the result.
+    // A closed stderr does not affect the result.
     _ = writeln!(io::stderr(), "tess: {message}");
 }
 
-/// Characters of the longest line of JSON that [`json`] joins.
+/// The length, in characters, of the longest line of JSON that [`json`] makes by joining lines.
 const LONGEST_ROW: usize = 400;
 
-/// A document as indented JSON with a newline at its end. An object or a list that has no other
-/// inside is one line.
+/// A document as indented JSON with a newline at its end. An object or list that contains no other
+/// is on one line.
 ///
 /// # Panics
-/// If the document has a map whose keys are not text; none of this program's has.
+/// If the document has a map whose keys are not text; no document of this program has one.
 pub(crate) fn json(document: &impl serde::Serialize) -> String {
     let pretty = serde_json::to_string_pretty(document).expect("keys are text");
     let mut lines: Vec<String> = Vec::new();

@@ -3,17 +3,17 @@
 
     judge.py TESS FOLDER... [--validator FOLDER] [--made] [--limit SECONDS]
 
-Nothing here is shared with the program: pygltflib and numpy read files and compute
-poses, and Khronos' glTF validator checks outputs if FOLDER has it as an npm package. A file must be read (exit code 0) or
-refused (2); with --made, those whose name begins with `refused-` must be refused and all others read. Of each output:
+No code here is shared with the program: pygltflib and numpy read files and compute poses, and Khronos' glTF validator
+checks outputs if it is installed in FOLDER as an npm package. A file must be read (exit code 0) or refused (2); with
+--made, files whose names begin with `refused-` must be refused and all others read. For each output:
 
 - it loads, its numbers are finite, its normals have unit length;
 - at factor 1 its points are the points of the posed input, each within 1e-5 of the diagonal;
-- at factor 3, flat and curved, it has at most three open edges for each of the input's;
-- its triangles look to the side of their normals: flat, and with --made curved too;
+- at factor 3, flat and curved, it has at most three open edges for each open edge of the input;
+- its triangles face the side of their normals: flat ones, and with --made also curved ones;
 - its picture is not blank.
 
-Exit code: 0 all right, 1 complaints, 2 no model was found.
+Exit code: 0 if all is right, 1 if there are complaints, 2 if no model was found.
 """
 
 import argparse
@@ -35,7 +35,7 @@ MOST_TRIANGLES = 400_000
 
 
 class Mesh:
-    """Triangles of an output: positions of corners, and their normals."""
+    """The triangles of an output: the positions of their corners, and the normals there."""
 
     def __init__(self, path):
         file = Gltf(path)
@@ -56,14 +56,14 @@ def diagonal(triangles):
 
 
 def solid(triangles):
-    """The triangles that have an area, as far as rounding tells."""
+    """The triangles that have an area, within rounding."""
     a, b, c = (triangles[:, k].astype(float) for k in range(3))
     sides = np.linalg.norm(b - a, axis=1) * np.linalg.norm(c - a, axis=1)
     return triangles[np.linalg.norm(areas(triangles), axis=1) > 2.0**-22 * sides]
 
 
 def open_edges(triangles):
-    """Edges with an odd number of triangles, after joining points of equal bits."""
+    """The number of edges that belong to an odd number of triangles, after points with equal bits are joined."""
     points = (triangles.reshape(-1, 3) + np.float32(0)).view(np.uint32)
     _, numbers = np.unique(points, axis=0, return_inverse=True)
     corners = numbers.reshape(-1, 3)
@@ -84,7 +84,7 @@ def judge_numbers(mesh):
 
 
 def judge_pose(mesh, expected):
-    """Both sets of points, each within a tolerance of the other."""
+    """Checks that each point of one set is within a tolerance of the other set."""
     reach = max(1e-5 * diagonal(expected), 1e-30)
     complaints = []
     kept = solid(expected).reshape(-1, 3)
@@ -104,7 +104,7 @@ def judge_cracks(mesh, expected):
 
 
 def judge_sides(mesh):
-    """Flat triangles look where their normals point."""
+    """Checks that triangles face the direction in which their normals point."""
     normals = areas(mesh.positions)
     lengths = np.linalg.norm(normals, axis=1)
     large = lengths > 1e-4 * lengths.max()
@@ -127,7 +127,7 @@ class Run:
         self.reason = None
 
     def mesh(self, name, words):
-        """The output's path; None, with the reason, if the file is refused."""
+        """The output's path; None if the file is refused, and then `reason` is set."""
         out = self.folder / name
         command = [self.tess, "mesh", str(self.path), *words.split(), "-o", str(out)]
         done = subprocess.run(command, capture_output=True, text=True, timeout=self.limit, check=False)
@@ -175,7 +175,7 @@ Promise.all(process.argv.slice(1).map(async (path) => {
 
 
 def validator(folder):
-    """A function that gives the validator's errors in files; one that gives none without a folder."""
+    """A function that returns the validator's errors in files; without a folder, one that returns none."""
     if folder is None:
         return lambda paths: []
 
@@ -188,7 +188,7 @@ def validator(folder):
 
 
 def check_judges():
-    """Every judge sees a fault that is planted for it."""
+    """Checks that every judge detects a fault that is planted for it."""
     square = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]], dtype=np.float32)
     mesh = Mesh.__new__(Mesh)
 

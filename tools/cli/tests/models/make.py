@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes small models of every kind that people have: make.py FOLDER.
+"""Makes small models of every common kind: make.py FOLDER.
 
-Files whose name begins with `refused-` must be refused by the program; it must read all others.
+The program must refuse the files whose names begin with `refused-` and read all others.
 """
 
 import base64
@@ -13,7 +13,7 @@ import sys
 
 
 class Gltf:
-    """A glTF file under construction."""
+    """A glTF file that is being built."""
 
     def __init__(self):
         self.data = b""
@@ -27,7 +27,7 @@ class Gltf:
         return self.json["meshes"][0]["primitives"][0]
 
     def accessor(self, rows, code="f", kind="VEC3", target=None, stride=None, **more):
-        """Adds an accessor of rows of numbers with a code of `struct`, and returns its number."""
+        """Adds an accessor of rows of numbers, packed with a code of `struct`, and returns its number."""
         size = struct.calcsize(code)
         row = stride or len(rows[0]) * size
         packed = [struct.pack(f"<{len(r)}{code}", *r).ljust(row, b"\0") for r in rows]

@@ -1,4 +1,4 @@
-"""The triangles of a model file as its standard poses it, by pygltflib and numpy."""
+"""The triangles of a model file, posed as its standard demands, computed with pygltflib and numpy."""
 
 import base64
 import json
@@ -15,14 +15,14 @@ SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
 def posed_triangles(path):
-    """Corners of triangles, float32 of shape (n, 3, 3)."""
+    """The corners of the triangles, float32 of shape (n, 3, 3)."""
     if path.suffix.lower() == ".obj":
         return obj_triangles(path)
     return Gltf(path).triangles()
 
 
 def obj_triangles(path):
-    """OBJ faces as fans, which have the corners and border of any other triangles of them."""
+    """OBJ faces as fans of triangles, which have the same corners and border as any other triangulation."""
     positions, triangles = [], []
     for line in path.read_text(encoding="utf-8-sig", errors="replace").splitlines():
         words = line.split("#")[0].split()
@@ -36,7 +36,7 @@ def obj_triangles(path):
 
 
 def document(path):
-    """The JSON of a glTF file, of which pygltflib leaves out the nodes' weights."""
+    """The JSON of a glTF file, because pygltflib leaves out the nodes' weights."""
     data = path.read_bytes()
     if data[:4] == b"glTF":
         data = data[20 : 20 + struct.unpack("<I", data[12:16])[0]]
@@ -44,7 +44,7 @@ def document(path):
 
 
 class Gltf:
-    """A glTF file whose buffers are loaded."""
+    """A glTF file with its buffers loaded."""
 
     def __init__(self, path):
         self.gltf = pygltflib.GLTF2().load(str(path))

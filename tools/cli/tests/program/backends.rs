@@ -1,5 +1,5 @@
-//! The backends behind the program: exact on the recorded results, and told when they are not
-//! there.
+//! Tests of the program's backends: the simd and gpu backends reproduce the recorded results
+//! exactly, and a missing backend is reported.
 
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 use crate::support::tess_with_environment;
@@ -22,7 +22,7 @@ fn simd_equals_every_recorded_result() {
     }
 }
 
-/// A level that this machine lacks ends with exit code 3, not with another level.
+/// A CPU level that this machine lacks ends with exit code 3; no other level is used in its place.
 #[test]
 fn simd_at_every_cpu_level() {
     for level in Level::ALL {
@@ -47,7 +47,7 @@ fn gpu_equals_recorded_patches() {
     }
 }
 
-/// With 16-bit indices, numbered patch by patch.
+/// Compares 16-bit indices patch by patch; each patch numbers its points from 0.
 #[test]
 fn narrow_indices_equal_recorded_patches() {
     for backend in narrow() {
@@ -62,7 +62,7 @@ fn narrow() -> &'static [&'static str] {
     if cfg!(feature = "gpu") { &["simd", "gpu"] } else { &["simd"] }
 }
 
-/// A recorded index that is one too high.
+/// A recorded index that is too high by one is reported.
 #[test]
 fn narrow_indices_that_differ() {
     let recorded = std::fs::read_to_string(format!("{GOLDEN}/cases.txt")).expect("recorded");
@@ -78,7 +78,7 @@ fn narrow_indices_that_differ() {
     }
 }
 
-/// The model has no such choice, with which a device's listings are compared.
+/// The model, with which a device's listings are compared, cannot choose the size of its indices.
 #[test]
 fn narrow_indices_where_there_are_none() {
     let patch = tess("patch quad --outer 3,4,5,6 --inner 4,7").stdout;
@@ -90,7 +90,7 @@ fn narrow_indices_where_there_are_none() {
     }
 }
 
-/// More shards than units: done, and said.
+/// A shard without units succeeds and says so.
 #[test]
 fn a_shard_without_units() {
     let subjects = "--subject transitions --subject interiors";
@@ -101,7 +101,7 @@ fn a_shard_without_units() {
     tess(&format!("verify --backend simd {subjects} --shard 3/40")).exits(0).says_nothing();
 }
 
-/// 561 million locations and 336 million factors: a minute or two on a software driver.
+/// 561 million locations and 336 million factors: one or two minutes on a software driver.
 #[cfg(feature = "gpu")]
 #[test]
 fn gpu_equals_recorded_stages() {
@@ -110,14 +110,14 @@ fn gpu_equals_recorded_stages() {
     }
 }
 
-/// Without a driver there is no adapter: exit code 3 and the next step, never a pass.
+/// Without a driver there is no adapter: exit code 3 and advice on what to do next, never a pass.
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 #[test]
 fn no_adapter_is_reported() {
     let none = [
         ("VK_DRIVER_FILES", "/nonexistent"),
         ("VK_ICD_FILENAMES", "/nonexistent"),
-        // OpenGL would take its place.
+        // OpenGL would be used instead.
         ("WGPU_BACKEND", "vulkan"),
     ];
     let run = tess_with_environment(&format!("check {GOLDEN}/cases.txt --backend gpu"), &none);
@@ -136,7 +136,7 @@ fn opengl_equals_recorded_cases() {
     tess_with_environment(bench, &gl).prints(" (gl, "); // the device
 }
 
-/// The same vectors from the generator through every backend, without a file.
+/// Compares generated vectors in a backend, without a file.
 #[test]
 fn verify_compares_what_it_says() {
     let run = tess("verify --backend simd --subject transitions --subject interiors");
@@ -173,7 +173,7 @@ fn gpu_random_patches_are_equal() {
     random_patches_are_equal("gpu", 5000);
 }
 
-/// Words that exclude each other: exit code 2 and why.
+/// Options that exclude each other: exit code 2 and the reason.
 #[test]
 fn verify_refuses_what_does_not_go_together() {
     for (words, why) in [
@@ -187,11 +187,12 @@ fn verify_refuses_what_does_not_go_together() {
     }
 }
 
-/// One part in 16384 of all binary32 in all partitionings: zero, NaNs and negatives among them.
+/// One part in 16384 of all binary32 numbers in all partitionings, including zero, NaNs and
+/// negative numbers.
 fn factors_are_equal(backend: &str) {
     for part in [1, 3000, 8191, 8193, 16384] {
         let words = format!("verify --backend {backend} --subject factors --shard {part}/16384");
-        tess(&words).exits(0).prints(" 1048576 "); // a unit was compared
+        tess(&words).exits(0).prints(" 1048576 "); // one unit was compared
     }
 }
 

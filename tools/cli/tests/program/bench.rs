@@ -1,4 +1,4 @@
-//! `tess bench`: the keys that it prints, and its errors. No time is asserted.
+//! Tests of `tess bench`: the keys that it prints, and its errors. No time is asserted.
 
 use crate::support::tess;
 use serde_json::Value;
@@ -55,8 +55,8 @@ fn bad_options_say_what_would_be_right() {
     }
 }
 
-/// Frames repeat a workload until a call has their output, and what is timed is still compared with
-/// the model.
+/// A workload is repeated as frames until one call produces their output, and what is timed is
+/// still compared with the model.
 #[test]
 fn frames() {
     let words = "bench --backend simd --workload uniform-2 --working-set cache --samples 1 --json";

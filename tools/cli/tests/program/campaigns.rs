@@ -1,5 +1,5 @@
-//! Campaigns: reports of shards, `JUnit` XML, `tess merge`, shards from the environment, known
-//! differences.
+//! Tests of campaigns: reports of shards, `JUnit` XML, `tess merge`, shards from the environment,
+//! and known differences.
 
 use crate::support::{Folder, Run, command, directory, shell, tess, tess_with_input};
 use serde_json::Value;
@@ -60,7 +60,7 @@ fn reports_say_what_was_run_and_found() {
     );
 }
 
-/// The stage, the configuration and the case line of a planted difference.
+/// The report contains the stage, the configuration and the case line of a planted difference.
 #[test]
 fn differences_are_in_the_report() {
     let folder = directory("report-differences");
@@ -86,7 +86,7 @@ fn differences_are_in_the_report() {
     assert!(xml.contains(&failing) && xml.contains(&case), "{xml}");
 }
 
-/// A missing answer is a case of the report, in a part of its own, with the case that was asked.
+/// The report has each missing answer in a part of its own, with the case that was asked.
 #[test]
 fn missing_answers_are_in_the_report() {
     let folder = directory("report-missing");
@@ -125,7 +125,7 @@ fn failed_runs_have_a_report() {
     assert!(xml.contains(" errors=\"1\" ") && xml.contains("<error message=\"failed\""), "{xml}");
 }
 
-/// A report of an earlier run does not look like the result of one that was killed.
+/// The report of an earlier run is not mistaken for the result of one that was killed.
 #[cfg(unix)]
 #[test]
 fn interrupted_and_killed_runs() {
@@ -153,7 +153,7 @@ fn places_of_reports_are_tried_first() {
     for (option, why) in [
         ("--report /nowhere/r.jsonl", "cannot write /nowhere/r.jsonl"),
         ("--junit /nowhere/r.xml", "cannot write /nowhere/r.xml"),
-        ("--report /dev/null", "--report /dev/null is no file"),
+        ("--report /dev/null", "--report /dev/null is not a regular file"),
         ("--report one --junit one", "are the same file"),
         ("--report one -o one", "are the same file"),
         ("--report new/", "cannot write new/: is a directory"),
@@ -204,7 +204,7 @@ fn what_is_missing_or_duplicated() {
     run.exits(2).says("there is no r4.jsonl"); // a file that is not there
 }
 
-/// Each of these differs from the campaign in one thing.
+/// Each of these reports differs from the campaign in one respect.
 #[test]
 fn reports_of_other_campaigns() {
     let folder = directory("merge-strangers");
@@ -314,7 +314,7 @@ fn shards_from_the_environment() {
     run.exits(2).says("cannot be cut into shards"); // it cannot be cut
 }
 
-/// A file is the shard that its first line notes.
+/// A file whose first line names a shard is that shard.
 #[test]
 fn shards_of_files() {
     let folder = directory("shards-files");
@@ -335,8 +335,8 @@ fn shards_of_files() {
     run.exits(2).says("one says shard 3/4, the other shard 2/4 (from FILE)");
 }
 
-/// Answers that name how their cases were made are of one campaign only if those are the same
-/// cases.
+/// Answers whose files state how their cases were made belong to one campaign only if they answer
+/// the same cases.
 #[test]
 fn shards_of_other_cases() {
     let folder = directory("shards-of-other-cases");
@@ -368,7 +368,7 @@ fn shards_of_other_cases() {
     tess_in(&folder, "merge r1.jsonl r2.jsonl").exits(2).prints("asked level-version is [\"2\"]");
 }
 
-/// A deviation that is known is no mismatch; another one is, and one that is gone is named.
+/// A known deviation is not a mismatch; an unknown one is, and one that no longer occurs is named.
 #[test]
 fn known_differences() {
     let folder = directory("known");
@@ -389,13 +389,14 @@ fn known_differences() {
     assert_eq!((&known["entries"], &known["different"]), (&2.into(), &1.into()), "{known}");
     assert_eq!(known["gone"][0], equal, "{known}");
     fs::write(folder.join("other.txt"), format!("{equal}\n")).expect("written");
-    tess_in(&folder, "check device.txt --known other.txt").exits(1); // it is another case
+    tess_in(&folder, "check device.txt --known other.txt").exits(1); // another case
     tess_in(&folder, "verify --backend simd --random 2 --known lines.txt").exits(0);
     fs::write(folder.join("empty.txt"), "").expect("written");
-    tess_in(&folder, "check device.txt --known empty.txt").exits(2).says("there is no case"); // no case
+    tess_in(&folder, "check device.txt --known empty.txt").exits(2).says("there is no case"); // the file has none
 }
 
-/// A line with terms excuses what it expects, until its day; one that is not met is a difference.
+/// A line with terms excuses the difference that it expects, until it expires; a line that does not
+/// apply is a mismatch.
 #[test]
 fn known_differences_have_terms() {
     let folder = directory("known_terms");
@@ -421,7 +422,7 @@ fn known_differences_have_terms() {
         (&(right.clone() + &terms(other, "*")), "", 1, "k.txt:2: is unused"),
         (&(right.clone() + &terms(other, "*")), "--shard 1/2", 0, ""),
         (&(right.clone() + "rule cover | 1 | ada | 9999-12-31 | not judged here"), "", 0, ""),
-        (&(right.clone() + &case), "", 2, "k.txt:2: subject: stands in line 1 too"),
+        (&(right.clone() + &case), "", 2, "k.txt:2: subject: is also on line 1"),
     ] {
         fs::write(folder.join("k.txt"), known).expect("written");
         let run =
@@ -447,15 +448,15 @@ fn known_differences_have_terms() {
     tess_in(&folder, "merge r.jsonl").exits(1).prints("\nbaseline ");
 }
 
-/// When the device is mended, the baseline that is written anew has no record; it excuses nothing
-/// and is no error.
+/// After the device is fixed, a newly written baseline has no record: it excuses nothing and is not
+/// an error.
 #[test]
 fn baselines_that_became_empty() {
     let folder = directory("baselines_that_became_empty");
     let (faulty, _) = faulty_listing();
     fs::write(folder.join("device.txt"), &faulty).expect("written");
     let made = "gen --level 3 --count 5 --format listing -o right.txt";
-    tess_in(&folder, made).exits(0); // a device that is mended
+    tess_in(&folder, made).exits(0); // a fixed device
     tess_in(&folder, "check right.txt --failures known.txt").exits(0);
     fs::write(folder.join("remarks.txt"), "# all mended\n").expect("written");
     for baseline in ["known.txt", "remarks.txt"] {

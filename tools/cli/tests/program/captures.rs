@@ -1,4 +1,5 @@
-//! `tess gen`, `check` and `patch` with what a device was asked, and with what it got wrong.
+//! Tests of `tess gen`, `check` and `patch` with the cases that a device was asked, and with its
+//! wrong answers.
 
 use crate::support::{directory, tess, tess_with_input};
 use std::fs::{read_to_string, write};
@@ -19,7 +20,8 @@ fn filters_select_configurations() {
     let (whole, some) = (cases(""), cases("--output line --split center"));
     assert!(some.len() > 60 && some.len() < whole.len(), "{} of {}", some.len(), whole.len());
     assert!(some.iter().all(|row| row.starts_with("quad,integer,line,center,")), "{some:?}");
-    // A selection is a level of its own: it asks more of its configurations than a wider one does.
+    // A selection has a level of its own, which asks more of its configurations than the level of a
+    // wider selection does.
     let chosen = whole.iter().filter(|row| row.starts_with("quad,integer,line,center,"));
     assert!(chosen.count() < some.len(), "everything is asked of the one configuration");
     let header = tess(&format!("{all} --output line --split center")).stdout;
@@ -68,10 +70,11 @@ fn failing_records_are_kept_and_can_be_asked_again() {
     tess_with_input("check -", &asked.stdout).exits(0); // the model is right
     tess_with_input(&format!("check - --failures {failing}"), &right).exits(0);
     tess(&format!("check {failing}")).exits(2); // no record is left
-    tess_with_input("check - --failures -", &right).exits(2); // no file
+    tess_with_input("check - --failures -", &right).exits(2); // not a file
 }
 
-/// A record that answers another case and is wrong is kept; one that is right for its case is not.
+/// A record that answers another case wrongly is kept; one that answers its own case correctly is
+/// not.
 #[test]
 fn failing_records_that_answer_other_cases() {
     let folder = directory("astray");
@@ -102,7 +105,7 @@ fn a_device_that_turns_the_other_way_reads_one_line() {
     assert!(run.stdout.ends_with("and 1 more\n2 cases, 2 mismatches\n"), "{}", run.stdout);
 }
 
-/// A freedom that would accept every difference is named, with its option.
+/// An option that would accept every difference is named.
 #[test]
 fn a_device_that_flushes_denormals_reads_the_option() {
     let listing = "# tess-vectors 1 kind=listings count=1 source=device\n\
@@ -138,7 +141,7 @@ fn a_patch_or_cases() {
     tess_with_input("patch --cases - --format json", TRI).exits(2).says("--format text");
 }
 
-/// Cases are tessellated as they come: this many would not fit the memory, and never end.
+/// Cases are tessellated as they arrive: this many would not fit into memory, and never end.
 #[cfg(unix)]
 #[test]
 fn cases_are_not_collected() {
@@ -159,7 +162,7 @@ fn cases_are_not_collected() {
     asking.join().expect("the pipe is closed");
 }
 
-/// A case that cannot be read leaves the file as it was.
+/// A case that cannot be read leaves the output file unchanged.
 #[test]
 fn a_wrong_case_writes_no_file() {
     let folder = directory("a_wrong_case_writes_no_file");
@@ -170,7 +173,7 @@ fn a_wrong_case_writes_no_file() {
     assert_eq!(read_to_string(&file).expect("readable"), "as it was");
 }
 
-/// Each freedom makes its own difference equal, and no other one.
+/// Each freedom accepts its own difference, and no other.
 #[test]
 fn every_freedom_is_used() {
     let listing = |case: &str, right: &str| {
@@ -179,8 +182,8 @@ fn every_freedom_is_used() {
     };
     let quad = "quad fractional_odd triangle_cw ruler 40a00000 40d00000 40e00000 40500000 40a80000";
     let culled = "tri integer triangle_cw ruler 00000000 40400000 40400000 40400000";
-    // A denormal that counts as zero; a factor halfway between two numbers that went to the other
-    // one; another leading vertex; a triangle that is not the model's.
+    // A denormal that counts as zero; a factor halfway between two numbers that was converted to
+    // the other one; another leading vertex; a triangle that the model does not have.
     let flushed = listing(&culled.replace("00000000", "00000001"), culled);
     let converted = listing(&format!("{quad} 40400020"), &format!("{quad} 40400040"));
     let whole = tess_with_input("patch --cases -", TRI).stdout;
@@ -193,7 +196,7 @@ fn every_freedom_is_used() {
     for (number, device) in [flushed, converted, turned, wrong].iter().enumerate() {
         tess_with_input("check -", device).exits(1);
         for (other, freedom) in freedoms.iter().enumerate() {
-            // Points alone have no leading vertex.
+            // Points have no leading vertex.
             let equal = other == number || (number, other) == (2, 3);
             let run = tess_with_input(&format!("check - {freedom}"), device);
             let code = Some(if equal { 0 } else { 1 });

@@ -1,4 +1,5 @@
-//! `tess check`: exit codes and messages for good, damaged and malformed files of every kind.
+//! Tests of `tess check`: exit codes and messages for good, damaged and malformed files of every
+//! kind.
 
 use crate::campaigns::json;
 use crate::support::{directory, tess, tess_with_input};
@@ -6,7 +7,7 @@ use std::fs::{read_to_string, write};
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden");
 
-/// The first `rows` rows of a golden file, with a header that says so.
+/// The first `rows` rows of a golden file, with a header of that count.
 fn excerpt(name: &str, rows: usize) -> String {
     let text = read_to_string(format!("{GOLDEN}/{name}")).expect("readable");
     let (header, rest) = text.split_once('\n').expect("a header");
@@ -15,7 +16,7 @@ fn excerpt(name: &str, rows: usize) -> String {
     format!("# tess-vectors 1 {kind} count={rows} source=tess\n{}\n", body.join("\n"))
 }
 
-/// One small excerpt of each CSV kind.
+/// A small excerpt of each CSV kind.
 fn excerpts() -> Vec<String> {
     ["patches.csv", "corners.csv", "sweep.csv", "uniform.csv", "place.csv", "hlsl.csv"]
         .map(|name| excerpt(name, 3))
@@ -34,7 +35,7 @@ fn equal_files() {
     }
 }
 
-/// A device that fails at every hundredth patch, with the cases of an older level.
+/// A device that fails on every hundredth patch, with the cases of an older level.
 #[test]
 fn devices_that_keep_something() {
     let listing = tess("patch tri --outer 3,3,3 --inner 3 --output triangle_cw").stdout;
@@ -66,7 +67,7 @@ fn devices_that_keep_something() {
     assert!(run.stdout.ends_with(end), "{}", run.stdout);
 }
 
-/// The last hex or decimal digit of the last row is changed.
+/// Changes the last hexadecimal or decimal digit of the last row.
 #[test]
 fn different_files() {
     for text in excerpts() {
@@ -79,7 +80,7 @@ fn different_files() {
     }
 }
 
-/// The printed command shows the difference again.
+/// The printed command reproduces the difference.
 #[cfg(unix)]
 #[test]
 fn differences_can_be_run_again() {
@@ -131,7 +132,7 @@ fn malformed_truncated_surplus_and_empty_files() {
     }
 }
 
-/// A file that is truncated gives no verdict; the differences before its end are shown.
+/// A truncated file has no verdict, but the differences before its end are shown.
 #[test]
 fn a_truncated_file_with_differences_is_malformed() {
     let text = excerpt("patches.csv", 1000).replace(",1", ",2");
@@ -148,7 +149,7 @@ fn missing_files_and_wrong_usage() {
     tess("check - --backend abacus").exits(2); // no such backend
 }
 
-/// Without --backend, listings are what a device gave, whatever it calls itself: a device may be
+/// Without --backend, listings are the output of a device, whatever name they give: a device may be
 /// named like this project, or copy the first line of `tess gen`.
 #[test]
 fn listings_of_a_device() {
@@ -170,7 +171,7 @@ fn listings_of_a_device() {
     }
 }
 
-/// A point that no primitive uses is seen in any order.
+/// A point that no primitive uses is detected in any order.
 #[test]
 fn unused_points_in_any_order() {
     let patch = tess("patch tri --outer 1,1,1 --inner 1").stdout;
@@ -182,20 +183,24 @@ fn unused_points_in_any_order() {
     run.prints("point (fffff, 12345): observed 1 times, expected 0 times (stage: location)");
 }
 
-/// Neither endless lines nor endless lists fill the memory.
+/// Neither endless lines nor endless lists fill up the memory.
 #[cfg(target_os = "linux")]
 #[test]
 fn endless_input() {
     let run = tess("check /dev/zero");
     run.exits(2).prints_nothing();
-    assert!(run.stderr.starts_with("tess: /dev/zero:1: line: longer than 4096"), "{}", run.stderr);
+    assert!(
+        run.stderr.starts_with("tess: /dev/zero:1: line: longer than the 4096"),
+        "{}",
+        run.stderr
+    );
     let patch = tess("patch tri --outer 1,1,1 --inner 1").stdout;
     let run = tess_with_input("check -", &patch.replacen("points 3", "points 99999999999", 1));
     run.exits(2).says("stdin:3: points: 99999999999 is too many");
 }
 
-/// Of many differences each stage and configuration has a line that counts them, and its smallest
-/// case is shown.
+/// With many differences, each stage and configuration has a line that counts them, and its
+/// smallest case is shown.
 #[test]
 fn many_differences() {
     let text = excerpt("patches.csv", 100);
@@ -216,7 +221,7 @@ fn many_differences() {
     assert!(run.stdout.ends_with(&ending), "{}", run.stdout);
 }
 
-/// A malformed answer ends the check, and what differs before it is shown all the same.
+/// A malformed answer ends the check, but the differences before it are still shown.
 #[test]
 fn malformed_answers() {
     let folder = directory("malformed-answers");

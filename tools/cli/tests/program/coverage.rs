@@ -1,21 +1,21 @@
-//! Coverage files are nothing but regular files; and what `tess coverage` makes of them.
+//! Tests of coverage files, which must be regular files, and of the reports of `tess coverage`.
 
 use crate::support::{directory, shell};
 use std::fs;
 
-/// A file that could fill the memory, or wait for ever, is refused.
+/// A file that could fill up the memory, or block forever, is refused.
 #[test]
 fn other_than_coverage_files() {
     let folder = directory("other_than_coverage_files");
     let setup = "mkfifo pipe; truncate -s 3G large.xml; printf '\\377' > bytes.xml; mkdir folder";
     shell(setup, &folder).exits(0);
     for (file, why) in [
-        ("/dev/zero", "is no regular file"),
-        ("pipe", "is no regular file"),
-        ("folder", "is no regular file"),
-        ("-", "is no regular file"),
-        ("large.xml", "large.xml: line 1: no coverage file"),
-        ("bytes.xml", "bytes.xml: line 1: no coverage file"),
+        ("/dev/zero", "is not a regular file"),
+        ("pipe", "is not a regular file"),
+        ("folder", "is not a regular file"),
+        ("-", "is not a regular file"),
+        ("large.xml", "large.xml: line 1: not a coverage file"),
+        ("bytes.xml", "bytes.xml: line 1: not a coverage file"),
         ("/nowhere/a.xml", "cannot write /nowhere/a.xml"),
     ] {
         let script = format!("ulimit -v 2000000; $TESS gen --level 3 --count 1 --coverage {file}");
@@ -25,15 +25,15 @@ fn other_than_coverage_files() {
     }
 }
 
-/// The columns of a table's line, found by its group.
+/// The columns of the table line of a group.
 fn row(report: &str, group: &str) -> Vec<String> {
     let is_it = |line: &&str| line.split_whitespace().nth(1) == Some(group);
     let row = report.lines().find(is_it).unwrap_or_default();
     row.split_whitespace().skip(2).map(str::to_owned).collect()
 }
 
-/// A device that has quads in one configuration alone: level 1 of it leaves bins that it could hit,
-/// and no other.
+/// A device that has quads in one configuration only: the bins that it cannot hit are excluded, and
+/// level 1 hits all others.
 #[test]
 fn what_a_device_cannot_hit_is_excluded() {
     let folder = directory("what_a_device_cannot_hit_is_excluded");
@@ -73,7 +73,7 @@ fn files_are_added_up_and_reported() {
     assert!(run.stdout.starts_with("all") && run.stdout.ends_with(" 100.0\n"), "{}", run.stdout);
 }
 
-/// `--complete` is for batches: holes and wrong exclusions are exit code 1, and so is nothing else.
+/// `--complete` is for batches: only holes and wrong exclusions end with exit code 1.
 #[test]
 fn completeness() {
     let folder = directory("completeness");
@@ -107,7 +107,7 @@ fn bad_coverage_files_are_refused() {
     for (words, why) in [
         ("", "required"),
         ("c.xml", "cannot read c.xml"),
-        ("no.txt", "no.txt: line 1: no coverage file"),
+        ("no.txt", "no.txt: line 1: not a coverage file"),
         ("a.xml a.xml", "a.xml is given twice"),
         ("a.xml b.xml", "b.xml is given twice"),
         ("a.xml --exclude no.txt", "--exclude no.txt: line 1: no bin begins with `midle`"),

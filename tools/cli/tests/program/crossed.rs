@@ -1,8 +1,8 @@
-//! Options crossed by pairs: what is taken gives the model's result, and what is refused names both
-//! options.
+//! Pairwise combinations of options: those that are accepted produce the model's result, and the
+//! refusal of the others names both options.
 //!
-//! A run takes 3 ms of processor time, with the GPU 200 and with a report 400. So rows have these
-//! two seldom.
+//! A run takes 3 ms of processor time, 200 ms with the GPU and 400 ms with a report, so few rows
+//! have these two.
 
 mod checks;
 
@@ -15,17 +15,17 @@ use tess_verify::Case;
 use tess_verify::show::{DrawOptions, draw};
 use tess_verify::vectors::Listing;
 
-/// Two values that exclude each other, and what the message says of each.
+/// Two values that exclude each other, and what the message says about each.
 type Excluded = ((usize, &'static str), (usize, &'static str), [&'static str; 2]);
 
-/// Options by their values, which are words of a command line or none, behind the four that make
-/// the patch.
+/// Options by their values, each of which is words of a command line or empty, after the four that
+/// make the patch.
 struct Crossed {
     values: Vec<Vec<&'static str>>,
     excluded: Vec<Excluded>,
 }
 
-/// The values that are dear to run, by their beginnings.
+/// The beginnings of the values that are expensive to run.
 const SELDOM: [&str; 2] = ["--backend gpu", "--report"];
 
 /// Domain, partitioning, output and split order.
@@ -52,8 +52,8 @@ impl Crossed {
         dear.map(|(option, (_, value))| (option, value)).collect()
     }
 
-    /// Calls `taken` with each row that is taken, and `refused` with each that is not and what its
-    /// message says.
+    /// Calls `taken` with each row that is accepted, and `refused` with each that is not and the
+    /// words that its message must contain.
     fn run(
         &self,
         mut taken: impl FnMut(Case, &[&str]),
@@ -87,7 +87,7 @@ fn case(row: &[usize]) -> Case {
 
 const FACTORS: [f32; 6] = [3.0, 4.5, 5.0, 6.25, 4.0, 7.0];
 
-/// Whether the words ask for a GPU where the program is built without, which it must say.
+/// Whether the options ask for a GPU but the program is built without it, which it must report.
 fn is_left_out(run: &Run, words: &[&str]) -> bool {
     let is_left_out =
         !cfg!(feature = "gpu") && words.iter().any(|words| words.starts_with("--backend gpu"));
@@ -103,7 +103,7 @@ fn is_refused(run: &Run, words: &str, says: [&str; 2]) {
     assert!(is_refused && is_said, "{words}: {says:?}: {run}");
 }
 
-/// How a backend runs. The option `--backend` is the first of all, and its values are these.
+/// How a backend runs. The option `--backend` comes first, and these are its values.
 fn of_backends(backends: &[&'static str]) -> Vec<Excluded> {
     let (level, narrow) = ((1, "--cpu-level baseline"), (2, "--index-type u16"));
     let excluded = |&backend: &&'static str| {
@@ -122,7 +122,7 @@ const BACKENDS: [&[&str]; 3] = [
     &["", "--index-type u16", "--index-type u32"],
 ];
 
-/// The options of backends, then others.
+/// The options of backends, followed by others.
 fn with_backends(others: &[&[&'static str]]) -> Vec<Vec<&'static str>> {
     BACKENDS.iter().chain(others).map(|values| values.to_vec()).collect()
 }
@@ -157,7 +157,7 @@ fn patches_are_the_models_whatever_the_options() {
     );
 }
 
-/// The output of `tess patch` in this form is the model's result.
+/// Checks that the output of `tess patch` in this form is the model's result.
 fn is_model(form: &str, printed: &str, case: Case, backend: &str, said: &str) {
     let model = Listing::of_model(case);
     let expected = match form {
@@ -188,7 +188,7 @@ fn is_model(form: &str, printed: &str, case: Case, backend: &str, said: &str) {
     assert_eq!(printed, expected, "{said}");
 }
 
-/// Patches of each configuration, verified: nothing differs.
+/// Verifies patches of each configuration: nothing differs.
 #[test]
 fn backends_are_verified_whatever_the_options() {
     let folder = directory("crossed_runs");
@@ -200,7 +200,7 @@ fn backends_are_verified_whatever_the_options() {
         &["", "--known"],
         &["", "--report"],
     ]);
-    // Without the option the GPU is verified too.
+    // Without the option, the GPU would be verified as well.
     values[0][0] = "--backend simd --backend core";
     let crossed = Crossed { excluded: of_backends(&values[0]), values };
     let line = |words: &[&str]| {
@@ -224,11 +224,11 @@ fn backends_are_verified_whatever_the_options() {
     crossed.run(taken, |_, words, says| is_refused(&tess(&line(words)), &line(words), says));
 }
 
-/// A known deviation that nothing here has.
+/// A known deviation that does not occur here.
 const KNOWN: &str = "case tri integer point center 40a00000 40a00000 40a00000 40a00000\n";
 
-/// A bench compares digests with the model's before it times. That of a GPU takes seconds and runs
-/// once.
+/// `tess bench` compares digests with the model's before it measures. For a GPU this takes seconds,
+/// so it runs once.
 #[test]
 fn backends_are_timed_whatever_the_options() {
     let others: [&[&str]; 4] =

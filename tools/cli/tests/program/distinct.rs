@@ -1,4 +1,5 @@
-//! An output never replaces a file that the same command reads, nor another of its outputs.
+//! Tests that an output never replaces a file that the same command reads, nor another of its
+//! outputs.
 
 use crate::support::{Folder, directory, shell};
 use std::collections::BTreeMap;
@@ -18,7 +19,7 @@ const SETUP: &str = "set -e
     ln -s m.bin other.bin
     mkdir folder";
 
-/// Commands that would lose a file, most of them by a name that hides it.
+/// Commands that would destroy a file, most of them by another name of it.
 const LOSING: &[&str] = &[
     "check e.txt --failures e.txt",
     "check e.txt --failures folder/../e.txt",
@@ -50,7 +51,7 @@ fn prepared(name: &str) -> Folder {
     folder
 }
 
-/// Every file of a folder with its content.
+/// Every file of a folder with its contents.
 fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry"));
     let files = entries.filter(|entry| entry.path().is_file());
@@ -84,7 +85,7 @@ fn report_and_picture_are_two_files() {
     refused(words, &folder, &contents(&folder));
 }
 
-/// A device takes anything, and two inputs may be one file unless that compares nothing.
+/// A device accepts any output, and two inputs may be one file unless that would compare nothing.
 #[test]
 fn what_loses_nothing_is_done() {
     let folder = prepared("what_loses_nothing_is_done");

@@ -1,4 +1,4 @@
-//! `tess draw`: pictures of the right form, and overlays that tell differences.
+//! Tests of `tess draw`: pictures of the right form, and overlays that show differences.
 
 use crate::support::{digest, directory, tess};
 use std::fs;
@@ -16,8 +16,8 @@ fn svg_has_every_triangle_and_point() {
     assert_eq!(run.stdout, tess(&format!("patch {PATCH} --format svg")).stdout, "by tess patch");
 }
 
-/// Every number, colour and place: whoever changes how pictures look says so here, after a look at
-/// them.
+/// Every number, colour and position of the pictures. Whoever changes how pictures look records the
+/// new digests here, after looking at the pictures.
 #[test]
 fn pictures_are_the_recorded_ones() {
     let patches = [
@@ -40,7 +40,8 @@ fn pictures_are_the_recorded_ones() {
     assert_eq!(found, RECORDED, "patches with {options:?}");
 }
 
-/// Digests of the pictures of [`pictures_are_the_recorded_ones`]; what is refused draws nothing.
+/// Digests of the pictures of [`pictures_are_the_recorded_ones`]. Options that are refused draw
+/// nothing.
 const RECORDED: [[&str; 6]; 4] = [
     [
         "0460f3fa92fd612e",
@@ -96,7 +97,7 @@ fn numbers_left_out_are_reported() {
     run.exits(0).says("4225 numbers left out");
 }
 
-/// An equal listing is equal; one with a moved point and a turned triangle shows both.
+/// An equal listing shows no difference; one with a moved point and a turned triangle shows both.
 #[test]
 fn overlays_show_differences() {
     let directory = directory("overlays_show_differences");
@@ -123,7 +124,8 @@ fn two_backends_are_compared() {
     run.exits(0).says("0 points and 0 primitives");
 }
 
-/// A capture of coordinates is drawn with the model's numbers: its right vertices do not differ.
+/// A capture of coordinates is drawn with the model's numbers, and its correct vertices do not
+/// differ.
 #[test]
 fn overlays_of_coordinates() {
     let directory = directory("overlays_of_coordinates");
@@ -164,7 +166,7 @@ fn overlays_mark_what_cannot_be_drawn() {
     run.says(format!("and {} more", all - 20));
 }
 
-/// Primitives that are points are numbered in their order, too.
+/// Primitives that are points are numbered in their order as well.
 #[test]
 fn order_of_points() {
     let patch = "tri --outer 2,2,2 --inner 2 --output point";

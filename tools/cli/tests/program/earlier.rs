@@ -1,12 +1,12 @@
-//! Files of an earlier run are no result of one that ends early.
+//! Tests that the files of an earlier run are never taken for results of a run that ends early.
 
 use crate::campaigns::tess_in;
 use crate::support::{Folder, Run, directory, shell, tess};
 use std::fs;
 use std::path::Path;
 
-/// The trusted outputs, each by its option with a name and the beginning of what yesterday's run
-/// left there.
+/// The trusted outputs, each by its option with a name and the beginning of what an earlier run
+/// left in it.
 const OLD: [(&str, &str, &str); 4] = [
     ("--report", "r.jsonl", "{\"format\":\"tess-report 1\",\"state\":\"done\"}\n"),
     ("--junit", "r.xml", "<?xml version=\"1.0\"?>\n<testsuites name=\"tess\" tests=\"19\"/>\n"),
@@ -26,7 +26,7 @@ fn prepare(folder: &Path) {
     }
 }
 
-/// Runs a script that ends early, in which `$TESS` is the program, and demands that nothing looks
+/// Runs a script that ends early, in which `$TESS` is the program, and checks that nothing looks
 /// like its result.
 fn left_nothing(folder: &Folder, script: &str, names: &[&str]) -> Run {
     prepare(folder);
@@ -89,7 +89,7 @@ fn runs_that_end_early() {
     left_nothing(&folder, script, &["--report"]);
 }
 
-/// A device that is waited for has answered nothing.
+/// A run that waits for a device's first line keeps no results of an earlier run.
 #[test]
 fn waiting_for_the_first_line() {
     let folder = directory("waiting_for_the_first_line");
@@ -122,8 +122,8 @@ fn sums_that_cannot_be_made() {
     }
 }
 
-/// One typo away from `--report /etc/fstab`: what is no file of its kind stays, and the run says so
-/// at once.
+/// One typo away from `--report /etc/fstab`: a file of another kind is kept, and the run says so at
+/// once.
 #[test]
 fn what_is_another_file_is_kept() {
     let folder = directory("what_is_another_file_is_kept");
@@ -144,15 +144,15 @@ fn what_is_another_file_is_kept() {
             let run = tess_in(&folder, &format!("{command} {option} mine"));
             let left = fs::read_to_string(folder.join("mine")).expect("it is there");
             assert_eq!((run.code, left.as_str()), (Some(2), text), "{command}: {}", run.stderr);
-            let said = format!("{option} mine is there, and is no ");
+            let said = format!("{option} mine exists and is not a ");
             run.says(&said);
             assert_eq!(run.stdout, "", "{command} {option}");
         }
     }
-    // Another output goes all the same.
+    // Another output is still removed.
     fs::write(folder.join("mine"), "thesis\n").expect("written");
     left_nothing(&folder, "$TESS check e.txt --report mine --junit r.xml", &["--junit"]);
-    // A file without a byte, as `mktemp` makes it, may become anything.
+    // An empty file, as `mktemp` makes it, may be overwritten.
     fs::write(folder.join("mine"), "").expect("written");
     tess_in(&folder, "check e.txt --report mine").exits(0);
     let before = fs::read(folder.join("mine")).expect("a report");
@@ -160,7 +160,7 @@ fn what_is_another_file_is_kept() {
     assert!(fs::read(folder.join("mine")).is_ok_and(|now| now == before), "help removes nothing");
 }
 
-/// After `--` there are files, not options.
+/// After `--` come files, not options.
 #[test]
 fn what_follows_two_dashes_is_read() {
     let folder = directory("what_follows_two_dashes_is_read");
@@ -170,7 +170,8 @@ fn what_follows_two_dashes_is_read() {
     assert!(folder.join("r.xml").exists(), "{}", run.stderr);
 }
 
-/// Runs into one report at the same time: each finds it, or finds that another run has removed it.
+/// Several runs write the same report at the same time: each finds it, or finds that another run
+/// has removed it.
 #[test]
 fn runs_into_one_report_at_once() {
     let folder = directory("runs_into_one_report_at_once");

@@ -1,4 +1,4 @@
-//! `tess explain`: the decisions it names, and that its parts fit the patch.
+//! Tests of `tess explain`: the decisions that it names, and that its parts fit the patch.
 
 use crate::support::{digest, tess};
 use serde_json::Value;
@@ -21,7 +21,8 @@ fn decisions_are_named() {
     }
 }
 
-/// Every word and number: whoever changes what is said does so here too, after reading it.
+/// Every word and number. Whoever changes an explanation records the new digest here, after reading
+/// the text.
 #[test]
 fn explanations_are_the_recorded_ones() {
     let parts = [
@@ -49,13 +50,13 @@ fn explanations_are_the_recorded_ones() {
         ("tri --outer 1,nan,1 --inner 1", "015a98597a6ead84"),
         ("tri --outer 1,1,1 --inner 1", "4835865b4aab0305"),
     ] {
-        // What a patch does not have is refused, and says nothing here.
+        // What a patch does not have is refused, and prints nothing here.
         let said = parts.map(|part| tess(&format!("explain {patch} {part}")).stdout).concat();
         assert_eq!(digest(&said), expected, "{patch}:\n{said}");
     }
 }
 
-/// Runs of points and of primitives cover the patch, and each stitch has K + M - 2 triangles.
+/// The runs of points and of primitives cover the patch, and each stitch has K + M - 2 triangles.
 #[test]
 fn json_adds_up() {
     for patch in ["quad --outer 3,4,5,6 --inner 4,7", "tri --outer 17,5,9 --inner 3"] {
@@ -97,8 +98,8 @@ fn elements_are_explained() {
     }
 }
 
-/// A circuit's output is compared: each signal that differs has its stage and module, and the run
-/// ends with 1.
+/// The output of a circuit is compared: each signal that differs is shown with its stage and
+/// module, and the run ends with exit code 1.
 #[test]
 fn mismatches_of_a_circuit_are_named() {
     let patch = "explain quad --outer 3,4,5,6 --inner 4,7";
@@ -148,7 +149,7 @@ fn observations_are_checked() {
         ("--point 3 --observed i0=1", "expected one of: valid, u, v, last"),
         ("--factor 6", "there is no factor 6: the patch has 6 factors, from 0"),
         ("--observed points", "expected SIGNAL=N"),
-        ("--observed points=0x1FFFFFFFF", "is no number of 32 bits"),
+        ("--observed points=0x1FFFFFFFF", "is not a 32-bit number"),
         ("--point 1 --factor 1", "cannot be used with"),
     ];
     for (element, message) in cases {

@@ -1,4 +1,4 @@
-//! Where output goes: links, pipes, permissions, long names, a full stdout, a terminal.
+//! Tests of where output goes: links, pipes, permissions, long names, a full stdout, a terminal.
 
 use crate::support::{Run, command, directory, shell, tess};
 use std::fs;
@@ -20,8 +20,8 @@ fn done(run: &Run) {
     run.exits(0);
 }
 
-/// Every command writes its files in the same way: a link stays, and so does the mode of what it
-/// points to.
+/// Every command writes its files in the same way: a link stays a link, and its target keeps its
+/// mode.
 #[test]
 fn links_and_modes_are_kept() {
     let folder = directory("links_and_modes");
@@ -49,7 +49,7 @@ fn links_and_modes_are_kept() {
     assert!(names(&folder).iter().all(|name| !name.starts_with('.')), "{:?}", names(&folder));
 }
 
-/// New files have the permissions that the user's mask leaves.
+/// New files have the permissions that the user's mask permits.
 #[test]
 fn new_files_follow_the_mask() {
     let folder = directory("new_files_follow_the_mask");
@@ -64,8 +64,8 @@ fn new_files_follow_the_mask() {
     }
 }
 
-/// A named pipe is written to, not replaced, by formats that are written from the front and by
-/// those that are not.
+/// A named pipe is written to, not replaced, by formats that are written from beginning to end and
+/// by those that are not.
 #[test]
 fn pipes_are_streamed() {
     let folder = directory("pipes_are_streamed");
@@ -108,7 +108,7 @@ fn long_names() {
     assert_eq!(names(&folder).len(), 3, "nothing else");
 }
 
-/// Places that cannot be written: exit code 2 and why, and what was there stays.
+/// Outputs that cannot be written: exit code 2 and the reason, and existing files stay.
 #[test]
 fn failures_change_nothing() {
     let folder = directory("failures_change_nothing");
@@ -123,7 +123,7 @@ fn failures_change_nothing() {
     tess(&format!("{PATCH} -o /dev/full")).exits(2); // a full device
 }
 
-/// A stdout that cannot be written is an error, of help too.
+/// A stdout that cannot be written to is an error, even for help.
 #[test]
 fn a_full_stdout() {
     let folder = directory("a_full_stdout");
@@ -142,7 +142,7 @@ fn a_full_stdout() {
     }
 }
 
-/// Messages name what was asked for, not the temporary file beside it.
+/// Messages name the file that was asked for, not the temporary file next to it.
 #[cfg(target_os = "linux")]
 #[test]
 fn messages_have_no_temporary_names() {
@@ -155,7 +155,7 @@ fn messages_have_no_temporary_names() {
     assert!(run.stderr.contains("/proc/a") && !run.stderr.contains(".tess-"), "{}", run.stderr);
 }
 
-/// The binary part of a glTF file replaces nothing but the binary part of that glTF file.
+/// The binary part of a glTF file replaces only the binary part of the same glTF file.
 #[test]
 fn the_bin_of_a_gltf() {
     let folder = directory("the_bin_of_a_gltf");
@@ -177,7 +177,7 @@ fn the_bin_of_a_gltf() {
     shell("mkfifo p.gltf; $TESS mesh --factor 1 -o p.gltf", &folder).exits(2).says("--format glb");
 }
 
-/// Characters with a meaning in a URI are encoded, and such a file reads back.
+/// Characters that have a meaning in a URI are encoded, and such a file can be read back.
 #[test]
 fn uris_are_encoded() {
     let folder = directory("uris_are_encoded");
@@ -188,7 +188,7 @@ fn uris_are_encoded() {
     done(&Run::of(command("mesh --factor 1 -o").arg(folder.join("out.obj")).arg(&gltf)));
 }
 
-/// A picture or a binary mesh does not go to a terminal; text does.
+/// A picture or a binary mesh is not written to a terminal; text is.
 #[test]
 fn no_pictures_on_terminals() {
     for (words, code) in [
@@ -203,7 +203,7 @@ fn no_pictures_on_terminals() {
     }
 }
 
-/// A terminal, as a program sees it. What is written there is read, and forgotten.
+/// A terminal, as a program sees it. What is written to it is read and discarded.
 fn terminal() -> fs::File {
     use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
     let ours = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a terminal");
@@ -212,12 +212,12 @@ fn terminal() -> fs::File {
     let name = ptsname(&ours, Vec::new()).expect("its name");
     let path = Path::new(name.to_str().expect("a path"));
     let theirs = fs::File::options().read(true).write(true).open(path).expect("its other side");
-    // The copy ends, with an error, when nobody has the other side.
+    // The copy ends, with an error, when the other side is closed.
     std::thread::spawn(move || std::io::copy(&mut fs::File::from(ours), &mut std::io::sink()));
     theirs
 }
 
-/// `--force` replaces what the command wrote, whole, and nothing else.
+/// `--force` replaces everything that the command wrote, and nothing else.
 #[test]
 #[cfg(feature = "shaders")]
 fn shaders_replace_only_shaders() {
@@ -232,7 +232,7 @@ fn shaders_replace_only_shaders() {
     assert!(written.iter().all(|name| !name.ends_with(".wgsl")), "nothing old stays: {written:?}");
     let manifest = fs::read_to_string(folder.join("out/manifest.json")).expect("a manifest");
     assert!(manifest.contains("\"order\": \"cache\""), "{manifest:.600}");
-    // What is not of this command is kept, whatever its manifest quotes.
+    // What this command did not write is kept, whatever its manifest quotes.
     fs::write(folder.join("out/thesis.txt"), "mine").expect("another's");
     write("--force --target wgsl").exits(2);
     fs::remove_file(folder.join("out/thesis.txt")).expect("removed");
@@ -242,7 +242,7 @@ fn shaders_replace_only_shaders() {
     assert_eq!((names(&folder), names(&folder.join("out"))), (vec!["out".into()], written));
 }
 
-/// Several files need a folder, and stdout is none.
+/// Several files need a folder, and stdout is not one.
 #[test]
 fn folders_are_not_stdout() {
     let folder = directory("folders_are_not_stdout");
@@ -257,7 +257,7 @@ fn folders_are_not_stdout() {
     }
 }
 
-/// The folders that a new one lies in are made; a file is none.
+/// The parent folders of a new folder are created; a file is not a folder.
 #[test]
 fn folders_around_new_folders() {
     let folder = directory("folders_around_new_folders");

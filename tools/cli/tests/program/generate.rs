@@ -1,11 +1,12 @@
-//! `tess gen`: its formats are what `tess check` and Verilog read, its shards the whole.
+//! Tests of `tess gen`: `tess check` and Verilog read its formats, and its shards add up to the
+//! whole.
 
 use crate::support::{command, directory, tess, tess_with_input};
 use std::fs;
 
 const PLACE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden/place.csv");
 
-/// Both text formats go back in, and a changed number does not pass.
+/// Both text formats can be checked, and a changed number is detected.
 #[test]
 fn vectors_can_be_checked() {
     for format in ["csv", "listing"] {
@@ -13,7 +14,7 @@ fn vectors_can_be_checked() {
         vectors.exits(0);
         tess_with_input("check -", &vectors.stdout).exits(0);
         let wrong = with_last_digit_changed(&vectors.stdout);
-        tess_with_input("check -", &wrong).exits(1); // the fault is seen
+        tess_with_input("check -", &wrong).exits(1); // the fault is detected
         let again = tess(&format!("gen --level 3 --seed 7 --count 60 --format {format}"));
         assert_eq!(vectors.stdout, again.stdout, "the same arguments, the same bytes");
         let other = tess(&format!("gen --level 3 --seed 8 --count 60 --format {format}"));
@@ -21,7 +22,7 @@ fn vectors_can_be_checked() {
     }
 }
 
-/// The last digit is one of an index in a listing, and of a digest in csv.
+/// The last digit belongs to an index in a listing, and to a digest in CSV.
 fn with_last_digit_changed(vectors: &str) -> String {
     let at = vectors.rfind(|c: char| c.is_ascii_digit()).expect("there are numbers");
     let other = if vectors[at..].starts_with('0') { "1" } else { "0" };
@@ -64,8 +65,8 @@ fn memory_images_and_coverage() {
     tess("gen --format readmemh").exits(2); // images need a folder
 }
 
-/// Two shards in one file have the patches of the whole, and so has a check of the vectors, in the
-/// same order.
+/// Two shards merged into one file cover the same patches as the whole, and so does a check of the
+/// vectors, in the same order.
 #[test]
 fn coverage_files_merge() {
     let folder = directory("coverage");
@@ -88,7 +89,7 @@ fn coverage_files_merge() {
     let whole = read("whole.xml");
     assert!(whole.contains("<coverpoint name=\"transition\""), "bins: {whole:.400}");
     assert_eq!(read("checked.xml"), whole, "one stream");
-    // Everything but the group of sequences, which depends on the order of the stream.
+    // Everything except the group of sequences, which depends on the order of the stream.
     let patches = |text: &str| {
         let (before, sequences) =
             text.split_once("<coverpoint name=\"sequence\"").expect("a group");
@@ -99,12 +100,12 @@ fn coverage_files_merge() {
     assert_ne!(read("shards.xml"), whole, "other sequences");
     of(&format!("{cases} --seed 2"), "other.xml");
     assert_ne!(read("whole.xml"), read("other.xml"), "other cases hit other bins");
-    tess(&format!("{cases} --coverage {vectors}")).exits(2).says("vectors.csv: line 1: "); // no coverage file
+    tess(&format!("{cases} --coverage {vectors}")).exits(2).says("vectors.csv: line 1: "); // not a coverage file
     let run = tess(&format!("check {} --coverage {}", PLACE, file("x.xml")));
     run.exits(2).says("this file's kind is locations"); // no patches
 }
 
-/// Each of the processes adds its hits to what the others added.
+/// Each process adds its hits to those of the others.
 #[test]
 fn no_hit_is_lost() {
     let folder = directory("no_hit_is_lost");
@@ -133,7 +134,8 @@ fn no_hit_is_lost() {
     assert_eq!(left, ["all.xml", "one.xml"], "nothing else is left");
 }
 
-/// The first line notes every option that the cases depend on, so that it makes the file again.
+/// The first line states every option that the cases depend on, so that the file can be made again
+/// from it.
 #[test]
 fn headers_say_how_a_file_is_made() {
     let options = "--level 3 --seed 7 --count 40 --domain tri --partitioning pow2 --shard 2/3";
@@ -152,7 +154,7 @@ fn headers_say_how_a_file_is_made() {
     assert!(header.contains(" random=1\n"), "no other option: {header}");
 }
 
-/// A shard without cases is no error, as of `tess verify`: the others have them.
+/// A shard without cases is not an error, as in `tess verify`: the other shards have them.
 #[test]
 fn a_shard_without_cases() {
     let run = tess("gen --level 3 --count 2 --shard 5/9");
@@ -169,8 +171,8 @@ fn a_shard_without_cases() {
     tess("gen --level 3 --count 0").exits(2); // no case at all
 }
 
-/// Vectors of one stage: the same bytes for the same arguments, in both forms, for one block of a
-/// circuit.
+/// Vectors of single stages: the same bytes for the same arguments, in both forms, for one block of
+/// a circuit.
 #[test]
 fn vectors_of_single_stages() {
     for stage in ["factors", "context", "place", "stitch"] {

@@ -1,4 +1,4 @@
-//! Help: every command has it, with an example that runs.
+//! Tests of help: every command has it, with an example that runs.
 
 use crate::support::tess;
 
@@ -26,7 +26,7 @@ fn every_command_is_listed_and_has_an_example() {
     }
 }
 
-/// The examples of `patch` and `explain`, without the ones that write files.
+/// The examples of `patch` and `explain`, except those that write files.
 #[test]
 fn examples_run() {
     for command in ["patch", "explain"] {
@@ -49,7 +49,7 @@ fn no_command_and_unknown_commands_are_bad_usage() {
     }
 }
 
-/// A command that this build leaves out is known, and the message says how to get it.
+/// A command that this build does not contain is known, and the message says how to get it.
 #[cfg(not(all(feature = "gpu", feature = "probe", feature = "shaders")))]
 #[test]
 fn what_this_build_leaves_out_is_named() {

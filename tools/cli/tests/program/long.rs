@@ -1,4 +1,4 @@
-//! Commands that work for a long time: they stop when their reader leaves, and leave nothing
+//! Tests of commands that run for a long time: they stop when their reader exits, and leave nothing
 //! half-written when a signal ends them.
 
 use crate::support::{command, directory};
@@ -7,7 +7,7 @@ use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, Stdio};
 
-/// More cases than can be counted one by one while a test runs.
+/// More cases than can be generated one by one within the time of a test.
 const ENDLESS: &str = "gen --level 3 --count 1000000000000";
 
 fn start(words: &str) -> Child {
@@ -15,13 +15,13 @@ fn start(words: &str) -> Child {
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("tess starts")
 }
 
-/// Sends a signal as `kill` names it.
+/// Sends a signal, named as for `kill`.
 fn send(signal: &str, child: &Child) {
     let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
     assert!(sent.expect("there is kill").success(), "{signal} is sent");
 }
 
-/// Without the reader it would not end in a test's time.
+/// If it did not notice that the reader is gone, it would not end within the time of a test.
 #[test]
 fn it_stops_when_the_reader_leaves() {
     let mut child = start(ENDLESS);
@@ -54,7 +54,7 @@ fn interrupted_files_leave_nothing() {
     }
 }
 
-/// A background job that is to survive the end of its terminal does.
+/// A background job that should survive the end of its terminal does so.
 #[test]
 fn ignored_signals_stay_ignored() {
     let folder = directory("ignored_signals_stay_ignored");
@@ -70,7 +70,7 @@ fn ignored_signals_stay_ignored() {
     assert_eq!(child.wait().expect("it ends").signal(), Some(15), "HUP did not end it");
 }
 
-/// On a terminal there is a bar; elsewhere there is none. `script` gives the program a terminal.
+/// A bar is shown on a terminal and nowhere else. `script` gives the program a terminal.
 #[test]
 fn progress_is_shown_on_terminals() {
     let folder = directory("progress_is_shown_on_terminals");

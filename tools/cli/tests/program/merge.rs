@@ -1,4 +1,5 @@
-//! `tess merge`: what is one campaign, what is listed, what is certain, and how long it takes.
+//! Tests of `tess merge`: which reports are one campaign, what is listed, that the result is
+//! certain, and how long it takes.
 
 use crate::campaigns::{campaign, json, tess_in};
 use crate::support::{Run, directory, shell, tess_with_input};
@@ -6,7 +7,7 @@ use serde_json::{Value, json as value};
 use std::fs;
 use std::time::{Duration, Instant};
 
-/// A report of a shard that another program has written, with some entries of its own.
+/// The report of a shard that another program has written, with some entries of its own.
 fn report(shard: u64, shards: u64, own: Value) -> String {
     let mut report = value!({
         "format": "tess-report 1", "version": "1", "commit": "abc", "command": "device",
@@ -38,7 +39,7 @@ fn joined_values_are_other_values() {
     merged(&[of(1, value!({ "a": ["1"] })), of(2, value!({ "a": ["1"] }))]).exits(0);
 }
 
-/// Baselines of one name must have the same cases; a shard may have one of its own.
+/// Baselines of one name must have the same cases; a shard may have a baseline of its own.
 #[test]
 fn baselines_are_compared() {
     let of = |shard, file: &str, digest: &str| {
@@ -57,7 +58,7 @@ fn baselines_are_compared() {
     run.exits(2).prints("stdin:3 is of another campaign: the baseline is not given");
 }
 
-/// The digest is of the cases, in any order and with any remarks.
+/// The digest depends on the cases only, not on their order or on remarks.
 #[test]
 fn baselines_by_their_cases() {
     let folder = directory("baselines_by_their_cases");
@@ -88,7 +89,7 @@ fn every_fault_is_listed() {
     run.exits(2);
     let xml = fs::read_to_string(folder.join("s.xml")).expect("JUnit");
     assert!(xml.contains("tests=\"500\" failures=\"0\" errors=\"499\""), "{}", &xml[..300]);
-    run.prints("and more shards\n"); // the text says that it is not all
+    run.prints("and more shards\n"); // the text says that there are more
 }
 
 /// A word that a shell would take apart is quoted.
@@ -102,7 +103,7 @@ fn the_command_of_a_report_is_shown() {
     run.exits(2).prints(shown);
 }
 
-/// No sum wraps round.
+/// Sums do not wrap around.
 #[test]
 fn sums_end_at_the_largest_number() {
     let half = 1u64 << 63;
@@ -117,7 +118,7 @@ fn sums_end_at_the_largest_number() {
     assert_eq!([shown("p "), shown("all ")], [u64::MAX.to_string(), u64::MAX.to_string()]);
 }
 
-/// The times of all shards, and what differs by stage, are added up.
+/// The times of all shards, and the differences by stage, are added up.
 #[test]
 fn times_and_stages_are_added_up() {
     let of = |shard, stages: Value| {
@@ -130,7 +131,7 @@ fn times_and_stages_are_added_up() {
     run.prints("4 cases, 4 mismatches, 1.400 s of all shards\n");
 }
 
-/// Ten times the shards take no more than about ten times the time, in one file or in many.
+/// Ten times as many shards take no more than about ten times as long, in one file or in many.
 #[test]
 fn the_time_grows_with_the_shards_alone() {
     let folder = directory("the_time_grows_with_the_shards_alone");
@@ -151,7 +152,7 @@ fn the_time_grows_with_the_shards_alone() {
     assert!(many < 25 * few, "{many:?} is far more than ten times {few:?}");
 }
 
-/// More files than descriptors, each still told from the outputs.
+/// More files than file descriptors; each is still distinguished from the outputs.
 #[test]
 fn many_files() {
     let folder = directory("many_files");
@@ -164,7 +165,7 @@ fn many_files() {
     assert!(fs::read_to_string(name(1)).is_ok_and(|text| text.starts_with('{')), "it is kept");
 }
 
-/// A baseline that is the file to check excuses everything.
+/// A baseline that is the checked file itself would excuse everything, so it is refused.
 #[test]
 fn files_do_not_excuse_themselves() {
     let folder = directory("files_do_not_excuse_themselves");
@@ -184,7 +185,7 @@ fn files_do_not_excuse_themselves() {
     tess_in(&folder, "check a.txt --known copy.txt").exits(0); // another file
 }
 
-/// The failing records stand in the order of the file, whichever thread is first.
+/// The failing records are in the order of the file, whichever thread finds them first.
 #[test]
 fn failures_are_in_the_order_of_the_file() {
     let folder = directory("failures_are_in_the_order_of_the_file");
@@ -205,7 +206,7 @@ fn failures_are_in_the_order_of_the_file() {
     }
 }
 
-/// A variable that is no text says a shard that cannot be read, and not that there is none.
+/// A variable that is not text is a shard that cannot be read, not the absence of a shard.
 #[test]
 fn variables_that_are_no_text() {
     let folder = directory("variables_that_are_no_text");
@@ -213,11 +214,11 @@ fn variables_that_are_no_text() {
         ["TEST_SHARD_INDEX", "TEST_TOTAL_SHARDS", "SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"]
     {
         let script = format!("export {variable}=$(printf '1\\377'); $TESS gen --level 3 --count 2");
-        shell(&script, &folder).exits(2).prints_nothing().says("which is no number");
+        shell(&script, &folder).exits(2).prints_nothing().says("which is not a number");
     }
 }
 
-/// A file of patterns is bounded, and what it says twice is done once.
+/// A file of patterns is limited in size, and a repeated pattern costs no time.
 #[test]
 fn long_exclusions() {
     let folder = directory("long_exclusions");

@@ -1,4 +1,4 @@
-//! `tess mesh`.
+//! Tests of `tess mesh`.
 
 use crate::support::{Run, directory, tess};
 use std::collections::BTreeMap;
@@ -28,21 +28,22 @@ pub(crate) fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> Pat
     path
 }
 
-/// Runs `tess mesh IN [options] -o OUT`, which must do what it is asked for.
+/// Runs `tess mesh IN [options] -o OUT`, which must succeed and print nothing.
 pub(crate) fn mesh(input: &Path, options: &str, output: &Path) -> Run {
     let run = tess(&format!("mesh {} {options} -o {}", input.display(), output.display()));
     run.exits(0).prints_nothing();
     run
 }
 
-/// The numbers in the line of counts, which follows the notes.
+/// The numbers in the line of counts, which comes after the notes.
 pub(crate) fn counts(run: &Run) -> Vec<u64> {
     let mut lines = run.stderr.lines().skip_while(|line| line.starts_with("tess: note: "));
     let line = lines.next().unwrap_or_default();
     line.split_whitespace().filter_map(|word| word.parse().ok()).collect()
 }
 
-/// Edges of one triangle, after welding positions that are written alike.
+/// The edges that belong to one triangle only, after vertices with identically written positions
+/// are merged.
 pub(crate) fn open_edges(obj: &Path) -> usize {
     let text = fs::read_to_string(obj).expect("the OBJ is there");
     let positions: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("v ")).collect();
@@ -73,11 +74,11 @@ fn the_teapot_in_every_form() {
     }
     let names = fs::read_dir(&folder).unwrap().count();
     assert_eq!(names, 5, "the four and teapot.bin, nothing half-written");
-    // 16 open curves of 4 segments.
+    // The border is 16 open curves of 4 segments each.
     assert_eq!(open_edges(&folder.join("teapot.obj")), 64, "open edges");
 }
 
-/// A cube has no border, so neither has what becomes of it.
+/// A cube has no border, so its tessellation has none.
 #[test]
 fn no_cracks_in_files() {
     let folder = directory("mesh_cracks");
@@ -101,7 +102,7 @@ fn no_cracks_in_files() {
     assert_eq!(open_edges(&out), 3, "a missing triangle leaves three open edges");
 }
 
-/// Outputs read back: meshes as quads and triangles, with the counts that were stated.
+/// Outputs can be read back: meshes as quads and triangles, with the counts that were stated.
 #[test]
 fn outputs_are_inputs() {
     let folder = directory("mesh_round");
@@ -113,7 +114,7 @@ fn outputs_are_inputs() {
         assert_eq!(counts(&again), [108, 324, 108], "6 quads of 18 triangles, from {name}");
         assert_eq!(open_edges(&folder.join("again.obj")), 0, "{name}");
     }
-    // Three indices of 16 bits leave two bytes to fill.
+    // Three 16-bit indices leave two bytes of padding.
     let triangle = write(&folder, "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     mesh(&triangle, "--factor 1 --indices 16", &folder.join("t.glb"));
     for name in ["a.glb", "t.glb"] {
@@ -136,7 +137,7 @@ fn bezier_patch_files() {
     assert_eq!(a, b, "a weight common to all points changes nothing");
 }
 
-/// Files that are refused, each with what the message says.
+/// Files that are refused, each with text from the message.
 fn bad_files() -> Vec<(&'static str, String, &'static str)> {
     let patch = format!("3 3\n{}", "0 0 0\n1 0 0\n2 1 0\n3 0 0\n".repeat(4));
     Vec::from([
@@ -163,7 +164,7 @@ fn bad_files() -> Vec<(&'static str, String, &'static str)> {
     ])
 }
 
-/// Every kind of bad input: exit code 2, file and line, and the output as it was.
+/// Every kind of bad input: exit code 2, the file and line, and an unchanged output file.
 #[test]
 fn bad_input_is_told() {
     let folder = directory("mesh_bad");
@@ -179,7 +180,7 @@ fn bad_input_is_told() {
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 9, "nothing half-written stays");
 }
 
-/// Numbers of which glTF, written in text, would have made `null`.
+/// Numbers that would have become `null` in the JSON text of glTF.
 #[test]
 fn positions_that_overflow_are_refused() {
     let folder = directory("mesh_huge");
@@ -219,7 +220,7 @@ fn bad_usage_is_told() {
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "no output was written");
 }
 
-/// The default camera has the whole model in its picture, and not much more.
+/// The default camera shows the whole model, and not much more.
 #[test]
 fn the_default_camera() {
     let folder = directory("mesh_camera");
@@ -251,8 +252,8 @@ fn write_grey(folder: &Path, grey: u8) -> PathBuf {
     path
 }
 
-/// Pixels between what is drawn and the border, and how much of the width or of the height is
-/// filled, in percent, whichever is more.
+/// The number of pixels between the picture's border and what is drawn, and how much of the width
+/// or of the height is filled, whichever is more, in percent.
 fn margin_and_filled(path: &Path) -> (usize, usize) {
     let file = std::io::BufReader::new(fs::File::open(path).expect("the picture"));
     let mut reader = png::Decoder::new(file).read_info().expect("a PNG");

@@ -1,5 +1,5 @@
-//! `tess mesh` on glTF files that break the rules of the format: each is a right file with one
-//! change.
+//! Tests of `tess mesh` on glTF files that break the rules of the format: each is a valid file with
+//! one change.
 
 use crate::mesh::{counts, mesh, write};
 use crate::mesh_input::refused;
@@ -41,7 +41,7 @@ pub(crate) fn triangle() -> (Value, Vec<u8>) {
     (document, bytes)
 }
 
-/// The primitive of a document.
+/// The first primitive of a document's first mesh.
 fn primitive(gltf: &mut Value) -> &mut Value {
     &mut gltf["meshes"][0]["primitives"][0]
 }
@@ -51,7 +51,7 @@ fn remove(object: &mut Value, name: &str) {
     assert!(removed.is_some(), "{name} was there");
 }
 
-/// The document as a file, its buffer in it.
+/// Writes the document as a file that contains its buffer.
 pub(crate) fn write_gltf(folder: &Path, name: &str, mut document: Value, bytes: &[u8]) -> PathBuf {
     if document["buffers"][0].get("uri").is_none() {
         let data = BASE64_STANDARD.encode(bytes);
@@ -61,7 +61,7 @@ pub(crate) fn write_gltf(folder: &Path, name: &str, mut document: Value, bytes: 
     write(folder, name, document.to_string())
 }
 
-/// A change of the triangle, and part of the message that refuses the result.
+/// A change of the triangle, and part of the message with which the result is refused.
 type Broken = (fn(&mut Value), &'static str);
 
 fn check(name: &str, cases: &[Broken]) {
@@ -278,7 +278,7 @@ fn bytes_that_are_not_there() {
     check("mesh_gltf_bytes", cases);
 }
 
-/// JSON is UTF-8, also in the members that nobody reads.
+/// JSON is UTF-8, even in members that are not read.
 #[test]
 fn text_that_is_not_utf8() {
     let folder = directory("mesh_gltf_utf8");
@@ -312,7 +312,7 @@ fn documents_for_other_readers() {
             |gltf| remove(&mut gltf["asset"], "version"),
             "asset.version: it is missing; only glTF 2.x is read",
         ),
-        // Version 1 has objects in the place of lists.
+        // Version 1 has objects where version 2 has lists.
         (
             |gltf| {
                 gltf["asset"]["version"] = json!("1.0");
@@ -346,7 +346,7 @@ fn documents_for_other_readers() {
     check("mesh_gltf_documents", cases);
 }
 
-/// A chain of nodes each of which has the next one as its child twice.
+/// A chain of nodes, each of which has the next node as its child twice.
 fn twins(count: usize) -> Value {
     let node = |k: usize| {
         if k + 1 < count { json!({"children": [k + 1, k + 1]}) } else { json!({"mesh": 0}) }
@@ -354,7 +354,7 @@ fn twins(count: usize) -> Value {
     (0..count).map(node).collect()
 }
 
-/// Nodes form trees, so that walking them ends.
+/// Nodes must form trees, so that walking through them ends.
 #[test]
 fn nodes_in_circles() {
     let cases: &[Broken] = &[
@@ -392,7 +392,7 @@ fn many_nodes() {
         [1, 3, 1],
         "a chain"
     );
-    // A small file of a large scene: 16 million vertices, five times.
+    // A small file with a large scene: 16 million vertices, five times.
     let (mut many, bytes) = triangle();
     many["nodes"] = (0..5).map(|_| json!({"mesh": 0})).collect();
     many["scenes"][0]["nodes"] = json!([0, 1, 2, 3, 4]);

@@ -1,12 +1,12 @@
-//! `tess mesh` on OBJ, Bezier patch and PNG files that are hostile or careless.
+//! Tests of `tess mesh` on OBJ, Bezier patch and PNG files that are hostile or careless.
 
 use crate::mesh::{CUBE, counts, mesh, open_edges, write};
 use crate::support::{Run, directory, tess};
 use std::fs;
 use std::path::Path;
 
-/// Runs `tess mesh` on bad input: exit code 2, a message with the file's name and `message`, no
-/// output.
+/// Runs `tess mesh` on bad input: exit code 2, a message that contains the file's name and
+/// `message`, and no output.
 pub(crate) fn refused(input: &Path, options: &str, message: &str) {
     let out = input.with_file_name("refused.out.obj");
     let run = tess(&format!("mesh {} {options} -o {}", input.display(), out.display()));
@@ -17,7 +17,7 @@ pub(crate) fn refused(input: &Path, options: &str, message: &str) {
     assert!(!out.exists(), "{name}: no output");
 }
 
-/// A device may have no end, and a link leads to it.
+/// A link may lead to a device, which may have no end.
 #[cfg(unix)]
 #[test]
 fn devices_are_not_models() {
@@ -80,7 +80,7 @@ fn obj_lines_that_are_no_obj_are_named() {
     );
 }
 
-/// Lines that other programs write around the same cube.
+/// Lines that other programs write for the same cube.
 #[test]
 fn obj_files_that_say_the_same() {
     let folder = directory("mesh_obj_same");
@@ -124,7 +124,7 @@ fn obj_files_that_say_the_same() {
 fn collapsed_faces_are_left_out() {
     let folder = directory("mesh_collapsed");
     let out = folder.join("out.obj");
-    // A cube whose upper face is a point: four quads that are triangles, and one that is nothing.
+    // A cube whose upper face is a point: four quads become triangles, and one has no area.
     let roof = CUBE.replace("v -1 1", "v 0 1").replace("v 1 1", "v 0 1");
     let pyramid = roof.replace("0 1 -1", "0 1 0").replace("0 1 1", "0 1 0");
     let run = mesh(&write(&folder, "pyramid.obj", &pyramid), "--factor 3", &out);
@@ -134,7 +134,7 @@ fn collapsed_faces_are_left_out() {
     ));
     run.says(format!("tess: note: 4 quads {place}: made triangles (first: line 9)"));
     assert_eq!((counts(&run)[0], open_edges(&out)), (5, 0), "patches, open edges");
-    // Places are those of the file, not those of the faces that are left.
+    // Lines are counted in the file, not among the remaining faces.
     let later = format!("{pyramid}v 0 1e17 0\nf 1 2 9\n");
     refused(&write(&folder, "later.obj", later), "", "later.obj: line 16: a position is too large");
     let straight = format!("{CUBE}v 0 9 0\nv 0 8 0\nv 0 7 0\nf 9 10 11\n");
@@ -148,8 +148,8 @@ fn collapsed_faces_are_left_out() {
     refused(&all, "", "all.obj: all faces, 2, have no area");
 }
 
-/// The poles of the teapot are triangles with two corners in one place; at factor 1 the end of the
-/// spout is on one line, and the handle is folded flat at one of its joints.
+/// The poles of the teapot are triangles with two corners in the same place. At factor 1 the end of
+/// the spout lies on one line, and the handle is folded flat at one of its joints.
 #[test]
 fn the_teapot_reads_back() {
     let folder = directory("mesh_teapot_back");
@@ -197,7 +197,7 @@ fn empty_patch_files_are_named_by_their_first_line() {
     );
 }
 
-/// The header of a PNG of this size, grey, and nothing else that is right.
+/// The header of a grey PNG of this size, and nothing else that is correct.
 fn header_of(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     let encoder = {
@@ -237,7 +237,8 @@ fn images_are_no_larger_than_the_limit() {
     displaced(&cube, &cut, "").exits(2); // a file without its end
 }
 
-/// Palettes that end within a colour, and those with none or with more than a byte can name.
+/// Palettes that end within a colour, and palettes with no colours or with more than a byte can
+/// number.
 #[test]
 fn palettes_are_whole_colours() {
     let folder = directory("mesh_png_palette");

@@ -1,4 +1,5 @@
-//! `tess mesh` on right glTF files: poses, and the forms that triangles and numbers may have.
+//! Tests of `tess mesh` on valid glTF files: poses, and the forms that triangles and numbers may
+//! have.
 #![expect(clippy::float_arithmetic, reason = "poses are made of floats")]
 
 use crate::mesh::{counts, mesh, write};
@@ -8,7 +9,7 @@ use crate::support::{Folder, Run, directory};
 use serde_json::{Value, json};
 use std::fs;
 
-/// The triangle as a file under construction.
+/// The triangle as a file that is being built.
 struct Builder {
     folder: Folder,
     document: Value,
@@ -47,7 +48,7 @@ impl Builder {
         &mut self.document["meshes"][0]["primitives"][0]
     }
 
-    /// The run at factor 1 with flat surfaces, and the written positions and normals.
+    /// A run at factor 1 with flat surfaces, and the positions and normals that it writes.
     fn run(&self) -> (Run, Vec<[f32; 3]>, Vec<[f32; 3]>) {
         let input = write_gltf(&self.folder, "in.gltf", self.document.clone(), &self.bytes);
         let out = self.folder.join("out.obj");
@@ -56,7 +57,7 @@ impl Builder {
         (run, triples(&text, "v "), triples(&text, "vn "))
     }
 
-    /// The positions of a run whose stderr has no note.
+    /// The positions that a run writes without a note.
     fn positions(&self) -> Vec<[f32; 3]> {
         let (run, positions, _) = self.run();
         assert!(!run.stderr.contains("note"), "{run}");
@@ -68,7 +69,7 @@ fn bytes_of(floats: &[f32]) -> Vec<u8> {
     floats.iter().flat_map(|float| float.to_le_bytes()).collect()
 }
 
-/// The numbers of the lines that begin so, sorted.
+/// The numbers of the lines that begin with `keyword`, sorted.
 fn triples(text: &str, keyword: &str) -> Vec<[f32; 3]> {
     let lines = text.lines().filter_map(|line| line.strip_prefix(keyword));
     let numbers = lines.map(|line| line.split(' ').map(|word| word.parse().expect("a number")));
@@ -87,7 +88,7 @@ fn assert_near(found: &[[f32; 3]], expected: &[[f32; 3]], what: &str) {
 
 const REST: [[f32; 3]; 3] = [[0., 0., 0.], [0., 1., 0.], [1., 0., 0.]];
 
-/// A change of a right file.
+/// A change of a valid file.
 type Change = fn(&mut Value);
 
 #[test]
@@ -100,7 +101,8 @@ fn morph_targets_have_the_weights_of_the_node_or_the_mesh() {
     assert_eq!(file.positions(), REST, "without weights they are 0");
     file.document["meshes"][0]["weights"] = json!([1.0, 0.5]);
     assert_near(&file.positions(), &[[0., 0., -1.], [0., 6., -1.], [1., 0., -1.]], "the mesh's");
-    // The normals are (0, 0, 1) + (1, 0, -0.5), but the surface is flat: a corner has its normal.
+    // The normals are (0, 0, 1) + (1, 0, -0.5), but the surface is flat, so corners keep their
+    // normals.
     let normal = [1.0 / 1.25_f32.sqrt(), 0.0, 0.5 / 1.25_f32.sqrt()];
     assert_near(&file.run().2, &[normal; 3], "normals");
     file.document["nodes"][0]["weights"] = json!([0.2, 0.0]);
@@ -110,7 +112,7 @@ fn morph_targets_have_the_weights_of_the_node_or_the_mesh() {
     refused(&input, "", "meshes[0].primitives[0].targets: there are 2, but 1 weights");
 }
 
-/// Two joints, and vertices that hang on the first, on both and on the second.
+/// Two joints, and vertices attached to the first, to both and to the second.
 fn skinned(test: &str) -> Builder {
     let mut file = Builder::new(test);
     let joints = file.accessor(&[0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0], 5121, "VEC4", 3);
@@ -132,7 +134,7 @@ fn joints_move_vertices_and_the_node_does_not() {
     let mut file = skinned("mesh_skin");
     let [a, b, c] = [[3., 0., 0.], [3., 1., 2.], [4., 0., 1.]];
     assert_near(&file.positions(), &[a, b, c], "joints");
-    // A quarter turn about z in the bind pose of the second joint.
+    // The bind pose of the second joint is a quarter turn about z.
     let turned = [0., 1., 0., 0., -1., 0., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.];
     let identity: [f32; 16] = std::array::from_fn(|k| if k % 5 == 0 { 1.0 } else { 0.0 });
     let inverse = [identity, turned].concat();
@@ -149,7 +151,7 @@ fn joints_move_vertices_and_the_node_does_not() {
         &[[2., 0., 2.], [3., 0., 0.], [3.5, 0.5, 1.]],
         "rounded weights",
     );
-    // A joint that is in no scene moves vertices all the same.
+    // A joint that is in no scene still moves vertices.
     file.document["scenes"][0]["nodes"] = json!([0]);
     assert_eq!(file.positions().len(), 3, "joints outside of the scene");
 }
@@ -212,7 +214,7 @@ fn normals_of_mirrored_and_flattened_nodes() {
     assert_eq!(positions, REST, "the other node is there");
 }
 
-/// A square of two triangles as a list, a strip and a fan, with lines and points beside it.
+/// A square of two triangles as a list, a strip and a fan, and then with lines and points as well.
 #[test]
 fn strips_fans_lines_and_points() {
     let mut file = Builder::new("mesh_modes");
@@ -249,7 +251,7 @@ fn strips_fans_lines_and_points() {
     assert_eq!(counts(&run), [1, 3, 1], "four vertices are one triangle and a rest");
 }
 
-/// Changes that leave the triangle as it is.
+/// Changes that do not change the triangle.
 #[test]
 fn files_that_mean_the_same() {
     let cases: &[(Change, &str)] = &[

@@ -1,4 +1,4 @@
-//! `tess mesh` on models with faces that need care: each is repaired or kept, and a note says
+//! Tests of `tess mesh` on models with problematic faces: each is repaired or kept, and a note says
 //! which, how many, and where the first one is.
 #![expect(clippy::float_arithmetic, reason = "triangles are made of floats")]
 
@@ -8,7 +8,7 @@ use crate::support::{Run, directory, tess};
 use std::fs;
 use std::path::Path;
 
-/// The written numbers of the lines that begin so.
+/// The numbers of the lines that begin with `keyword`.
 fn triples(obj: &Path, keyword: &str) -> Vec<[f32; 3]> {
     let text = fs::read_to_string(obj).expect("the OBJ is there");
     let lines = text.lines().filter_map(|line| line.strip_prefix(keyword));
@@ -16,7 +16,7 @@ fn triples(obj: &Path, keyword: &str) -> Vec<[f32; 3]> {
     numbers.map(|numbers| numbers.collect::<Vec<_>>().try_into().expect("three")).collect()
 }
 
-/// The triangles of an OBJ file whose normal points down, in a model that should look up.
+/// The number of triangles of an OBJ file whose normal points down, in a model that should face up.
 fn overturned(obj: &Path) -> usize {
     let positions = triples(obj, "v ");
     let text = fs::read_to_string(obj).expect("the OBJ is there");
@@ -90,7 +90,7 @@ fn polygons_are_cut() {
     }
     let missing = write(&folder, "missing.obj", format!("{points}f 1 2 3 4 5 99\n"));
     refused(&missing, "", "missing.obj: line 8: position index 99 is out of range: there are 7");
-    // A polygon is cut with all its corners, so that it meets its neighbours.
+    // A polygon is cut using all its corners, so that it meets its neighbours.
     let wall = format!("{points}v 0 -1 0\nv 2 -1 0\nf 1 7 2 3 4 5\nf 8 7 1\nf 8 9 2 7\n");
     let run = mesh(&write(&folder, "wall.obj", wall), "--factor 1 --surface flat", &out);
     assert!(!run.stderr.contains("on another face's edge"), "{run}");
@@ -130,7 +130,8 @@ fn normals_without_a_direction() {
     refused(&write(&folder, "word.obj", format!("{face}vn 0 x 0\n")), "", "`x` is not a number");
 }
 
-/// One large quad beside two small ones: the corner between those hangs on the large one's edge.
+/// One large quad next to two small ones: the corner that the small ones share lies on the large
+/// one's edge.
 const HANGING: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0.5 0\nv 2 0 0\nv 2 0.5 0\nv 2 1 0\n\
     vt 0 0\nvt .5 0\nvt .5 1\nvt 0 1\nvt .5 .5\nvt 1 0\nvt 1 .5\nvt 1 1\n\
     f 1/1 2/2 3/3 4/4\nf 2/2 6/6 7/7 5/5\nf 5/5 7/7 8/8 3/3\n";
@@ -155,12 +156,12 @@ fn hanging_corners() {
         assert_eq!(counts(&closed)[0], 5, "the large quad is three triangles");
         assert_eq!(open_edges(&out), 7 * 6, "{options}: the border, of 7 edges");
     }
-    // The split edge has the texture coordinates of the large quad there.
+    // The split edge has the large quad's texture coordinates there.
     let texcoords = fs::read_to_string(&out).expect("it was written");
     assert!(texcoords.lines().any(|line| line == "vt 0.5 0.5"), "half of the edge");
 }
 
-/// Two corners hang on one edge, and the small quads' corner in the middle hangs on nothing.
+/// Two corners lie on one edge; the corner in the middle of the small quads lies on no edge.
 #[test]
 fn several_hanging_corners() {
     let folder = directory("mesh_hanging_more");
@@ -207,7 +208,7 @@ fn seams_that_differ_in_the_last_digits() {
     tess(&format!("mesh --weld -o {out}")).exits(2).says("--weld is for triangles and quads");
 }
 
-/// A height image of eight columns from black to white.
+/// Writes a height image of eight columns from black to white.
 fn write_ramp(folder: &Path) -> std::path::PathBuf {
     let path = folder.join("ramp.png");
     let mut encoder = png::Encoder::new(fs::File::create(&path).expect("the test's file"), 8, 1);
@@ -217,7 +218,7 @@ fn write_ramp(folder: &Path) -> std::path::PathBuf {
     path
 }
 
-/// The heights at the left and the right end of a flat strip with these texture coordinates.
+/// The heights at the left and right ends of a flat strip with these texture coordinates.
 #[test]
 fn heights_beyond_the_image() {
     let folder = directory("mesh_wrap");
@@ -240,7 +241,7 @@ fn heights_beyond_the_image() {
         ("0 1", "--wrap clamp", [0.0, 1.0]),
         ("0 1", "--wrap repeat", [0.5, 0.5]),
         ("0 1", "--wrap mirror", [0.0, 1.0]),
-        ("0 1.0625", "", [0.5, 0.0]), // beyond 1, so it repeats: the middle of the first column
+        ("0 1.0625", "", [0.5, 0.0]), // above 1, so it repeats: the middle of the first column
         ("0 1.0625", "--wrap clamp", [0.0, 1.0]),
         ("-0.9375 2", "--wrap mirror", [1.0, 0.0]),
     ] {

@@ -1,4 +1,5 @@
-//! Options that do nothing, or contradict each other or the name of a file, are refused.
+//! Tests that options are refused if they have no effect, or contradict each other or the name of a
+//! file.
 
 use crate::support::{directory, tess, tess_with_input};
 
@@ -33,7 +34,7 @@ fn options_without_effect_are_refused() {
     assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 0, "nothing is written");
 }
 
-/// The same options where they have an effect.
+/// The same options are accepted where they have an effect.
 #[test]
 fn options_with_an_effect_are_taken() {
     let folder = directory("options_with_an_effect");
@@ -50,7 +51,7 @@ fn options_with_an_effect_are_taken() {
     }
 }
 
-/// `tess patch` takes its form from the name of the file.
+/// `tess patch` takes its format from the name of the file.
 #[test]
 fn forms_by_name() {
     let folder = directory("forms_by_name");
@@ -62,7 +63,7 @@ fn forms_by_name() {
     }
 }
 
-/// A factor above the largest is valid, and what it counts as is said.
+/// A factor above the largest is valid, and a note states as what it counts.
 #[test]
 fn large_factors_are_noted() {
     for command in ["patch", "draw"] {
@@ -79,7 +80,7 @@ fn large_factors_are_noted() {
     }
 }
 
-/// A negative number is a wrong value, not an option that could be given in another way.
+/// A negative number is a wrong value, not an option that could be written in another way.
 #[test]
 fn negative_numbers_are_values() {
     for words in [

@@ -1,4 +1,4 @@
-//! `tess patch`: its formats, its errors and where its output goes.
+//! Tests of `tess patch`: its formats, its errors and where its output goes.
 
 use crate::support::{directory, tess};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use tess_verify::vectors::{Record, VectorFile};
 
 const CASES: &str = include_str!("../../../../golden/cases.txt");
 
-/// Every listing of golden/cases.txt comes out of the command that its case stands for.
+/// Every listing of golden/cases.txt is printed by the command for its case.
 #[test]
 fn golden_cases_are_reproduced() {
     let file = VectorFile::new("cases.txt", CASES.as_bytes()).expect("a vector file");
@@ -88,7 +88,8 @@ fn bad_arguments_say_what_would_be_right() {
     }
 }
 
-/// A file is written whole, over the old one; a failure leaves the old one and nothing else.
+/// A file is written whole and replaces the old one; a failure keeps the old one and leaves nothing
+/// else.
 #[test]
 fn files_are_whole_or_untouched() {
     let directory = directory("files_are_whole_or_untouched");

@@ -1,5 +1,5 @@
-//! `tess probe` on the first Vulkan device, which the tests have: exit codes and forms of the
-//! report.
+//! Tests of `tess probe` on the first Vulkan device, which the tests require: exit codes and
+//! formats of the report.
 
 use crate::support::{directory, tess};
 
@@ -29,8 +29,7 @@ fn reports_are_json_on_request() {
     assert_eq!(report["rows"][0]["set_digest"].as_str().map(str::len), Some(16), "{text}");
 }
 
-/// A shard without a case is done, as those of other commands are, so that its campaign can be
-/// whole.
+/// A shard without cases is done, as with other commands, so that its campaign can be complete.
 #[test]
 fn shards_without_cases_are_done() {
     let folder = directory("shards_without_cases_are_done");
@@ -49,7 +48,8 @@ fn shards_without_cases_are_done() {
     merged.exits(0).prints("2 of 2 shards ran once: 1 cases");
 }
 
-/// A place that cannot be written is refused before the device is asked, which is not there.
+/// An output that cannot be written is refused before the device is used, which does not exist
+/// here.
 #[test]
 fn outputs_are_tried_first() {
     for (option, why) in [
@@ -61,7 +61,7 @@ fn outputs_are_tried_first() {
     }
 }
 
-/// The loader's word for a manifest that it cannot read is that memory is short.
+/// For a manifest that it cannot read, the loader reports that memory is short.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_malformed_manifest_is_said() {
@@ -78,6 +78,6 @@ fn a_malformed_manifest_is_said() {
 fn what_cannot_be_done_is_said() {
     tess("probe --device 1000").exits(3).says("there is no Vulkan device 1000");
     tess("probe --level 3 --count 0").exits(2).says("select no case");
-    tess("probe --level 4").exits(2); // there are three levels
+    tess("probe --level 4").exits(2); // there are only three levels
     tess("probe --bench --workload nothing").exits(2);
 }

@@ -1,10 +1,10 @@
-//! `--rules` of `tess gen`, `check` and `verify`.
+//! Tests of `--rules` of `tess gen`, `check` and `verify`.
 
 use crate::campaigns::{json, tess_in};
 use crate::support::{directory, tess, tess_with_input};
 use std::fs::write;
 
-/// The rules of Vulkan that the model breaks on three lines, and those that it does not.
+/// The rules of Vulkan that the model breaks on three lines, and the rules that it does not.
 #[test]
 fn a_capture_is_judged() {
     let listings = tess_with_input("patch --cases -", &LINES.concat()).stdout;
@@ -30,7 +30,7 @@ const LINES: [&str; 2] = [
     "case isoline fractional_odd line ruler 3f800000 40400001\n",
 ];
 
-/// Answers to other levels than were asked for: the rule names the level.
+/// Answers that use other levels than were asked for: the rule names the level.
 #[test]
 fn levels_that_are_ignored_or_exchanged_are_named() {
     let quad = |inner: &str| {
@@ -55,7 +55,7 @@ fn levels_that_are_ignored_or_exchanged_are_named() {
     }
 }
 
-/// A baseline says how often a rule is broken and which answers are missing; nothing else passes.
+/// A baseline states how often a rule is broken and which answers are missing; nothing else passes.
 #[test]
 fn deviations_have_terms() {
     let folder = directory("deviations_have_terms");
@@ -84,7 +84,12 @@ fn deviations_have_terms() {
         ("part.txt", &both, 0, ""),
         ("part.txt", &baseline, 1, ""),
         ("whole.txt", &both, 1, "2: is unused"),
-        ("whole.txt", &(baseline.clone() + line), 1, ": is unused, nothing differs so: rule cover"),
+        (
+            "whole.txt",
+            &(baseline.clone() + line),
+            1,
+            ": is unused: nothing differs this way: rule cover",
+        ),
         ("whole.txt", &baseline.replacen("| 1 |", "| 2 |", 1), 1, "1: expects `2`, not `1`: rule"),
         ("whole.txt", &baseline.replace("9999", "2020"), 1, "known.txt:1: expired on 2020-12-31"),
         ("whole.txt", &line.replace("cover", "covre"), 2, "known.txt:1: rule: "),
@@ -92,12 +97,7 @@ fn deviations_have_terms() {
         ("whole.txt", &line.replace("| 1 |", "| so |"), 2, "known.txt:1: expected: "),
         ("whole.txt", &line.replace("ada", ""), 2, "known.txt:1: terms: "),
         ("whole.txt", &"rule cover".to_owned(), 2, "known.txt:1: terms: "),
-        (
-            "whole.txt",
-            &format!("{line}\n\n{line}"),
-            2,
-            "known.txt:3: subject: stands in line 1 too",
-        ),
+        ("whole.txt", &format!("{line}\n\n{line}"), 2, "known.txt:3: subject: is also on line 1"),
     ] {
         let run = run(device, known);
         run.exits(code);
@@ -116,7 +116,7 @@ fn deviations_have_terms() {
     run.prints(&missing).prints("\n2 cases, 1 mismatches of answers\n");
 }
 
-/// One command says that a device conforms to Vulkan and has another order than Direct3D's.
+/// One command tells that a device conforms to Vulkan and that its order differs from Direct3D's.
 #[test]
 fn another_order_is_told_from_other_output() {
     let line = "case tri integer triangle_cw ruler 40000000 40000000 40000000 40000000\n";
@@ -144,7 +144,7 @@ fn rules_are_for_listings() {
     }
 }
 
-/// Rules ask no backend, so how one runs is refused with them.
+/// Rules do not use a backend, so options about how one runs are refused with them.
 #[test]
 fn rules_have_no_backend() {
     let listing = tess("patch tri --outer 2,2,2 --inner 2").stdout;

@@ -24,7 +24,7 @@ impl fmt::Display for Run {
 }
 
 impl Run {
-    /// Runs a command to its end.
+    /// Runs a command until it ends.
     pub(crate) fn of(command: &mut Command) -> Self {
         let output = command.output().expect("the command runs");
         Self::with(format!("{command:?}"), &output)
@@ -42,14 +42,14 @@ impl Run {
         self
     }
 
-    /// On stdout stands this.
+    /// Checks that stdout contains this text.
     #[track_caller]
     pub(crate) fn prints(&self, text: impl AsRef<str>) -> &Self {
         assert!(self.stdout.contains(text.as_ref()), "no `{}` on stdout: {self}", text.as_ref());
         self
     }
 
-    /// On stdout stands this and nothing else.
+    /// Checks that stdout is exactly this text.
     #[track_caller]
     pub(crate) fn prints_only(&self, text: &str) -> &Self {
         assert_eq!(self.stdout, text, "{self}");
@@ -61,7 +61,7 @@ impl Run {
         self.prints_only("")
     }
 
-    /// On stderr stands this.
+    /// Checks that stderr contains this text.
     #[track_caller]
     pub(crate) fn says(&self, text: impl AsRef<str>) -> &Self {
         assert!(self.stderr.contains(text.as_ref()), "no `{}` on stderr: {self}", text.as_ref());
@@ -75,7 +75,7 @@ impl Run {
     }
 }
 
-/// Runs `tess` with these words.
+/// Runs `tess` with these arguments.
 pub(crate) fn tess(words: &str) -> Run {
     tess_with_input(words, "")
 }
@@ -87,7 +87,7 @@ pub(crate) fn digest(text: &str) -> String {
     format!("{:016x}", digest.finish())
 }
 
-/// The command of `tess` with these words.
+/// The command `tess` with these arguments.
 pub(crate) fn command(words: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tess"));
     command.args(words.split_whitespace());
@@ -102,7 +102,7 @@ pub(crate) fn shell(script: &str, folder: &Path) -> Run {
     Run::of(&mut shell)
 }
 
-/// Runs `tess` with these words and this stdin.
+/// Runs `tess` with these arguments and this stdin.
 pub(crate) fn tess_with_input(words: &str, input: &str) -> Run {
     let mut child = command(words)
         .stdin(Stdio::piped())
@@ -115,20 +115,20 @@ pub(crate) fn tess_with_input(words: &str, input: &str) -> Run {
     Run::with(words.to_owned(), &child.wait_with_output().expect("tess ends"))
 }
 
-/// Runs `tess` with these words and environment variables.
+/// Runs `tess` with these arguments and environment variables.
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 pub(crate) fn tess_with_environment(words: &str, variables: &[(&str, &str)]) -> Run {
     Run::of(command(words).envs(variables.iter().copied()))
 }
 
-/// The program.
+/// The path of the program.
 #[cfg(target_os = "linux")]
 pub(crate) fn tess_program() -> &'static Path {
     Path::new(env!("CARGO_BIN_EXE_tess"))
 }
 
-/// An empty directory for one run of one test, removed when it is dropped. Other processes may run
-/// the same test at the same time.
+/// An empty directory for one run of one test, removed when the value is dropped. Other processes
+/// may run the same test at the same time.
 pub(crate) struct Folder(TempDir);
 
 impl Deref for Folder {
@@ -145,14 +145,15 @@ impl AsRef<Path> for Folder {
     }
 }
 
-/// A directory for a test.
+/// Creates a directory for a test.
 pub(crate) fn directory(test: &str) -> Folder {
     let mut builder = tempfile::Builder::new();
     let made = builder.prefix(&format!("{test}-")).tempdir_in(env!("CARGO_TARGET_TMPDIR"));
     Folder(made.expect("a directory for the test"))
 }
 
-/// Another run of the same test removed the folder of the first, which used its path.
+/// Each run of a test has a folder of its own. When two runs used the same path, one removed the
+/// folder of the other.
 #[test]
 fn directories_are_not_shared() {
     let folders = [directory("shared"), directory("shared")];

@@ -1,10 +1,10 @@
-//! Where threads cannot be started, commands do their work on those that there are.
+//! Tests that commands do their work on the threads that exist where more cannot be started.
 
 use crate::support::{Folder, Run, directory, shell, tess_program};
 use std::fs;
 
-/// Runs `tess` where a user may have this many threads. The limit is not for root, who becomes
-/// somebody else for it, and so needs a program that anybody can read.
+/// Runs `tess` where a user may have this many threads. The limit does not apply to root, so root
+/// switches to another user for it, and this user needs a program that anybody can read.
 fn with_threads(threads: u32, words: &str, folder: &Folder) -> Run {
     let limited = format!("ulimit -u {threads}; exec {}/tess {words}", folder.display());
     let is_root = shell("test $(id -u) = 0", folder).code == Some(0);
@@ -40,7 +40,7 @@ fn commands_run_without_threads() {
     }
 }
 
-/// rayon would start all of them, which takes minutes.
+/// rayon would start all of them, which would take minutes.
 #[test]
 fn tens_of_thousands_of_threads_are_not_started() {
     let folder = directory("tens_of_thousands_of_threads");

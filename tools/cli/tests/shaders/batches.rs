@@ -1,10 +1,10 @@
-//! Batches: factors with the words that the model gives for them.
+//! Batches: factors with the output that the model gives for them.
 
 use tess_core::{Config, Domain, Order, PatchFactors};
 use tess_verify::generate::{SplitMix64, random_patch};
 use tess_verify::{Case, Named};
 
-/// Patches of one setup.
+/// Patches of one configuration.
 pub(crate) struct Batch {
     pub(crate) domain: Domain,
     pub(crate) config: Config,
@@ -20,7 +20,7 @@ pub(crate) struct Form {
     pub(crate) is_for_cache: bool,
 }
 
-/// Files that the host must write.
+/// The contents of the files that the host must write.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Expected {
     pub(crate) points: Vec<u8>,
@@ -28,7 +28,7 @@ pub(crate) struct Expected {
     pub(crate) draw: Vec<u8>,
 }
 
-/// The recorded cases, by setup.
+/// The recorded cases, grouped by configuration.
 pub(crate) fn recorded() -> Result<Vec<Batch>, String> {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden/cases.txt");
     let text = std::fs::read_to_string(file).map_err(|error| error.to_string())?;
@@ -46,14 +46,14 @@ pub(crate) fn recorded() -> Result<Vec<Batch>, String> {
 }
 
 impl Batch {
-    /// Random patches of the same setup.
+    /// Random patches of the same configuration.
     pub(crate) fn random(&self, seed: u64, count: usize) -> Self {
         let mut random = SplitMix64::new(seed);
         let patches = (0..count).map(|_| random_patch(self.domain, &mut random)).collect();
         Self { patches, ..*self }
     }
 
-    /// The options of `tess shaders` for it.
+    /// The options of `tess shaders` for the batch.
     pub(crate) fn options(&self, form: Form) -> String {
         let Config { partitioning, output, split } = self.config;
         let pick =
@@ -76,7 +76,7 @@ impl Batch {
         factors.flat_map(|factor| factor.to_bits().to_le_bytes()).collect()
     }
 
-    /// The model's output.
+    /// The model's output in this form.
     pub(crate) fn expected(&self, form: Form) -> Expected {
         let (mut points, mut indices) = (Vec::new(), Vec::new());
         let (mut base, mut count) = (0u32, 0u32);
@@ -106,7 +106,7 @@ impl Batch {
     }
 }
 
-/// The bits of a 16.16 number up to 1 as a binary32, exactly.
+/// The bits of the binary32 that exactly equals a 16.16 number up to 1.
 fn float_bits(fixed: u32) -> u32 {
     match fixed.checked_ilog2() {
         None => 0,

@@ -1,4 +1,4 @@
-//! Every language through a compiler that is not naga.
+//! Compiles every language with a compiler that is not naga.
 
 use crate::{SETUPS, run, shaders, stages};
 use libtest_mimic::Failed;
@@ -9,7 +9,7 @@ fn validate(file: &Path) -> Result<(), String> {
     run(Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(file)).map(drop)
 }
 
-/// Compiles every stage of a folder to SPIR-V beside it, and validates that.
+/// Compiles every stage of a folder to SPIR-V next to it, and validates the result.
 pub(crate) fn compile(folder: &Path, ending: &str) -> Result<(), String> {
     for stage in stages(folder, ending)? {
         let mut compiler = Command::new("glslangValidator");
@@ -53,7 +53,7 @@ pub(crate) fn hlsl_compiles() -> Result<(), Failed> {
     every_setup("hlsl", |folder| compile(folder, ".hlsl"))
 }
 
-/// A shader with a fault is refused by each compiler.
+/// Each compiler refuses a shader with a fault.
 pub(crate) fn faults_are_seen() -> Result<(), Failed> {
     let folder = shaders("faulty-spirv", "--target spirv")?;
     let file = folder.join("scan.spv");

@@ -1,4 +1,4 @@
-//! The host in C on every Vulkan device 0: its output is the model's, byte for byte.
+//! The host in C on Vulkan device 0: its output is the model's, byte for byte.
 
 use crate::batches::{Batch, Expected, Form, recorded};
 use crate::compilers::compile;
@@ -21,10 +21,10 @@ fn build(folder: &Path) -> Result<PathBuf, String> {
     Ok(program)
 }
 
-/// Runs the host on batches, and gives what it wrote for each.
+/// Runs the host on batches and returns what it wrote for each.
 fn tessellate(folder: &Path, batches: &[&Batch]) -> Result<Vec<Expected>, String> {
     let mut host = Command::new(build(folder)?);
-    // Mesa's loader complains where there is none.
+    // Mesa's loader complains if the directory does not exist.
     host.env("XDG_RUNTIME_DIR", std::env::temp_dir()).arg(folder);
     let files: Vec<_> = (0..batches.len()).map(|i| folder.join(format!("factors-{i}"))).collect();
     for (file, batch) in files.iter().zip(batches) {
@@ -58,7 +58,7 @@ fn compare(folder: &Path, batches: &[&Batch], form: Form) -> Result<(), String> 
     Ok(())
 }
 
-/// Every form of output, in turn.
+/// The forms of output, one after another.
 fn form(number: usize) -> Form {
     let is_per_patch = number % 3 == 1;
     Form {
@@ -69,7 +69,7 @@ fn form(number: usize) -> Form {
     }
 }
 
-/// The recorded cases and a random batch of each setup that they have.
+/// The recorded cases, and a random batch of each of their configurations.
 pub(crate) fn spirv_equals_the_model() -> Result<(), Failed> {
     let batches = recorded()?;
     for (number, batch) in batches.iter().enumerate() {
@@ -81,7 +81,7 @@ pub(crate) fn spirv_equals_the_model() -> Result<(), Failed> {
     if batches.len() < 20 { Err("there are few setups".into()) } else { Ok(()) }
 }
 
-/// A few setups of each domain, through another compiler.
+/// A few configurations of each domain, through another compiler.
 fn through(language: &str, ending: &str) -> Result<(), Failed> {
     for (number, batch) in recorded()?.iter().enumerate().step_by(4) {
         let form = form(number);
@@ -101,7 +101,7 @@ pub(crate) fn hlsl_equals_the_model() -> Result<(), Failed> {
     through("hlsl", ".hlsl")
 }
 
-/// The sizes of the manifest are enough for shaders that check nothing.
+/// The sizes in the manifest are enough for shaders that check nothing.
 pub(crate) fn unchecked_equals_the_model() -> Result<(), Failed> {
     for (number, batch) in recorded()?.iter().enumerate().skip(2).step_by(5) {
         let form = form(number);
@@ -112,7 +112,7 @@ pub(crate) fn unchecked_equals_the_model() -> Result<(), Failed> {
     Ok(())
 }
 
-/// A table with one wrong word, and factors other than those compared, are seen.
+/// A table with one wrong word, and factors that differ from those compared, are detected.
 pub(crate) fn faults_are_seen() -> Result<(), Failed> {
     let recorded = recorded()?;
     let batch = recorded[0].random(1, PATCHES);

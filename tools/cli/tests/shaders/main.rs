@@ -1,5 +1,5 @@
-//! The files of `tess shaders` in the hands of others: compilers that are not naga, and the host in
-//! C of `bindings/vulkan`, whose output must be the model's.
+//! Tests of the files of `tess shaders` with compilers that are not naga, and with the host in C of
+//! `bindings/vulkan`, whose output must be the model's.
 //!
 //! Where a tool is missing, its tests are reported as ignored, with the tool's name; with the
 //! environment variable `CI` set they fail.
@@ -56,7 +56,7 @@ fn has(tool: &str) -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
-/// Runs a command that must succeed; gives its standard output.
+/// Runs a command that must succeed; returns its standard output.
 fn run(command: &mut Command) -> Result<String, String> {
     let output = command.output().map_err(|error| format!("cannot run {command:?}: {error}"))?;
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
@@ -70,8 +70,8 @@ fn run(command: &mut Command) -> Result<String, String> {
 
 static FOLDERS: OnceLock<PathBuf> = OnceLock::new();
 
-/// The folder of this process, in which every test has others. Another process may run the same
-/// tests.
+/// The folder of this process, in which every test has its own folders. Another process may run the
+/// same tests.
 fn folders() -> &'static Path {
     FOLDERS.get_or_init(|| {
         let made =
@@ -80,7 +80,7 @@ fn folders() -> &'static Path {
     })
 }
 
-/// Writes the shaders of these options into a new folder of this name.
+/// Writes the shaders for these options into a new folder of this name.
 fn shaders(name: &str, options: &str) -> Result<PathBuf, String> {
     let folder = folders().join(name);
     let mut command = Command::new(env!("CARGO_BIN_EXE_tess"));
@@ -89,7 +89,8 @@ fn shaders(name: &str, options: &str) -> Result<PathBuf, String> {
     Ok(folder)
 }
 
-/// The files of a folder that end so, without the ending; there must be some.
+/// The names of the files in a folder that have this ending, without the ending; there must be
+/// some.
 fn stages(folder: &Path, ending: &str) -> Result<Vec<String>, String> {
     let entries = std::fs::read_dir(folder).map_err(|error| error.to_string())?;
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
@@ -99,7 +100,7 @@ fn stages(folder: &Path, ending: &str) -> Result<Vec<String>, String> {
     if stages.is_empty() { Err(format!("no {ending} in {}", folder.display())) } else { Ok(stages) }
 }
 
-/// Options of one setup of each domain that together have every form of shader.
+/// Options for one configuration of each domain. Together they have every form of shader.
 const SETUPS: [&str; 4] = [
     "--domain tri --partitioning fractional_odd --output triangle_cw",
     "--domain quad --partitioning integer --output triangle_ccw --split center --points f32",

@@ -1,6 +1,6 @@
 //! The Metal Shading Language, which is C++ with a library: a C++ compiler checks syntax, names and
-//! types against the declarations in `metal/metal_stdlib`. Address spaces and entry points are left
-//! to Metal's own compiler.
+//! types against the declarations in `metal/metal_stdlib`. Only Metal's own compiler can check
+//! address spaces and entry points.
 
 use crate::compilers::every_setup;
 use crate::{run, shaders, stages};
@@ -16,8 +16,8 @@ fn compile(folder: &Path) -> Result<(), String> {
     stages(folder, ".metal")?.iter().try_for_each(|stage| {
         let error = |error: std::io::Error| error.to_string();
         let text = fs::read_to_string(folder.join(format!("{stage}.metal"))).map_err(error)?;
-        // naga writes one function for each address space, which C++ without them takes for the
-        // same.
+        // naga writes one function for each address space. C++, which has no address spaces, takes
+        // them for the same function.
         let text = text.replace("threadgroup A *", "threadgroup volatile A *");
         let file = folder.join(format!("{stage}.cc"));
         fs::write(&file, text).map_err(error)?;

@@ -1,4 +1,4 @@
-//! Buffers in memory that the host or the device is near to.
+//! Buffers in memory near the host or the device.
 
 use super::{Commands, Gpu, Owned};
 use crate::error::Error;
@@ -24,7 +24,7 @@ impl DeviceBuffer {
     ) -> Result<Self, Error> {
         let visible =
             vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
-        // Reading memory that is not cached is slow.
+        // Reading uncached memory is slow.
         let cached = visible | vk::MemoryPropertyFlags::HOST_CACHED;
         Self::new(gpu, bytes, usage, &[cached, visible], true)
     }
@@ -51,21 +51,21 @@ impl DeviceBuffer {
         staging.write(words)?;
         let buffer = Self::local(gpu, bytes, usage | vk::BufferUsageFlags::TRANSFER_DST)?;
         let region = [vk::BufferCopy::default().size(bytes.max(4))];
-        // SAFETY: the command buffer is being recorded; both buffers have so many bytes and outlive
-        // the submission, which is waited for.
+        // SAFETY: the command buffer is being recorded; both buffers have this many bytes and
+        // outlive the submission, which is waited for.
         commands.run(|device, to| unsafe {
             device.cmd_copy_buffer(to, *staging.handle, *buffer.handle, &region);
         })?;
         Ok(buffer)
     }
 
-    /// The first words of a buffer that only the device uses.
+    /// Reads the first words of a buffer that only the device uses.
     pub(crate) fn download(&self, commands: &Commands, words: usize) -> Result<Vec<u32>, Error> {
         let bytes = 4 * words as u64;
         let staging = Self::shared(&self.gpu, bytes, vk::BufferUsageFlags::TRANSFER_DST)?;
         let region = [vk::BufferCopy::default().size(bytes)];
-        // SAFETY: the command buffer is being recorded; both buffers have so many bytes and outlive
-        // the submission, which is waited for.
+        // SAFETY: the command buffer is being recorded; both buffers have this many bytes and
+        // outlive the submission, which is waited for.
         commands.run(|device, to| unsafe {
             device.cmd_copy_buffer(to, *self.handle, *staging.handle, &region);
         })?;
@@ -82,7 +82,7 @@ impl DeviceBuffer {
         let bytes = bytes.max(16).next_multiple_of(16);
         let create = vk::BufferCreateInfo::default().size(bytes).usage(usage);
         let calls = (ash::Device::create_buffer as _, ash::Device::destroy_buffer as _);
-        // SAFETY: any device makes such buffers.
+        // SAFETY: every device can make such buffers.
         let handle = unsafe { Owned::new(gpu, "vkCreateBuffer", calls, &create) }?;
         // SAFETY: the buffer is the device's.
         let needs = unsafe { gpu.device.get_buffer_memory_requirements(*handle) };
@@ -102,18 +102,18 @@ impl DeviceBuffer {
         Ok(Self { gpu: Arc::clone(gpu), handle, memory, bytes, is_mapped })
     }
 
-    /// Writes words at the beginning.
+    /// Writes words at the beginning of the buffer.
     ///
     /// # Panics
-    /// If they do not fit, or the buffer is not shared.
+    /// If the words do not fit, or the buffer is not shared.
     pub(crate) fn write(&self, words: &[u32]) -> Result<(), Error> {
         self.mapped(words.len(), |mapped| mapped.copy_from_slice(words))
     }
 
-    /// The first words.
+    /// Reads the first words.
     ///
     /// # Panics
-    /// If the buffer does not have as many, or is not shared.
+    /// If the buffer has fewer words, or is not shared.
     pub(crate) fn read(&self, words: usize) -> Result<Vec<u32>, Error> {
         self.mapped(words, |mapped| mapped.to_vec())
     }

@@ -1,11 +1,11 @@
-//! Recording commands and waiting for them.
+//! Records commands and waits for them.
 
 use super::{Gpu, Owned};
 use crate::error::Error;
 use ash::vk;
 use std::sync::Arc;
 
-/// One command buffer, recorded again for each submission, and queries.
+/// A command buffer that is recorded again for each submission, and queries.
 #[derive(Debug)]
 pub(crate) struct Commands {
     gpu: Arc<Gpu>,
@@ -36,12 +36,12 @@ impl Commands {
         Ok(Self { gpu: Arc::clone(gpu), queries, buffer: buffers[0], _pool: pool, count })
     }
 
-    /// The pool of queries, all of which are reset when a submission begins.
+    /// The pool of queries; all are reset at the beginning of a submission.
     pub(crate) fn queries(&self) -> vk::QueryPool {
         *self.queries
     }
 
-    /// Records what `record` calls, submits it and waits for its end.
+    /// Records the commands of `record`, submits them and waits for their end.
     ///
     /// # Errors
     /// The device is lost or out of memory.
@@ -52,8 +52,8 @@ impl Commands {
         let device = &self.gpu.device;
         let begin = vk::CommandBufferBeginInfo::default()
             .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // SAFETY: the buffer is not in use, as the submission before was waited for; beginning
-        // resets it. The queries are the device's.
+        // SAFETY: the buffer is not in use, because the previous submission was waited for;
+        // beginning resets it. The queries are the device's.
         unsafe {
             device
                 .begin_command_buffer(self.buffer, &begin)
@@ -63,8 +63,8 @@ impl Commands {
         record(device, self.buffer);
         let buffers = [self.buffer];
         let submit = [vk::SubmitInfo::default().command_buffers(&buffers)];
-        // SAFETY: the queue is used by this thread alone, because `Prober` and `Bench` are not
-        // shared between threads; what the commands use outlives the wait.
+        // SAFETY: only this thread uses the queue, because `Prober` and `Bench` are not shared
+        // between threads; everything that the commands use outlives the wait.
         unsafe {
             device.end_command_buffer(self.buffer).map_err(Error::of("vkEndCommandBuffer"))?;
             device
@@ -74,11 +74,11 @@ impl Commands {
         }
     }
 
-    /// The results of the queries: `words` numbers of 64 bits for each.
+    /// The results of the queries, each as `N` 64-bit numbers.
     pub(crate) fn results<const N: usize>(&self) -> Result<Vec<[u64; N]>, Error> {
         let mut results = vec![[0; N]; self.count as usize];
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
-        // SAFETY: every query of the pool was begun and ended by the submission before.
+        // SAFETY: the previous submission began and ended every query of the pool.
         unsafe { self.gpu.device.get_query_pool_results(*self.queries, 0, &mut results, flags) }
             .map_err(Error::of("vkGetQueryPoolResults"))?;
         Ok(results)

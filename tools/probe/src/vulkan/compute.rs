@@ -1,4 +1,4 @@
-//! The compute shaders of `tess-gpu` for one batch: what a host does with a plan.
+//! The compute shaders of `tess-gpu` for one batch: the work of a host that follows a plan.
 
 use super::pipeline::module;
 use super::{Commands, DeviceBuffer, Gpu, Interface, Owned, Sets};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 use tess_gpu::tables;
 use tess_gpu::{Plan, Resource, Setup, Stage, Workgroups};
 
-/// Gives a stage in SPIR-V; an error says why it cannot.
+/// Provides a stage in SPIR-V; an error gives the reason why it cannot.
 pub type Spirv<'a> = &'a dyn Fn(Stage, Setup) -> Result<Vec<u8>, String>;
 
 /// A batch with its buffers, pipelines and sets.
@@ -58,7 +58,7 @@ impl Compute {
         &self.buffers[&resource]
     }
 
-    /// Records everything from factors to draw arguments; what comes after sees it.
+    /// Records everything from factors to draw arguments; later commands see the results.
     pub(crate) fn record(&self, device: &ash::Device, to: vk::CommandBuffer) {
         let compute = vk::PipelineBindPoint::COMPUTE;
         let status = *self.buffer(Resource::Status).handle;
@@ -152,12 +152,12 @@ unsafe fn compute_pipeline(
     callbacks: Option<&vk::AllocationCallbacks<'_>>,
 ) -> VkResult<vk::Pipeline> {
     let (cache, create) = (vk::PipelineCache::null(), [*create]);
-    // SAFETY: as the caller says.
+    // SAFETY: the caller guarantees it.
     let made = unsafe { device.create_compute_pipelines(cache, &create, callbacks) };
     made.map(|pipelines| pipelines[0]).map_err(|(_, result)| result)
 }
 
-/// Lets every later command see what earlier ones wrote.
+/// Makes the writes of earlier commands visible to every later one.
 ///
 /// # Safety
 /// The command buffer is being recorded, outside of a pass.
@@ -167,6 +167,6 @@ unsafe fn barrier(device: &ash::Device, to: vk::CommandBuffer) {
         .src_access_mask(vk::AccessFlags::MEMORY_WRITE)
         .dst_access_mask(vk::AccessFlags::MEMORY_READ | vk::AccessFlags::MEMORY_WRITE);
     let none = vk::DependencyFlags::empty();
-    // SAFETY: as the caller says.
+    // SAFETY: the caller guarantees it.
     unsafe { device.cmd_pipeline_barrier(to, all, all, none, &[memory], &[], &[]) };
 }

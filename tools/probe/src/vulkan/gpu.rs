@@ -6,7 +6,7 @@ use ash::{ext, vk};
 use std::ffi::CStr;
 use std::fmt;
 
-/// A device that can tessellate, and what it is called.
+/// A device that can tessellate, with its name and abilities.
 pub(crate) struct Gpu {
     pub(crate) device: ash::Device,
     pub(crate) queue: vk::Queue,
@@ -26,27 +26,27 @@ impl fmt::Debug for Gpu {
 
 impl Drop for Gpu {
     fn drop(&mut self) {
-        // SAFETY: every other object of the device holds an `Arc` of this and so is gone, and
-        // nothing runs: each submission is waited for.
+        // SAFETY: every other object of the device holds an `Arc` of this, so none is left, and
+        // nothing runs, because each submission is waited for.
         unsafe { self.device.destroy_device(None) };
     }
 }
 
 struct Instance {
     instance: ash::Instance,
-    /// The loader: it must stay as long as what it gave.
+    /// The loader, which must outlive everything obtained from it.
     _entry: ash::Entry,
 }
 
 impl Drop for Instance {
     fn drop(&mut self) {
-        // SAFETY: nothing of the instance is kept: a device of it was destroyed before.
+        // SAFETY: nothing of the instance is left: its device has been destroyed.
         unsafe { self.instance.destroy_instance(None) };
     }
 }
 
 fn instance() -> Result<Instance, Error> {
-    // SAFETY: the library is the system's loader, whose initialisers are trusted as any program's
+    // SAFETY: the library is the system's loader, whose initialisers are trusted as in any program
     // that uses Vulkan.
     let entry =
         unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader(error.to_string()))?;
@@ -58,7 +58,7 @@ fn instance() -> Result<Instance, Error> {
         vk::Result::ERROR_INCOMPATIBLE_DRIVER => {
             Error::NoLoader("no driver is installed".to_owned())
         }
-        // What the loader gives where it can read no driver's manifest.
+        // The loader returns this if it cannot read any driver's manifest.
         vk::Result::ERROR_OUT_OF_HOST_MEMORY => Error::NoLoader(
             "the loader cannot begin: a driver's manifest is malformed, or memory is short; \
              VK_LOADER_DEBUG=error says more"
@@ -156,7 +156,7 @@ impl Gpu {
     }
 }
 
-/// The first family of queues that draws and computes.
+/// The first queue family that can draw and compute.
 fn family(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Result<u32, Error> {
     // SAFETY: the device is of this instance.
     let families = unsafe { instance.get_physical_device_queue_family_properties(physical) };
@@ -184,7 +184,7 @@ fn device(
     if info.captures {
         create = create.enabled_extension_names(&names).push_next(&mut feedback);
     }
-    // SAFETY: every feature and extension is one that the device said it has, and the structures
-    // live through the call.
+    // SAFETY: the device has reported every one of these features and extensions, and the
+    // structures live through the call.
     unsafe { instance.create_device(physical, &create, None) }.map_err(Error::of("vkCreateDevice"))
 }

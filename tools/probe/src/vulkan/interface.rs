@@ -1,4 +1,4 @@
-//! The interface of shaders, and the buffers that are bound to it.
+//! The interface of shaders, and the buffers bound to it.
 
 use super::{Gpu, Owned};
 use crate::error::Error;
@@ -13,7 +13,7 @@ pub(crate) struct Interface {
 }
 
 impl Interface {
-    /// Buffers of these types, and so many bytes of constants, for these stages.
+    /// An interface of buffers of these types, and this many bytes of constants, for these stages.
     pub(crate) fn new(
         gpu: &Arc<Gpu>,
         stages: vk::ShaderStageFlags,
@@ -48,7 +48,7 @@ impl Interface {
     }
 }
 
-/// Room for sets.
+/// A pool for sets.
 #[derive(Debug)]
 pub(crate) struct Sets {
     pool: Owned<vk::DescriptorPool>,
@@ -56,7 +56,7 @@ pub(crate) struct Sets {
 }
 
 impl Sets {
-    /// Room for this many sets, and buffers of all of them.
+    /// A pool for this many sets, and for the buffers of all of them.
     pub(crate) fn new(gpu: &Arc<Gpu>, sets: usize, buffers: usize) -> Result<Self, Error> {
         let count = |number| u32::try_from(number).unwrap_or(u32::MAX).max(1);
         let sizes = [vk::DescriptorType::UNIFORM_BUFFER, vk::DescriptorType::STORAGE_BUFFER]
@@ -70,7 +70,7 @@ impl Sets {
         Ok(Self { pool, gpu: Arc::clone(gpu) })
     }
 
-    /// A set with these buffers bound: the type of each, its offset and its size in bytes.
+    /// A set with these buffers bound; each has a type, an offset and a size in bytes.
     pub(crate) fn bind(
         &self,
         interface: &Interface,
@@ -92,7 +92,7 @@ impl Sets {
                 .dst_binding(number)
                 .descriptor_type(ty)
                 .buffer_info(&bound);
-            // SAFETY: nothing runs that uses the set.
+            // SAFETY: nothing that uses the set is running.
             unsafe { device.update_descriptor_sets(&[write], &[]) };
         }
         Ok(sets[0])

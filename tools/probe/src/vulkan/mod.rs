@@ -1,4 +1,4 @@
-//! The calls of Vulkan that a probe makes, each object freed when it is dropped.
+//! The Vulkan calls of a probe; each object is freed when it is dropped.
 
 mod buffer;
 mod commands;

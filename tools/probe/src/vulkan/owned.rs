@@ -10,13 +10,13 @@ use std::sync::Arc;
 
 type Callbacks<'a> = Option<&'a vk::AllocationCallbacks<'a>>;
 
-/// The function that makes a handle.
+/// The function that creates a handle.
 type Create<T, I> = unsafe fn(&ash::Device, &I, Callbacks<'_>) -> VkResult<T>;
-/// Its counterpart.
+/// The function that destroys it.
 type Destroy<T> = unsafe fn(&ash::Device, T, Callbacks<'_>);
 
-/// A handle of a device. Fields are dropped from the first to the last: what uses a handle stands
-/// before it.
+/// A handle of a device. Fields are dropped from first to last, so a user of a handle comes before
+/// it.
 pub(crate) struct Owned<T: Copy> {
     handle: T,
     destroy: Destroy<T>,
@@ -24,18 +24,19 @@ pub(crate) struct Owned<T: Copy> {
 }
 
 impl<T: Copy> Owned<T> {
-    /// Makes a handle by the function of this name, as `info` says.
+    /// Creates a handle with `create`, from `info`; `name` is the function's name in errors.
     ///
     /// # Safety
-    /// `info` is as the function demands; `destroy` is its counterpart; and nothing that runs uses
-    /// the handle when it is dropped, which holds as each submission is waited for.
+    /// `info` meets the function's demands; `destroy` is the counterpart of `create`; and nothing
+    /// running uses the handle when it is dropped, which holds because each submission is waited
+    /// for.
     pub(crate) unsafe fn new<I>(
         gpu: &Arc<Gpu>,
         name: &'static str,
         (create, destroy): (Create<T, I>, Destroy<T>),
         info: &I,
     ) -> Result<Self, Error> {
-        // SAFETY: the device is alive, as `gpu` is; `info` is as the caller says.
+        // SAFETY: the device is alive, because `gpu` is; the caller guarantees `info`.
         let handle = unsafe { create(&gpu.device, info, None) }.map_err(Error::of(name))?;
         Ok(Self { handle, destroy, gpu: Arc::clone(gpu) })
     }
@@ -57,7 +58,7 @@ impl<T: Copy + fmt::Debug> fmt::Debug for Owned<T> {
 
 impl<T: Copy> Drop for Owned<T> {
     fn drop(&mut self) {
-        // SAFETY: as the caller of `new` says.
+        // SAFETY: the caller of `new` guarantees it.
         unsafe { (self.destroy)(&self.gpu.device, self.handle, None) };
     }
 }

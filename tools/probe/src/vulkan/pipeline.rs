@@ -1,4 +1,4 @@
-//! Render passes and pipelines with or without tessellation.
+//! Render passes and pipelines, with or without tessellation.
 
 use super::{DeviceBuffer, Gpu, Interface, Owned, Sets};
 use crate::error::Error;
@@ -18,7 +18,7 @@ pub(crate) struct BoundInterface {
     interface: Interface,
 }
 
-/// The stages that see buffers and constants.
+/// The stages that use buffers and constants.
 pub(crate) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::ALL_GRAPHICS;
 
 impl BoundInterface {
@@ -43,7 +43,7 @@ pub(crate) struct DrawPass {
     gpu: Arc<Gpu>,
     framebuffer: Owned<vk::Framebuffer>,
     pass: Owned<vk::RenderPass>,
-    /// The image that it draws to, if it does.
+    /// The image to which it draws, if it draws.
     image: Option<Image>,
     size: u32,
 }
@@ -59,7 +59,7 @@ struct Image {
 }
 
 impl Image {
-    /// `size` by `size` pixels.
+    /// An image of `size` by `size` pixels.
     fn new(gpu: &Arc<Gpu>, size: u32) -> Result<Self, Error> {
         let device = &gpu.device;
         let create = vk::ImageCreateInfo::default()
@@ -71,7 +71,7 @@ impl Image {
             .samples(vk::SampleCountFlags::TYPE_1)
             .usage(vk::ImageUsageFlags::COLOR_ATTACHMENT);
         let calls = (ash::Device::create_image as _, ash::Device::destroy_image as _);
-        // SAFETY: every device draws to images of this format and usage.
+        // SAFETY: every device can draw to images of this format and usage.
         let image = unsafe { Owned::new(gpu, "vkCreateImage", calls, &create) }?;
         // SAFETY: the image is the device's.
         let needs = unsafe { device.get_image_memory_requirements(*image) };
@@ -79,7 +79,7 @@ impl Image {
             .allocation_size(needs.size)
             .memory_type_index(needs.memory_type_bits.trailing_zeros());
         let calls = (ash::Device::allocate_memory as _, ash::Device::free_memory as _);
-        // SAFETY: the type is one of those that the image takes.
+        // SAFETY: the image accepts memory of this type.
         let memory = unsafe { Owned::new(gpu, "vkAllocateMemory", calls, &allocate) }?;
         // SAFETY: both are new and the memory is large enough.
         unsafe { device.bind_image_memory(*image, *memory, 0) }
@@ -101,7 +101,7 @@ impl Image {
 }
 
 impl DrawPass {
-    /// A pass of `size` by `size` pixels; without `draws` there are none to write.
+    /// A pass of `size` by `size` pixels; without `draws` it has no image.
     pub(crate) fn new(gpu: &Arc<Gpu>, size: u32, draws: bool) -> Result<Self, Error> {
         let image = draws.then(|| Image::new(gpu, size)).transpose()?;
         let attachments = [vk::AttachmentDescription::default()
@@ -147,8 +147,8 @@ impl DrawPass {
             .framebuffer(*self.framebuffer)
             .render_area(self.area())
             .clear_values(&clear[..usize::from(self.image.is_some())]);
-        // SAFETY: the command buffer is being recorded, and the pass outlives what is recorded: it
-        // is submitted and waited for while the caller borrows it.
+        // SAFETY: the command buffer is being recorded, and the pass outlives the recorded
+        // commands: they are submitted and waited for while the caller borrows it.
         unsafe { device.cmd_begin_render_pass(commands, &begin, vk::SubpassContents::INLINE) };
         draws(device);
         // SAFETY: the pass was begun above.
@@ -156,28 +156,28 @@ impl DrawPass {
     }
 }
 
-/// Where the vertices of a pipeline come from.
+/// The source of a pipeline's vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Vertices {
-    /// From a tessellator that is given patches of one vertex.
+    /// A tessellator that receives patches of one vertex.
     Patches,
-    /// From a buffer of points, two words each, as triangles.
+    /// A buffer of points, two words each, as triangles.
     Points,
 }
 
 /// A graphics pipeline.
 pub(crate) type Pipeline = Owned<vk::Pipeline>;
 
-/// A module of SPIR-V. A pipeline needs its modules only while it is made.
+/// A SPIR-V module. A pipeline needs its modules only during its creation.
 pub(super) fn module(gpu: &Arc<Gpu>, words: &[u32]) -> Result<Owned<vk::ShaderModule>, Error> {
     let create = vk::ShaderModuleCreateInfo::default().code(words);
     let calls = (ash::Device::create_shader_module as _, ash::Device::destroy_shader_module as _);
-    // SAFETY: the words are naga's, or SPIR-V that spirv-val accepts, but for the modes that
-    // `modes.rs` replaces by others of the same kind.
+    // SAFETY: the words are from naga, or are SPIR-V that spirv-val accepts, except for the modes
+    // that `modes.rs` replaces by others of the same kind.
     unsafe { Owned::new(gpu, "vkCreateShaderModule", calls, &create) }
 }
 
-/// A pipeline of these shaders; it rasterises if the pass has pixels.
+/// A pipeline of these shaders. It rasterises if the pass has pixels.
 pub(crate) fn pipeline(
     gpu: &Arc<Gpu>,
     program: &BoundInterface,
@@ -248,7 +248,7 @@ unsafe fn graphics_pipeline(
     callbacks: Option<&vk::AllocationCallbacks<'_>>,
 ) -> VkResult<vk::Pipeline> {
     let (cache, create) = (vk::PipelineCache::null(), [*create]);
-    // SAFETY: as the caller says.
+    // SAFETY: the caller guarantees it.
     let made = unsafe { device.create_graphics_pipelines(cache, &create, callbacks) };
     made.map(|pipelines| pipelines[0]).map_err(|(_, result)| result)
 }

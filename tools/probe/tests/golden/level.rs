@@ -1,5 +1,5 @@
 //! The cases that the recorded devices were asked: level 1 in its first version. `tess gen` makes a
-//! later one, so its cases are frozen here until the devices are asked again.
+//! later version, so these cases are frozen here until the devices are asked again.
 
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, SplitOrder,
@@ -7,10 +7,10 @@ use tess_core::{
 use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection, boundary_factors, configurations};
 
-/// Factors for the positions that a case is not about, small enough to keep it short.
+/// Factors for the positions that a case does not test, small enough to keep its output short.
 const PLAIN: [f32; 8] = [3.0, 1.0, 4.5, 2.0, 7.25, 5.0, 1.5, 6.0];
 
-/// How many of [`boundary_factors`] come before the special ones.
+/// The number of [`boundary_factors`] that precede the special ones.
 const ORDINARY: usize = 1188;
 
 /// The systematic cases, and 500 random ones.
@@ -34,7 +34,8 @@ pub(crate) fn cases() -> Vec<Case> {
     cases
 }
 
-/// The binary32 of a 15.16 number that is not 0: the integer, with an exponent less by 16.
+/// The binary32 of a 15.16 number that is not 0: that of the integer, with the exponent lowered by
+/// 16.
 const fn from_fixed(bits: u32) -> f32 {
     f32::from_bits((bits as f32).to_bits() - (16 << 23))
 }
@@ -43,7 +44,8 @@ fn combinations() -> impl Iterator<Item = (Domain, Partitioning)> {
     Domain::ALL.into_iter().flat_map(|domain| Partitioning::ALL.map(|p| (domain, p)))
 }
 
-/// A configuration that changes with `turn`: triangles three times in five, both split orders.
+/// A configuration that varies with `turn`: three of five have triangles, and both split orders
+/// occur.
 fn config(partitioning: Partitioning, turn: usize) -> Config {
     let output = match turn % 5 {
         0 | 3 => OutputPrimitive::TriangleCw,
@@ -55,7 +57,7 @@ fn config(partitioning: Partitioning, turn: usize) -> Config {
     Config { partitioning, output, split }
 }
 
-/// One factor is `value`, the others are plain.
+/// A case in which one factor is `value` and the others are plain.
 fn one_value(
     domain: Domain,
     partitioning: Partitioning,
@@ -76,7 +78,7 @@ fn specials_everywhere(cases: &mut Vec<Case>, domain: Domain, partitioning: Part
     }
 }
 
-/// All factors equal: minimum patches and what lies next to them, and values in between.
+/// All factors equal: minimum patches, those next to them, and values in between.
 fn all_equal(cases: &mut Vec<Case>, domain: Domain, partitioning: Partitioning) {
     let near_one = [0x3F80_0000u32, 0x3F80_0001, 0x3F80_0040, 0x3F80_0041, 0x3F80_0080];
     let near_one = near_one.map(f32::from_bits).into_iter();
@@ -90,8 +92,8 @@ fn all_equal(cases: &mut Vec<Case>, domain: Domain, partitioning: Partitioning) 
     }
 }
 
-/// Every pair of an outer and an inside factor, four outer ones at a time, the quad being narrow
-/// along its other axis to keep it short; both split orders in turn.
+/// Every pair of an outer and an inside factor, with four outer ones at a time. A quad is narrow
+/// along its other axis, which keeps its output short. The split orders take turns.
 fn transitions(cases: &mut Vec<Case>) {
     for inside in 1..=64u8 {
         for group in 0..16u8 {
@@ -112,8 +114,8 @@ fn transitions(cases: &mut Vec<Case>) {
     }
 }
 
-/// Pairs of inside factors on quads, with the fractional partitionings a little below, and each
-/// inside factor on triangles.
+/// Pairs of inside factors on quads, and each inside factor on triangles. In fractional
+/// partitionings the factors are slightly lower.
 fn interiors(cases: &mut Vec<Case>) {
     let wanted = |u: u8, v: u8| u == v || u.max(v) <= 9 || (u % 15 < 3 && v % 15 < 3);
     let partitionings =
@@ -142,7 +144,7 @@ fn triangles(partitioning: Partitioning, split: SplitOrder, factors: PatchFactor
     Case { config, factors }
 }
 
-/// Each configuration of each domain, on one ordinary patch.
+/// Each configuration of each domain, with one ordinary patch.
 fn every_configuration(cases: &mut Vec<Case>) {
     cases.extend(configurations().map(|(domain, config)| {
         let factors = PatchFactors::from_fn(domain, |p| PLAIN[p]);
@@ -150,7 +152,7 @@ fn every_configuration(cases: &mut Vec<Case>) {
     }));
 }
 
-/// All factors 1 but one: a patch that is no minimum patch because of that factor alone.
+/// All factors 1 except one, which alone keeps the patch from being a minimum one.
 fn beside_minimum(cases: &mut Vec<Case>) {
     for (domain, partitioning) in combinations() {
         for position in 0..domain.factors() {

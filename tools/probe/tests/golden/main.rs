@@ -1,4 +1,4 @@
-//! Captures of devices, against the model of today: `golden/devices`.
+//! Compares captures of devices in `golden/devices` with the current model.
 
 mod level;
 
@@ -27,7 +27,7 @@ fn recorded() -> Vec<(PathBuf, Value)> {
         .collect()
 }
 
-/// The cases that a recorded device was asked: level 1, for the first devices in its first version.
+/// The cases that a recorded device was asked: level 1; for the first devices, its first version.
 fn asked_of(report: &Value) -> Vec<Case> {
     let first = asked(level::cases());
     if report["patches"] == first.len() {
@@ -36,8 +36,8 @@ fn asked_of(report: &Value) -> Vec<Case> {
     cases(Selection::level(GenLevel::One, 1), Shard::WHOLE)
 }
 
-/// The digests and numbers of patches that the model has for what a device was asked, with its
-/// freedom and `fault`.
+/// The model's digests and numbers of patches for the cases that a device was asked, with the
+/// device's freedom and with `fault`.
 fn model(report: &Value, fault: impl Fn(&Case, &mut Vec<u32>)) -> BTreeMap<Names, (u64, Digests)> {
     let flush = is_flushing(report);
     let mut all = BTreeMap::<Names, (u64, Digests)>::new();
@@ -45,7 +45,7 @@ fn model(report: &Value, fault: impl Fn(&Case, &mut Vec<u32>)) -> BTreeMap<Names
         let names =
             [case.domain().name(), case.config.partitioning.name(), case.config.output.name()];
         let [domain, partitioning, output] = names.map(str::to_owned);
-        // The factors of pow2 are rounded before a device sees them: none is denormal.
+        // The factors of pow2 are rounded before a device receives them, so none is denormal.
         let flush = flush && case.config.partitioning != Partitioning::Pow2;
         let asked = flushed(&case).filter(|_| flush).unwrap_or(case);
         let mut whole = asked.patch().tessellate();
@@ -90,7 +90,7 @@ fn the_model_is_what_devices_gave() {
     }
 }
 
-/// One triangle of one patch turned over, and one of them lost, are seen.
+/// A reversed triangle of one patch, and a lost one, are detected.
 #[test]
 fn a_change_of_the_model_is_seen() {
     let (_, report) = recorded().remove(0);

@@ -1,4 +1,4 @@
-//! The golden model under the clock.
+//! The golden model as a timed backend.
 
 use super::cpu::{CpuRunner, Kernel};
 use super::runner::Description;
@@ -9,13 +9,13 @@ use tess_simd::{Order, PatchRange};
 use tess_verify::BackendError;
 use tess_verify::workloads::{IndexWidth, Workload};
 
-/// The sequential formulation, patch by patch, into slices.
+/// The sequential formulation, patch by patch, written into slices.
 pub(super) struct CoreKernel {
     config: Config,
     patches: Vec<PatchFactors>,
 }
 
-/// The core as it is: one thread, 32-bit indices.
+/// The core as it is: one thread and 32-bit indices.
 pub(super) fn runner() -> CpuRunner<CoreKernel> {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::Point);
     let description = Description {

@@ -1,5 +1,4 @@
-//! A backend of the CPU under the clock: the batches of a workload, into buffers that are made
-//! once.
+//! A timed CPU backend: it writes the batches of a workload into buffers that are made once.
 
 use super::parts::parts;
 use super::runner::{Amount, Description, Runner, WorkingSet, totals};
@@ -12,19 +11,19 @@ use tess_verify::BackendError;
 use tess_verify::vectors::Fnv1a;
 use tess_verify::workloads::{Calls, IndexWidth, Workload};
 
-/// A backend of the CPU, by what differs between them.
+/// The parts in which CPU backends differ.
 pub(super) trait Kernel {
     type Point: Copy + Default;
     type Index: IndexFormat + Into<u32>;
 
-    /// A point that is not zeros.
+    /// A point that is not all zeros.
     const ONE: Self::Point;
-    /// Whether a stream is timed in parts of a mebibyte.
+    /// Whether a stream is timed in parts of a mebibyte each.
     const STREAMS_IN_PARTS: bool;
 
     fn exact(point: Self::Point) -> DomainPoint;
 
-    /// Takes the patches that will be written. Errors: they cannot be.
+    /// Takes the patches that will be written. Errors: the backend cannot write them.
     fn take(&mut self, workload: &Workload) -> Result<(), BackendError>;
 
     /// Tessellates some of the patches into the beginning of the buffers. Errors: the backend
@@ -37,30 +36,30 @@ pub(super) trait Kernel {
         ranges: &mut [PatchRange],
     ) -> Result<(), BackendError>;
 
-    /// Fills both with zeros, so that the compiler makes `memset` of it.
+    /// Fills both slices with zeros; the compiler makes `memset` of it.
     fn fill(&self, points: &mut [Self::Point], indices: &mut [Self::Index]) {
         points.fill(Self::Point::default());
         indices.fill(Self::Index::default());
     }
 }
 
-/// Batches of a workload, ready to run.
+/// The batches of a workload, ready to run.
 pub(super) struct CpuRunner<K: Kernel> {
     kernel: K,
     description: Description,
-    /// MiB of output of one call, if the workload does not say.
+    /// The output of one call in MiB, unless the workload fixes its calls.
     frame: Option<usize>,
     batches: Vec<CpuBatch>,
-    /// The batches of each part.
+    /// The range of batches of each part.
     parts: Vec<Range<usize>>,
-    /// Patches of the workload; behind them it is repeated.
+    /// The patches of one pass over the workload; after them it is repeated.
     once: usize,
     points: Vec<K::Point>,
     indices: Vec<K::Index>,
     ranges: Vec<PatchRange>,
 }
 
-/// Patches that are tessellated in one call, and the places in the buffers that it writes.
+/// The patches of one call, and the ranges of the buffers that it writes.
 #[derive(Clone)]
 struct CpuBatch {
     patches: Range<usize>,
@@ -70,7 +69,7 @@ struct CpuBatch {
 }
 
 impl CpuBatch {
-    /// A batch at the beginning of the buffers.
+    /// A batch that writes to the beginning of the buffers.
     fn new(workload: &Workload, patches: Range<usize>, index_type: IndexWidth) -> Self {
         let totals = totals(workload, &patches);
         let size = |elements| 0..usize::try_from(elements).unwrap_or(usize::MAX);
@@ -79,7 +78,7 @@ impl CpuBatch {
     }
 }
 
-/// The batches again and again, one after another.
+/// The batches repeated, one after another in the buffers.
 fn streamed(batches: &[CpuBatch], repeats: u64) -> Vec<CpuBatch> {
     let mut all: Vec<CpuBatch> = Vec::new();
     for _ in 0..repeats {
@@ -100,7 +99,7 @@ impl<K: Kernel> CpuRunner<K> {
         Self { kernel, description, frame, batches, parts, once: 0, points, indices, ranges }
     }
 
-    /// Tessellates one batch into its place.
+    /// Tessellates one batch into its ranges.
     fn tessellate(&mut self, batch: usize) -> Result<(), BackendError> {
         let CpuBatch { patches, points, indices, .. } = &self.batches[batch];
         let points = &mut self.points[points.start..];
@@ -123,7 +122,7 @@ impl<K: Kernel> CpuRunner<K> {
         }
     }
 
-    /// How many batches of a mebibyte are one call.
+    /// The number of batches of a mebibyte in one call.
     fn together(&self, calls: Calls) -> Result<usize, BackendError> {
         match (calls, self.frame) {
             (Calls::Batch, frame) => Ok(frame.unwrap_or(self.description.threads as usize)),
@@ -156,13 +155,13 @@ impl<K: Kernel> Runner for CpuRunner<K> {
             batches = streamed(&batches, workload.stream_repeats(index_type));
         }
         self.parts = if working_set == WorkingSet::Stream && !K::STREAMS_IN_PARTS {
-            // Between shorter ones the caches would have time to write back.
+            // Between shorter parts, the caches would have time to write back.
             std::iter::once(0..batches.len()).collect()
         } else {
             parts(&batches.iter().map(|batch| batch.amount.bytes).collect::<Vec<_>>())
         };
         let largest = |end: fn(&CpuBatch) -> usize| batches.iter().map(end).max().unwrap_or(0);
-        // Not zeros, which would leave the memory to be mapped under the clock.
+        // Not zeros, because the system would then map the memory only while it is timed.
         self.points = vec![K::ONE; largest(|batch| batch.points.end)];
         self.indices = vec![K::Index::wrapping_from(1); largest(|batch| batch.indices.end)];
         self.ranges = vec![PatchRange::default(); largest(|batch| batch.patches.len())];
@@ -206,7 +205,7 @@ impl<K: Kernel> Runner for CpuRunner<K> {
     }
 }
 
-/// The workload again and again until it has a frame's output, if there are frames.
+/// The workload, repeated until it has the output of one frame, if frames are timed.
 fn repeated(workload: &Workload, frame: Option<usize>, index_type: IndexWidth) -> Workload {
     let wanted = frame.map_or(0, |mebibytes| (mebibytes as u64) << 20);
     let times = wanted.div_ceil(workload.totals().bytes(index_type).max(1)).max(1);

@@ -1,4 +1,4 @@
-//! Interleaved runs, and what follows from their times.
+//! Interleaved runs, and the figures derived from their times.
 #![expect(
     clippy::float_arithmetic,
     clippy::cast_precision_loss,
@@ -19,19 +19,19 @@ use tess_simd::Order;
 use tess_verify::BackendError;
 use tess_verify::workloads::Workload;
 
-/// A measurement.
+/// A measurement to make.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plan<'a> {
     /// The patches.
     pub(crate) workload: &'a Workload,
-    /// Where the output goes.
+    /// The destination of the output.
     pub(crate) working_set: WorkingSet,
-    /// Interleaved samples, at least 1.
+    /// The number of interleaved samples, at least 1.
     pub(crate) samples: u32,
 }
 
 impl Plan<'_> {
-    /// The name of a row of this runner.
+    /// The name of this runner's row.
     fn name(&self, description: &Description) -> String {
         let order = match description.order {
             Order::Specification => "",
@@ -47,11 +47,11 @@ impl fmt::Display for Plan<'_> {
     }
 }
 
-/// Checks the digest, then times backend, fill and core in turn, part by part; the core alone
-/// first, if the backend runs on a separate device.
+/// Checks the digest, then times the backend, the fill and the core in turn, part by part. If the
+/// backend runs on a separate device, the core is timed first, by itself.
 ///
-/// A part's time is the median over the samples; the workload's is the sum over its parts. Errors:
-/// the output differs from the model's (exit code 1), or a run failed.
+/// The time of a part is the median of its samples; the workload's is the sum over its parts.
+/// Errors: the output differs from the model's (exit code 1), or a run failed.
 pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<BenchRow, Failure> {
     let description = runner.description().clone();
     let Description { threads, sleeps, is_device, .. } = description;
@@ -107,7 +107,8 @@ fn check_digest(runner: &mut dyn Runner, workload: &Workload) -> Result<(), Fail
     )))
 }
 
-/// The core beside another backend; without any parts beside itself.
+/// The core, timed for comparison with another backend. It has no parts if that backend is the
+/// core.
 struct Core {
     runner: CpuRunner<CoreKernel>,
     parts: Vec<Amount>,
@@ -115,8 +116,8 @@ struct Core {
 }
 
 impl Core {
-    /// Gets ready to run a workload in the working set of the plan; beside a device, whose memory
-    /// is not the core's, in the working set `cache`.
+    /// Prepares to run a workload in the working set of the plan. For comparison with a device,
+    /// whose memory the core does not use, the working set is `cache`.
     fn prepare(beside: &Description, plan: Plan<'_>) -> Result<Self, Failure> {
         let set = if beside.is_device { WorkingSet::Cache } else { plan.working_set };
         let mut runner = core::runner();
@@ -127,12 +128,12 @@ impl Core {
         Ok(Self { runner, times: PartTimes::new(parts.len()), parts })
     }
 
-    /// Takes one more sample of a part.
+    /// Takes another sample of a part.
     fn take(&mut self, part: usize) -> Result<(), BackendError> {
         self.times.take(part, || sample(1, &mut || self.runner.run(part)))
     }
 
-    /// Its speed; `None` beside itself.
+    /// Its speed; `None` if it would be compared with itself.
     fn patches_per_s(&self) -> Option<f64> {
         let amount = self.parts.iter().copied().sum::<Amount>();
         (amount.patches > 0).then(|| amount.patches as f64 / self.times.seconds())
@@ -149,7 +150,7 @@ impl PartTimes {
         Self { parts: vec![Vec::new(); parts] }
     }
 
-    /// Takes one more sample of a part, if there is such a part.
+    /// Takes another sample of a part, if the part exists.
     fn take(
         &mut self,
         part: usize,
@@ -167,7 +168,7 @@ impl PartTimes {
     }
 }
 
-/// In this time threads that have nothing to do fall asleep.
+/// The time after which idle threads fall asleep.
 const PAUSE: Duration = Duration::from_millis(2);
 
 /// The time of one run after a pause, in seconds.
@@ -179,8 +180,8 @@ fn after_a_pause(
     Ok(run()?.as_secs_f64())
 }
 
-/// The mean time of as many runs as take a fifth of a millisecond for each thread, in seconds. The
-/// first run of several threads is not timed: it wakes them.
+/// The mean time of a run, in seconds, over enough runs to take a fifth of a millisecond per
+/// thread. With several threads the first run is not timed, because it wakes them.
 fn sample(
     threads: u32,
     run: &mut dyn FnMut() -> Result<Duration, BackendError>,
@@ -197,7 +198,7 @@ fn sample(
     Ok(time.as_secs_f64() / f64::from(runs))
 }
 
-/// The middle value, the lower of two; 0 of none.
+/// The median; the lower of two middle values; 0 for an empty list.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(0.0)
@@ -207,7 +208,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Takes a second for each part, and half a second to fill its bytes.
+    /// A runner that takes a second per part, and half a second to fill its bytes.
     struct Slow {
         digest: u64,
         description: Description,
@@ -247,7 +248,8 @@ mod tests {
         }
     }
 
-    /// The ratios say how much faster the backend is than the others, and a wrong result has none.
+    /// The ratios show how much faster the backend is than the others. A wrong result has no
+    /// ratios.
     #[test]
     fn ratios_and_digests() {
         let workload = &Workload::named("uniform-1")[0];

@@ -1,4 +1,4 @@
-//! `tess bench`: how fast the backends are on this machine.
+//! `tess bench`: the speed of the backends on this machine.
 
 mod core;
 mod cpu;
@@ -33,10 +33,10 @@ Examples:
 
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
 a part's time is the median of its samples, a workload's the sum over its parts. A row is printed as
-soon as it is measured; what could not be measured is left out and named at the end. Workloads:
-uniform-1 to uniform-64, seed-table, terrain, character, mosaic, mosaic-even, meshes, single, worst. Those of single are
-one patch a call: single/uniform-1 to -8 the same patch again, which is faster than any other; single/unlike-1 to -64
-patches of the same output whose factors differ from call to call; and the scenes, whose neighbours are unlike.")]
+soon as it is measured; rows that could not be measured are left out and named at the end. Workloads:
+uniform-1 to uniform-64, seed-table, terrain, character, mosaic, mosaic-even, meshes, single, worst. Those of single have
+one patch per call: single/uniform-1 to -8 repeat the same patch, which is faster than any other; single/unlike-1 to -64
+have patches of equal output whose factors differ from call to call; and in the scenes, neighbours differ.")]
 pub(crate) struct BenchCommand {
     /// Workload or family of workloads; may be repeated [default: all]
     #[arg(long, value_name = "NAME")]
@@ -46,23 +46,23 @@ pub(crate) struct BenchCommand {
     backend: BackendName,
     #[command(flatten)]
     options: BackendOptions,
-    /// Where the output goes; may be repeated [default: both]
+    /// Destination of the output; may be repeated [default: both]
     #[arg(long, value_name = "NAME")]
     working_set: Vec<WorkingSet>,
     /// Threads to run on
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: u32,
-    /// One batch of about N MiB a call, each after a pause in which threads fall asleep, as frames
-    /// have it
+    /// One batch of about N MiB per call, each after a pause in which threads fall asleep, as
+    /// between frames
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1024))]
     frame: Option<u32>,
-    /// Interleaved runs that each median is taken of
+    /// Number of interleaved runs per median
     #[arg(long, value_name = "N", default_value_t = 9)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
     samples: u32,
-    /// Have the shaders expand each patch, also where its neighbours are alike
+    /// Make the shaders expand each patch, even if it equals its neighbours
     #[arg(long)]
     no_copies: bool,
     /// Order of the triangles that simd and gpu write
@@ -74,8 +74,7 @@ pub(crate) struct BenchCommand {
     json: bool,
 }
 
-/// Runs the command. Errors: an unknown workload, a backend that is not available, stdout that
-/// cannot be written.
+/// Runs the command. Errors: an unknown workload; an unavailable backend; stdout cannot be written.
 pub(crate) fn run(args: &BenchCommand) -> Result<Exit, Failure> {
     let workloads = find_workloads(&args.workload)?;
     let working_sets = match &args.working_set[..] {
@@ -112,8 +111,8 @@ pub(crate) fn run(args: &BenchCommand) -> Result<Exit, Failure> {
     measure_all(runner.as_mut(), &plans, args.json)
 }
 
-/// Measures and prints row by row. What cannot be measured is left out and named at the end; the
-/// first such row says the exit code.
+/// Measures and prints row by row. A row that cannot be measured is left out and named at the end;
+/// the first such row determines the exit code.
 fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Result<Exit, Failure> {
     let mut before = if json { "[\n".to_owned() } else { heading(runner.description()) };
     let bar = output::progress(plans.len() as u64, "measurements");
@@ -139,8 +138,8 @@ fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Resul
     Ok(left_out.first().map_or(Exit::Done, |(_, failure)| failure.exit))
 }
 
-/// The runner of the backend, with a CPU level that this machine has. Errors: exit code 3 if the
-/// backend is not available.
+/// The runner of the backend, with a CPU level that this machine supports. Errors: exit code 3 if
+/// the backend is not available.
 fn runner(args: &BenchCommand, level: Level) -> Result<Box<dyn Runner>, Failure> {
     match args.backend {
         BackendName::Core => Ok(Box::new(core::runner())),

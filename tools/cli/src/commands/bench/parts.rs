@@ -1,13 +1,13 @@
-//! How a workload is cut into parts on a CPU.
+//! Cuts a workload into parts on a CPU.
 
 use std::ops::Range;
 
-/// Bytes of output that a part has at least, if there is so much.
+/// The smallest output of a part in bytes, unless there is less.
 const MIB: u64 = 1 << 20;
 
 /// Consecutive batches that together have about a mebibyte of output, from the bytes of each.
 ///
-/// A batch of one patch alone is too short for a clock; larger ones are parts of their own.
+/// A batch of a single patch is too short to be timed; larger ones are parts by themselves.
 pub(crate) fn parts(batch_bytes: &[u64]) -> Vec<Range<usize>> {
     let mut parts = Vec::new();
     let (mut start, mut bytes) = (0, 0);

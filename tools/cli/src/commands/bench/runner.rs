@@ -1,4 +1,4 @@
-//! The interface of a backend that is timed.
+//! The interface of a timed backend.
 
 use clap::ValueEnum;
 use std::iter::Sum;
@@ -8,23 +8,23 @@ use tess_simd::Order;
 use tess_verify::BackendError;
 use tess_verify::workloads::{IndexWidth, Totals, Workload};
 
-/// Where a runner's output goes.
+/// The destination of a runner's output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum WorkingSet {
-    /// Batches of about 1 MiB for each thread into the same buffers again and again
+    /// Batches of about 1 MiB per thread, into the same buffers again and again
     Cache,
     /// 1 GiB of output, each byte written once
     Stream,
 }
 
-/// The amount of work of one run of a part.
+/// The work of one run of a part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Amount {
-    /// Patches tessellated.
+    /// The number of tessellated patches.
     pub(crate) patches: u64,
-    /// Primitives written: triangles, or segments on isolines.
+    /// The number of written primitives: triangles, or segments of isolines.
     pub(crate) triangles: u64,
-    /// Bytes of points and indices written.
+    /// The number of written bytes of points and indices.
     pub(crate) bytes: u64,
 }
 
@@ -50,54 +50,54 @@ impl Sum for Amount {
     }
 }
 
-/// The timed backend, and how it is timed.
+/// The timed backend and its conditions.
 #[derive(Clone, Debug)]
 pub(crate) struct Description {
-    /// Name of the backend.
+    /// The name of the backend.
     pub(crate) backend: &'static str,
-    /// CPU level or name of the adapter.
+    /// The CPU level, or the name of the adapter.
     pub(crate) level: String,
-    /// Threads it runs on.
+    /// The number of threads.
     pub(crate) threads: u32,
-    /// Width of the indices it writes.
+    /// The width of the written indices.
     pub(crate) index_type: IndexWidth,
-    /// The order of the triangles it writes.
+    /// The order of the written triangles.
     pub(crate) order: Order,
-    /// The text behind the workload's name in a row.
+    /// The text after the workload's name in a row.
     pub(crate) remark: String,
-    /// Whether threads sleep when a run begins, so that it is timed with waking them.
+    /// Whether threads are asleep when a run begins, so that waking them is timed too.
     pub(crate) sleeps: bool,
-    /// Whether it runs on a separate device, so that the core's times need not be taken in turn
-    /// with its own, nor in the same working set.
+    /// Whether it runs on a separate device, so that the core need not be timed in turn with it,
+    /// nor in the same working set.
     pub(crate) is_device: bool,
 }
 
 /// An implementation that can be timed.
 ///
-/// A workload runs in parts, so that runs which are compared lie close together in time: a part is
-/// about a mebibyte of output on a CPU, as much as a device likes in one go elsewhere.
+/// A workload runs in parts, so that runs that are compared are close together in time. A part is
+/// about a mebibyte of output on a CPU; on a device it is as much as suits one submission.
 /// [`Runner::run`] and [`Runner::fill`] write the same bytes to the same buffers in the same order;
-/// on one thread neither allocates. Both give their own time, so that a device can use its clock.
+/// on one thread neither allocates. Both return their own time, so that a device can use its clock.
 pub(crate) trait Runner {
-    /// The timed backend, and how it is timed.
+    /// The timed backend and its conditions.
     fn description(&self) -> &Description;
 
-    /// Gets everything ready to run a workload in a working set, buffers included, and says what
-    /// each part amounts to. Errors: the implementation cannot run it.
+    /// Prepares everything to run a workload in a working set, including buffers, and returns the
+    /// amount of work of each part. Errors: the implementation cannot run it.
     fn prepare(
         &mut self,
         workload: &Workload,
         working_set: WorkingSet,
     ) -> Result<Vec<Amount>, BackendError>;
 
-    /// Runs what is prepared, once over the workload's patches, and digests the output as
-    /// [`Workload::digest`] does. Errors: the implementation failed.
+    /// Runs the prepared workload once over its patches, and returns the digest of the output, as
+    /// [`Workload::digest`] computes it. Errors: the implementation failed.
     fn digest(&mut self) -> Result<u64, BackendError>;
 
-    /// Runs a part and says how long it took. Errors: the implementation failed.
+    /// Runs a part and returns its time. Errors: the implementation failed.
     fn run(&mut self, part: usize) -> Result<Duration, BackendError>;
 
-    /// Fills the bytes that a run of the part writes and says how long it took. Errors: the device
+    /// Fills the bytes that a run of the part writes, and returns the time. Errors: the device
     /// failed.
     fn fill(&mut self, part: usize) -> Result<Duration, BackendError>;
 }

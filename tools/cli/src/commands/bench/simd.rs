@@ -1,4 +1,4 @@
-//! The SIMD backend under the clock: points as binary32 pairs, into the caller's buffers.
+//! The SIMD backend, timed: it writes points as binary32 pairs into the caller's buffers.
 
 use super::BenchCommand;
 use super::cpu::{CpuRunner, Kernel};
@@ -18,7 +18,7 @@ use tess_verify::workloads::{Calls, IndexWidth, Workload};
 
 /// The runner for these options. Errors: the threads cannot be started.
 pub(super) fn runner(args: &BenchCommand, level: Level) -> Result<Box<dyn Runner>, Failure> {
-    // The calling thread is one of the pool, so that a run starts without waiting for another.
+    // The calling thread belongs to the pool, so a run starts without waiting for another thread.
     let pool = ThreadPoolBuilder::new()
         .num_threads(args.threads as usize)
         .use_current_thread()
@@ -53,7 +53,7 @@ struct SimdKernel<I> {
     order: Order,
     /// The workload in the backend's layout.
     taken: Option<(Tessellator, OwnedBatch)>,
-    /// The same patches where each is a call of its own, otherwise none.
+    /// The same patches if each is one call; otherwise empty.
     single: Vec<PatchFactors>,
     index: PhantomData<I>,
 }
@@ -112,7 +112,8 @@ impl<I: IndexFormat + Into<u32>> Kernel for SimdKernel<I> {
         self.pool.install(write).map(|_| ()).map_err(BackendError::new)
     }
 
-    /// Each thread fills always the same part of each: about what it writes of a batch.
+    /// Each thread always fills the same part of both slices, about as much as it writes of a
+    /// batch.
     fn fill(&self, points: &mut [[f32; 2]], indices: &mut [I]) {
         let fill = |points: &mut [[f32; 2]], indices: &mut [I]| {
             points.fill([0.0; 2]);

@@ -1,4 +1,4 @@
-//! Results: as objects for programs, as a table for people.
+//! Results: as objects for programs, and as a table for people.
 #![expect(clippy::float_arithmetic, reason = "units of measurements")]
 
 use super::runner::Description;
@@ -7,7 +7,7 @@ use crate::backends::INDEX_WIDTHS;
 use crate::output::json;
 use serde::Serialize;
 
-/// One line of results, with the keys that `--json` prints.
+/// One row of results, with the keys of `--json`.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct BenchRow {
     pub(super) workload: String,
@@ -23,8 +23,8 @@ pub(crate) struct BenchRow {
     pub(super) core_ratio: f64,
 }
 
-/// The lines above the rows: what was timed, and the columns; rates in millions and in GB (10^9
-/// bytes).
+/// The lines above the rows: the timed backend and the columns. Rates are in millions and in GB
+/// (10^9 bytes).
 pub(crate) fn heading(description: &Description) -> String {
     let Description { backend, level, threads, .. } = description;
     format!(
@@ -56,7 +56,7 @@ impl BenchRow {
         )
     }
 
-    /// The element of a JSON array.
+    /// The row as an element of a JSON array.
     pub(crate) fn json(&self) -> String {
         let object = json(self);
         let lines: Vec<_> = object.lines().map(|line| format!("  {line}")).collect();

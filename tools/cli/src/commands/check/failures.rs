@@ -9,7 +9,7 @@ use std::sync::{Mutex, PoisonError};
 use tess_verify::check::{Checked, Report};
 use tess_verify::vectors::Header;
 
-/// The file of failing records. It has no count: it marks its end.
+/// The file of failing records. It has no count, so it marks its end.
 pub(super) struct Failures {
     path: PathBuf,
     state: Mutex<State>,
@@ -19,21 +19,21 @@ struct State {
     file: BufWriter<OutputFile>,
     records: u64,
     written: io::Result<()>,
-    /// Number of the record whose turn it is to be written.
+    /// The number of the record that is to be written next.
     next: u64,
-    /// Records behind it that threads have checked, by the number of the first: how many they are,
-    /// and those that differ.
+    /// Checked records after that one, by the number of the first: how many there are, and the text
+    /// of those that differ.
     waiting: BTreeMap<u64, (u64, String)>,
 }
 
 impl Failures {
-    /// Begins a file of the same kind as the one that is checked.
+    /// Begins a file of the same kind as the checked one.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub(super) fn new(path: &Path, header: &Header) -> Result<Self, Failure> {
         if !OutputFile::would_be_file(path) {
-            return Err(Failure::bad_input("--failures writes a file, and this is none"));
+            return Err(Failure::bad_input("--failures needs the path of a regular file"));
         }
         let mut file = BufWriter::new(OutputFile::create(path)?);
         let header = Header { count: None, ..header.clone() };
@@ -43,8 +43,8 @@ impl Failures {
         Ok(Self { path: path.to_owned(), state })
     }
 
-    /// Adds what differs of some records. The file has them in their order, whichever thread is
-    /// first.
+    /// Adds those of some records that differ. They are written in the order of the checked file,
+    /// whichever thread comes first.
     pub(super) fn add(&self, checked: Checked<'_>) {
         let Checked { first, records, different, .. } = checked;
         let pairs = records.iter().zip(different);
@@ -62,10 +62,10 @@ impl Failures {
         }
     }
 
-    /// Ends the file, which has no record if none differs.
+    /// Ends the file, which has no records if none differs.
     ///
     /// # Errors
-    /// It could not be written.
+    /// The file could not be written.
     pub(super) fn finish(self, report: &Report) -> Result<(), Failure> {
         let Self { path, state } = self;
         let State { mut file, records, written, .. } =

@@ -1,4 +1,4 @@
-//! `tess check`: runs the cases of a vector file and compares.
+//! `tess check`: runs the cases of a vector file and compares the results.
 
 mod failures;
 mod record;
@@ -32,11 +32,11 @@ use tess_verify::{Backend, Case, Named};
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The first differences and a summary line go to stdout. Each difference shows the case, the first wrong element with the observed and the right value in hex, the stage of the specification that it points to, and commands that show it again.
+The first differences and a summary line go to stdout. Each difference shows the case, the first wrong element with the observed and the right value in hex, the stage of the specification that it points to, and commands that reproduce it.
 
-What is tested: with --backend, that backend, and the file is right. Without it, a file of listings holds the answers of a device under test, and the model is right; in a file of any other kind the model is tested. Only the command line decides this, nothing in the file.
+With --backend, that backend is tested, and the file is right. Without it, a file of listings has the answers of a device under test, and the model is right; with a file of any other kind, the model is tested. Only the command line decides this, not the contents of the file.
 
-Listings of a device are compared in a strength: --order, --points, --conversion and --denormals grant freedoms of the public specification (docs/verification.md).
+Listings of a device are compared at a strength: --order, --points, --conversion and --denormals grant freedoms of the public specification (docs/verification.md).
 
 With --cases, the file must answer those cases, one for one and in their order. They are a vector file, or lines that begin with `case`. A case without an answer is one difference (`record 9 is missing`), and so is an answer to another case; the explanation with the fewest differences counts.
 
@@ -44,7 +44,7 @@ A file may be one shard of a campaign (docs/campaigns.md). Its number comes from
 
 If one mistake explains every difference (such as u and v exchanged, or factors rounded to binary16), a line names it, and only the first difference is shown. If a freedom that was not granted explains them (--order any, --denormals flush, --conversion 0.6ulp), a line names its option. More than 20 differences are counted in a table by stage and configuration, with the smallest case of each.
 
-With --rules, listings are judged by the demands of a standard, without the model: each rule with its section, how many patches it judged and how many broke it, and the smallest patches that break it. --cases and --known count too. `tess gen --rules` makes patches that exercise every rule (docs/rules.md). The last line counts the patches that equal the model's, in its order or another: Direct3D 11 demands that order, Vulkan and OpenGL do not. It does not change the exit code.
+With --rules, listings are judged by the demands of a standard, without the model: each rule with its section, how many patches it judged and how many broke it, and the smallest patches that break it. --cases and --known apply too. `tess gen --rules` makes patches that exercise every rule (docs/rules.md). The last line counts the patches that equal the model's, in its order or in another: Direct3D 11 demands that order, Vulkan and OpenGL do not. It does not change the exit code.
 
 Exit code 0: all equal, or no rule broken; 1: differences; 2: malformed, truncated or empty file, whose differences before that place are shown; 3: the backend is not available.
 
@@ -79,7 +79,7 @@ pub(crate) struct CheckCommand {
     /// Cases that were asked; missing, extra and other answers are differences
     #[arg(long, value_name = "FILE")]
     cases: Option<PathBuf>,
-    /// Write the records that differ to this file, in their order; `tess check` reads it
+    /// Write the records that differ to this file, in their order; `tess check` can read it
     #[arg(long, value_name = "FILE")]
     failures: Option<PathBuf>,
     /// Add the coverage bins that the file's patches hit to this file of UCIS XML
@@ -96,16 +96,16 @@ pub(crate) struct CheckCommand {
 /// Runs the command.
 ///
 /// # Errors
-/// Malformed, short or empty input; a backend that is not available.
+/// Malformed, short or empty input; an unavailable backend.
 pub(crate) fn run(args: &CheckCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     refuse_shared(&args.roles()?)?;
     args.known.refuse_judged("the file to check", &Role::input("FILE", &args.file))?;
     if let Some(cases) = &args.cases {
         args.known.refuse_judged("what is asked", &Role::input("--cases", cases))?;
     }
-    // Before a device is opened.
+    // This is checked before a device is opened.
     args.strength.tested(Kind::Listings, args.backend)?;
-    // Before stdin is read, which may take long.
+    // The backends are opened before stdin is read, which may take long.
     let backends = backends(args);
     let file =
         VectorFile::new(args.name(), input::reader(&args.file)?).map_err(|e| failure(e.into()))?;
@@ -198,7 +198,7 @@ impl CheckCommand {
     /// The files of the command.
     ///
     /// # Errors
-    /// The coverage file can be none.
+    /// The path cannot be that of a coverage file.
     fn roles(&self) -> Result<Vec<Role<'_>>, Failure> {
         let cases = self.cases.as_deref().map(|path| Role::input("--cases", path));
         let failures = self.failures.as_deref().map(|path| Role::output("--failures", path));
@@ -229,7 +229,7 @@ impl CheckCommand {
         CoverageFile::open(path.clone()).map(|file| Some(Mutex::new(file)))
     }
 
-    /// The cases that were asked, if they are given.
+    /// The asked cases, if they are given.
     ///
     /// # Errors
     /// They cannot be read, or the file to check has no patches that could answer them.
@@ -248,7 +248,8 @@ impl CheckCommand {
     }
 }
 
-/// One backend for each thread: the model runs on every core, the others use them by themselves.
+/// One backend per thread. The model runs on every processor; the other backends use several by
+/// themselves.
 fn backends(args: &CheckCommand) -> Result<Vec<Box<dyn Backend>>, Failure> {
     let name = args.backend.unwrap_or(BackendName::Core);
     args.options.fit(&[name])?;
@@ -259,7 +260,7 @@ fn backends(args: &CheckCommand) -> Result<Vec<Box<dyn Backend>>, Failure> {
     (0..threads).map(|_| args.options.select(name)).collect()
 }
 
-/// Prints a report. Its last line has the numbers, and this at its `end`.
+/// Prints a report. Its last line has the numbers, followed by `end`.
 fn show(
     report: &Report,
     sides: &str,
@@ -312,8 +313,8 @@ fn show(
     out.flush()
 }
 
-/// Notes cases that are right, of at most the first million records. A case that differs elsewhere
-/// depends on what the device was asked before.
+/// Remembers cases that are right, from at most the first million records. If such a case differs
+/// elsewhere, the result depends on earlier work of the device.
 fn note_right(right: &mut HashSet<Case>, checked: Checked<'_>) {
     const MOST: usize = 1 << 20;
     let pairs = checked.records.iter().zip(checked.different);
@@ -321,8 +322,8 @@ fn note_right(right: &mut HashSet<Case>, checked: Checked<'_>) {
     right.extend(cases.take(MOST.saturating_sub(right.len())));
 }
 
-/// A difference with where its first wrong element comes from in the model, and the commands that
-/// show it again.
+/// Prints a difference, the origin of its first wrong element in the model, and the commands that
+/// reproduce it.
 fn show_one(out: &mut impl Write, difference: &Difference, backend: &str) -> io::Result<()> {
     writeln!(out, "{difference}")?;
     for line in difference.origin().unwrap_or_default().lines() {
@@ -331,13 +332,14 @@ fn show_one(out: &mut impl Write, difference: &Difference, backend: &str) -> io:
     difference.commands(backend).iter().try_for_each(|command| writeln!(out, "  again: {command}"))
 }
 
-/// The end of a summary line of what precedes a malformed record.
+/// The end of the summary line for the records before a malformed one.
 const NO_VERDICT: &str = " before the malformed record; there is no verdict";
 
-/// A report, perhaps of the records before one that is malformed: that is shown, and is no verdict.
+/// Separates a complete report from one of the records before a malformed record: that one is
+/// shown, but is not a verdict.
 ///
 /// # Errors
-/// Anything else.
+/// Any other failure.
 fn so_far(report: Result<Report, CheckError>) -> Result<(Report, Option<VectorError>), Failure> {
     match report {
         Ok(report) => Ok((report, None)),

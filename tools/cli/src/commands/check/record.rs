@@ -7,7 +7,7 @@ use tess_verify::check::{self, Checked, Difference, SpecStage};
 use tess_verify::vectors::Header;
 use tess_verify::{Case, Named};
 
-/// The part of a record's case: its configuration, but for the split order.
+/// The part to which a record's case belongs: its configuration without the split order.
 fn part_of(case: Option<Case>) -> String {
     let Some(case) = case else { return "rows".to_owned() };
     let (partitioning, output) = (case.config.partitioning.name(), case.config.output.name());
@@ -23,11 +23,10 @@ pub(super) fn add(report: &mut Report, checked: Checked<'_>) {
     }
 }
 
-/// The part of what no record shows by itself.
+/// The part of faults that no single record shows.
 const OTHERS: &str = "missing answers, answers to other cases, contradictions";
 
-/// Adds what is known at the end: stages, differences, and mismatches that no record shows by
-/// itself.
+/// Adds the final results: stages, differences, and mismatches that no single record shows.
 pub(super) fn finish(report: &mut Report, found: &check::Report) {
     let others = ReportPart {
         cases: found.cases.saturating_sub(report.cases),
@@ -45,7 +44,7 @@ pub(super) fn finish(report: &mut Report, found: &check::Report) {
             report.add_to_part(&name, ReportPart { first, ..ReportPart::default() });
         }
     }
-    // The threads of a check take turns in no order.
+    // The threads of a check finish in any order.
     report.parts.sort_by(|a, b| a.name.cmp(&b.name));
     report.first = found.differences.first().map(first);
     report.period = found.period();
@@ -58,12 +57,12 @@ pub(super) fn first(difference: &Difference) -> First {
     First { case, difference, passes_alone }
 }
 
-/// The notes of `tess gen` about how cases were made, but for the shard.
+/// The notes of `tess gen` on how the cases were made, without the shard.
 const MADE: [&str; 8] =
     ["level", VERSION, "seed", "random", "domain", "partitioning", "output", "split"];
 
-/// Adds how the cases were made, which shards of one campaign have in common: as the first line of
-/// the cases that were asked says, or that of the answers.
+/// Adds how the cases were made, which the shards of a campaign have in common. The source is the
+/// first line of the asked cases or of the answers.
 pub(super) fn add_asked(report: &mut Report, asked: &Header) {
     let version = level(asked).map(|(_, version)| (VERSION.to_owned(), version.to_owned()));
     let made = asked.notes.iter().filter(|(key, _)| MADE.contains(&&**key));
@@ -75,7 +74,7 @@ pub(super) fn add_asked(report: &mut Report, asked: &Header) {
     }
 }
 
-/// The level of generated cases and its version. Files of version 1 do not say theirs.
+/// The level of generated cases and its version. Files of version 1 do not record a version.
 pub(super) fn level(header: &Header) -> Option<(&str, &str)> {
     let note = |key| header.notes.iter().find(|(known, _)| known == key);
     let (_, level) = note("level")?;
@@ -86,11 +85,11 @@ const VERSION: &str = "level-version";
 
 const SHARD: &str = "shard";
 
-/// Which part a file is: as the option or the environment says, or the note in the first line of
-/// the cases that were asked, or of the file itself.
+/// The shard that a file belongs to: from the option or the environment, or from the note in the
+/// first line of the asked cases or of the file itself.
 ///
 /// # Errors
-/// They contradict each other; a note that is no shard.
+/// They contradict each other, or a note is not a shard.
 pub(super) fn place(
     said: ShardArgs,
     file: &Header,

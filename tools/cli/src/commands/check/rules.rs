@@ -1,4 +1,4 @@
-//! `tess check --rules`: a device's listings, judged by what a standard demands.
+//! `tess check --rules`: judges a device's listings by the demands of a standard.
 
 use super::{NO_VERDICT, record, so_far};
 use crate::campaign::Recorder;
@@ -15,11 +15,11 @@ use tess_verify::rules::{Checker, Specification};
 use tess_verify::vectors::{Cases, Kind, Record, VectorFile};
 use tess_verify::{Backend, Case, CoreBackend, Named};
 
-/// Judges every listing of a file and prints the verdicts, and which of the `asked` cases it does
+/// Judges every listing of a file. Prints the verdicts, and those `asked` cases that the file does
 /// not answer.
 ///
 /// # Errors
-/// A file that is malformed, truncated or too long, or has no listings; the asked cases cannot be
+/// The file is malformed, truncated or too long, or has no listings; or the asked cases cannot be
 /// read.
 pub(super) fn run(
     file: VectorFile<Reader>,
@@ -37,7 +37,7 @@ pub(super) fn run(
     }
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
     let judges = Mutex::new((Checker::new(specification), [0; 3]));
-    // One thread, so that records come in their order.
+    // There is one thread, so that records come in their order.
     let mut model: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
     let answered = asked.as_mut().map(|asked| asked as _);
     let answers =
@@ -80,8 +80,8 @@ pub(super) fn run(
     Ok(if answers.mismatches > 0 { Exit::Different } else { ended })
 }
 
-/// How a patch compares with the model, vertex by vertex: equal (0), in another order (1),
-/// different (2). No standard but Direct3D's asks for its order.
+/// The comparison of a patch with the model, vertex by vertex: equal (0), in another order (1), or
+/// different (2). Only Direct3D demands the model's order.
 fn beside_model(case: &Case, observed: &Tessellation) -> usize {
     let expected = case.patch().tessellate();
     let is_equal =

@@ -33,10 +33,10 @@ const LIST_ORDERS: Choices<ListOrder> = &[
 ];
 
 impl StrengthArgs {
-    /// The side that is tested with a file of this kind and a backend, if one was asked for.
+    /// The side under test, for a file of this kind and the backend, if one is given.
     ///
     /// # Errors
-    /// A weaker strength than identity where no device is tested.
+    /// A strength other than the strictest is given, but no device is tested.
     pub(super) fn tested(
         &self,
         kind: Kind,

@@ -1,4 +1,4 @@
-//! The covergroups of `tess_uvm`, written from the bins.
+//! Writes the covergroups of `tess_uvm` from the bins.
 
 use std::fmt::Write;
 use tess_verify::cover::Coverage;
@@ -10,7 +10,8 @@ const HEAD: &str = "\
 // tess_dpi::model_coverage numbers them. It sees one patch, so sequences have none.
 ";
 
-/// A class in SystemVerilog with a covergroup for each group; `sample` takes the number of a bin.
+/// A class in SystemVerilog with one covergroup per group of bins; `sample` takes the number of a
+/// bin.
 pub(super) fn text() -> String {
     let coverage = Coverage::default();
     let bins: Vec<(&str, &str)> =
@@ -46,7 +47,7 @@ pub(super) fn text() -> String {
 mod tests {
     use super::*;
 
-    /// `sample` takes the numbers of a group to be consecutive, and every bin to have one.
+    /// `sample` relies on two facts: the numbers of a group are consecutive, and every bin has one.
     #[test]
     fn every_bin_is_in_its_group() {
         let (text, coverage) = (text(), Coverage::default());

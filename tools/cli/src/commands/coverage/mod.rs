@@ -1,4 +1,4 @@
-//! `tess coverage`: adds coverage files up and reports what is missing.
+//! `tess coverage`: adds up coverage files and reports what is missing.
 
 mod covergroups;
 
@@ -13,16 +13,16 @@ use tess_core::{Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_verify::cover::{Coverage, Exclusions};
 use tess_verify::generate::configurations_among;
 
-/// Add coverage files up and report what is missing
+/// Add up coverage files and report what is missing
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The files are those that `--coverage FILE` of `tess gen` and `check`, and tess_model write.
-The report has a line for each group of bins by stage of the specification, then every hole: a bin that was never hit. docs/verification.md describes the groups.
+The files are those written by `--coverage FILE` of `tess gen` and `tess check`, and by tess_model.
+The report has a line per group of bins, by stage of the specification, then every hole: a bin that was never hit. docs/verification.md describes the groups.
 
-A device that lacks configurations cannot hit every bin. Name those that it has, in the words of `tess gen`, several with commas between them: bins that no such patch can hit are excluded. --exclude FILE excludes more, one pattern per line: a bin's path or its first parts, of which each may be * for any.
+A device that lacks configurations cannot hit every bin. List those that it has, named as in `tess gen` and separated by commas: bins that no such patch can hit are excluded. --exclude FILE excludes more, one pattern per line: a bin's path or its first parts, where each part may be * for any.
   transition               # a group
   configuration/*/pow2     # all of its bins with this partitioning
-An excluded bin that was hit is named: the exclusions are wrong.
+An excluded bin that was hit is named, because its exclusion is wrong.
 
 Exit code 0: done; 1: with --complete, a hole or a wrong exclusion; 2: malformed or missing files.
 
@@ -42,15 +42,15 @@ pub(crate) struct CoverageCommand {
     /// Domains that the device has [default: all]
     #[arg(long, value_name = "NAME,..", value_delimiter = ',', value_parser = name_of::<Domain>())]
     domain: Vec<Domain>,
-    /// Partitionings that it has [default: all]
+    /// Partitionings that the device has [default: all]
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     #[arg(value_parser = name_of::<Partitioning>())]
     partitioning: Vec<Partitioning>,
-    /// Output primitives that it has [default: all]
+    /// Output primitives that the device has [default: all]
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     #[arg(value_parser = name_of::<OutputPrimitive>())]
     output: Vec<OutputPrimitive>,
-    /// Split orders that it has [default: all]
+    /// Split orders that the device has [default: all]
     #[arg(long, value_name = "NAME,..", value_delimiter = ',', value_parser = name_of::<SplitOrder>())]
     split: Vec<SplitOrder>,
     /// Exclude the bins that this file names
@@ -66,11 +66,11 @@ pub(crate) struct CoverageCommand {
     report: OutputArgs,
 }
 
-/// The most bytes of `--exclude`: every bin by its path has 110 kB.
+/// The largest size of an `--exclude` file in bytes; a list of every bin has 110 kB.
 const MAX_EXCLUDE_BYTES: u64 = 1 << 24;
 
-/// Runs the command. Errors: files that are no coverage files, or given twice; patterns of no bin;
-/// places that cannot be written.
+/// Runs the command. Errors: a file that is not a coverage file, or is given twice; a pattern that
+/// fits no bin; a place that cannot be written.
 pub(crate) fn run(args: &CoverageCommand) -> Result<Exit, Failure> {
     if let Some(file) = args.covergroups.clone() {
         OutputArgs { file }.write(covergroups::text().as_bytes())?;
@@ -100,7 +100,7 @@ impl CoverageCommand {
         read.chain(exclude).chain(merged).chain([self.report.role()]).collect()
     }
 
-    /// Refuses a file that would count twice.
+    /// Refuses a file that would be counted twice.
     fn refuse_double(&self) -> Result<(), Failure> {
         let mut seen = HashSet::new();
         let mut is_new = |file: &&PathBuf| {

@@ -29,21 +29,22 @@ pub(crate) struct DrawCommand {
     backend: BackendArgs,
     #[command(flatten)]
     options: DrawArgs,
-    /// Form of the picture [default: from the file's name, else svg]
+    /// Format of the picture [default: from the file's name, else svg]
     #[arg(long, value_name = "NAME")]
     format: Option<PictureFormat>,
-    /// Draw this backend's result, with what differs from it in red; exit code 1 if anything does
+    /// Draw this backend's result, with its differences from the other backend in red; exit code 1
+    /// if there are any
     #[arg(long, value_name = "NAME", conflicts_with = "overlay")]
     against: Option<BackendName>,
-    /// Draw the model, with what differs in this listing of the same patch in red; a listing by
-    /// coordinates is drawn with the model's numbers of points
+    /// Draw the model, with the differences of this listing of the same patch in red; a listing by
+    /// coordinates is drawn with the model's point numbers
     #[arg(long, value_name = "FILE")]
     overlay: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArgs,
 }
 
-/// Additions to a picture beside the primitives and points themselves.
+/// Additions to a picture, besides the primitives and points themselves.
 #[derive(Clone, Copy, Debug, clap::Args)]
 struct DrawArgs {
     /// Number the points
@@ -61,8 +62,8 @@ struct DrawArgs {
     size: u32,
 }
 
-/// Runs the command. Errors: wrong number of factors, a backend that is not available, a listing
-/// that cannot be read or has no such patch, an output that cannot be written.
+/// Runs the command. Errors: a wrong number of factors; an unavailable backend; a listing that
+/// cannot be read or lacks the patch; an output that cannot be written.
 pub(crate) fn run(args: &DrawCommand) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
     let format = form::choose(args.format, &args.output.file)?;
@@ -93,7 +94,7 @@ pub(crate) fn run(args: &DrawCommand) -> Result<Exit, Failure> {
 }
 
 impl DrawArgs {
-    /// Refuses to show what a patch does not have. Errors: rings without triangles.
+    /// Refuses options that do not suit the patch. Errors: rings without triangles.
     fn fit(&self, domain: Domain, output: OutputPrimitive) -> Result<(), Failure> {
         if self.rings && !show::has_rings(domain, output) {
             return Err(Failure::bad_input(
@@ -114,7 +115,7 @@ impl DrawArgs {
 }
 
 impl DrawCommand {
-    /// Makes the backend ready that is drawn.
+    /// Makes the backend ready whose result is drawn.
     fn select(&self) -> Result<Box<dyn Backend>, Failure> {
         let BackendArgs { backend, options } = self.backend;
         if self.against == Some(backend) {

@@ -26,17 +26,17 @@ Examples:
 pub(crate) struct ExplainCommand {
     #[command(flatten)]
     patch: PatchArgs,
-    /// Explain only where this domain point comes from
+    /// Explain only the origin of this domain point
     #[arg(long, value_name = "I", group = "part")]
     point: Option<u32>,
-    /// Explain only where this primitive comes from
+    /// Explain only the origin of this primitive
     #[arg(long, value_name = "T", group = "part")]
     primitive: Option<u32>,
-    /// Explain only what becomes of this factor: 0 is the first outer one
+    /// Explain only the processing of this factor; 0 is the first outer one
     #[arg(long, value_name = "K", group = "part")]
     factor: Option<u32>,
-    /// Compare what a circuit gave there, name the stage, module and signal that differ, and end
-    /// with 1 if any does
+    /// Compare a circuit's values there: name the stage, module and signal of each difference, and
+    /// end with exit code 1 if there is any
     #[arg(long, value_name = "SIGNAL=N,..", value_delimiter = ',', value_parser = observation)]
     #[arg(long_help = OBSERVED)]
     observed: Vec<(String, u32)>,
@@ -47,20 +47,20 @@ pub(crate) struct ExplainCommand {
     output: OutputArgs,
 }
 
-/// `SIGNAL=N`.
+/// Parses `SIGNAL=N`.
 fn observation(text: &str) -> Result<(String, u32), String> {
     let (signal, value) = text.split_once('=').ok_or("expected SIGNAL=N, such as u=0x4000")?;
     let number = match value.strip_prefix("0x") {
         Some(digits) => u32::from_str_radix(digits, 16),
         None => value.parse(),
     };
-    let number = number
-        .map_err(|_| format!("`{value}` is no number of 32 bits, such as 16384 or 0x4000"))?;
+    let number =
+        number.map_err(|_| format!("`{value}` is not a 32-bit number such as 16384 or 0x4000"))?;
     Ok((signal.to_owned(), number))
 }
 
-/// Runs the command. Errors: wrong number of factors, no such factor, point, primitive or signal,
-/// an output that cannot be written.
+/// Runs the command. Errors: a wrong number of factors; a factor, point, primitive or signal that
+/// does not exist; an output that cannot be written.
 pub(crate) fn run(args: &ExplainCommand) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
     let part = args.part();
@@ -77,7 +77,7 @@ impl ExplainCommand {
         point.or(self.factor.map(Part::Factor)).unwrap_or(Part::Patch)
     }
 
-    /// The differences from what was observed, if something was.
+    /// The differences from the observed values, if any were given.
     fn circuit(&self, case: &Case, part: Part) -> Result<Option<Vec<SignalDifference>>, Failure> {
         if self.observed.is_empty() {
             return Ok(None);
@@ -105,7 +105,7 @@ fn report(case: &Case, part: Part) -> Result<Explanation, Failure> {
     })
 }
 
-/// A report, and what a circuit gave beside it.
+/// A report, with the comparison of a circuit's values.
 #[derive(Serialize)]
 struct Explained {
     #[serde(flatten)]

@@ -1,17 +1,18 @@
-//! Memory images that Verilog's `$readmemh` loads.
+//! Memory images for Verilog's `$readmemh`.
 //!
-//! Each is a text of one hex word a line, after a comment that says how the word is laid out.
+//! Each is a text with one hex word per line, after a comment that describes the layout of the
+//! word.
 
 use super::stages::{position, raw_factors};
 use std::io::{self, Write};
 use tess_core::Config;
 use tess_verify::Case;
 
-/// The names of the four images and of the file with their sizes as macros.
+/// The names of the four images, and of the file that has their sizes as macros.
 pub(super) const FILES: [&str; 5] =
     ["cases.memh", "factors.memh", "points.memh", "primitives.memh", "sizes.svh"];
 
-/// The comment lines at the top of each image: its word from the top bit down.
+/// The comment lines at the top of each image: the fields of a word from the top bit down.
 const LAYOUTS: [&str; 4] = [
     "144 bits: domain 4 (0 isoline, 1 tri, 2 quad), partitioning 4 (0 integer, 1 pow2, \
      2 fractional_odd, 3 fractional_even), output 4 (0 point, 1 line, 2 triangle_cw, \
@@ -24,20 +25,20 @@ const LAYOUTS: [&str; 4] = [
      (the ports of rtl/tess_top.sv give 0 there)",
 ];
 
-/// How many words each image has.
+/// The number of words in each image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct ImageWords {
-    /// Words of `cases.memh` and of `factors.memh`.
+    /// The words of `cases.memh`, which are also those of `factors.memh`.
     pub(super) cases: u64,
-    /// Words of `points.memh`.
+    /// The words of `points.memh`.
     pub(super) points: u64,
-    /// Words of `primitives.memh`.
+    /// The words of `primitives.memh`.
     pub(super) primitives: u64,
 }
 
 /// Writes the five files, in the order of [`FILES`], with results from the model. Errors: those of
-/// the writers; [`io::ErrorKind::InvalidInput`] for so many cases that their points or primitives
-/// have no number of 32 bits.
+/// the writers; [`io::ErrorKind::InvalidInput`] if the number of a point or primitive does not fit
+/// in 32 bits.
 pub(super) fn write_images(
     files: &mut [&mut dyn Write; 5],
     cases: impl Iterator<Item = Case>,
@@ -56,7 +57,7 @@ pub(super) fn write_images(
     Ok(words)
 }
 
-/// Writes the words of one case behind `words`.
+/// Writes the words of one case after the first `words` words.
 fn write_case(
     files: &mut [&mut dyn Write; 5],
     words: &mut ImageWords,
@@ -86,19 +87,19 @@ fn write_case(
     Ok(())
 }
 
-/// Where a case's elements begin, as a field of 32 bits.
+/// The number of a case's first element, as a field of 32 bits.
 fn number(first: u64) -> io::Result<u32> {
     u32::try_from(first).map_err(|_| {
         io::Error::new(
             io::ErrorKind::InvalidInput,
             format!(
-                "element {first} of an image has no number of 32 bits; write fewer cases, or shards"
+                "element {first} of an image does not fit in 32 bits; write fewer cases, or shards"
             ),
         )
     })
 }
 
-/// The four digits of a case's configuration: positions in the lists of the specification.
+/// The four digits of a case's configuration: its positions in the lists of the specification.
 fn configuration(case: &Case) -> String {
     let Config { partitioning, output, split } = case.config;
     let [domain, partitioning] = [position(case.domain()), position(partitioning)];
@@ -140,7 +141,7 @@ mod tests {
         assert!(texts[4].contains("`define TESS_POINTS 6\n"), "sizes: {}", texts[4]);
     }
 
-    /// Fields of `cases.memh` have 32 bits; longer numbers would move the fields beside them.
+    /// Fields of `cases.memh` have 32 bits; a longer number would shift its neighbours.
     #[test]
     fn images_end_at_32_bits() {
         let line = "case tri integer triangle_ccw center 3f800000 3f800000 3f800000 7fc00000";

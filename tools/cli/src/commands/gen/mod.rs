@@ -21,12 +21,12 @@ use tess_verify::generate::{GenLevel, Selection, configurations_among};
 use tess_verify::vectors::{Header, Kind, write_cases};
 use tess_verify::{Case, Named};
 
-/// Generate test vectors with expected results; same arguments, same bytes
+/// Generate test vectors with expected results; equal arguments give equal bytes
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Level 1 has every boundary once and hits every coverage bin of the selected configurations; level 2 has every boundary in every position; level 3 is random. Each ends with --count random cases (500, 20000 and 1000000 by default).
 
---rules makes families of patches for `tess check --rules`: pairs that differ in one level, exchanged levels, levels just above integers, inner levels up to 1, NaN. A shard separates some families.
+--rules generates families of patches for `tess check --rules`: pairs that differ in one level, exchanged levels, levels just above integers, inner levels up to 1, NaN. A shard separates some families.
 
 Examples:
   tess gen --level 1 | tess check - --backend simd
@@ -41,27 +41,27 @@ Examples:
 pub(crate) struct GenCommand {
     #[command(flatten)]
     selection: SelectionArgs,
-    /// Instead of a level, families of patches that the rules of the standards compare, and --count
+    /// Instead of a level: families of patches that the rules of the standards compare, and --count
     /// random ones
     #[arg(long, conflicts_with = "level")]
     rules: bool,
-    /// One split order only
+    /// Only this split order
     #[arg(long, value_name = "NAME", value_parser = name_of::<SplitOrder>())]
     split: Option<SplitOrder>,
-    /// Instead of patches, the inputs and outputs of one stage for them: factors, context, place or
-    /// stitch
+    /// Instead of patches: the inputs and outputs of one stage for them (factors, context, place or
+    /// stitch)
     ///
-    /// To test a block of a circuit: each distinct row once, as CSV or, with --format readmemh, as
-    /// one image.
+    /// For testing a block of a circuit. Each distinct row is written once, as CSV or, with
+    /// --format readmemh, as one image.
     #[arg(long, value_name = "NAME", value_parser = name_of::<StageBlock>(), conflicts_with = "coverage")]
     stage: Option<StageBlock>,
-    /// Form of the vectors
+    /// Format of the vectors
     #[arg(long, value_name = "NAME", default_value = "csv")]
     format: VectorFormat,
-    /// Instead of vectors, report which coverage bins they hit
+    /// Instead of vectors: report which coverage bins they hit
     ///
     /// Bins that no selected configuration can hit are excluded. With a FILE, the hits are added to
-    /// that file of UCIS XML, and the sum is reported. Shards may add to one file, also at the same
+    /// that file of UCIS XML, and the sum is reported. Shards may add to one file, even at the same
     /// time.
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with = "format")]
     coverage: Option<Option<PathBuf>>,
@@ -73,15 +73,15 @@ pub(crate) struct GenCommand {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum VectorFormat {
-    /// Counts and digests, as golden/patches.csv
+    /// Counts and digests, as in golden/patches.csv
     Csv,
-    /// Whole outputs, as golden/cases.txt
+    /// Whole outputs, as in golden/cases.txt
     Listing,
     /// Images for Verilog's $readmemh, in a folder
     Readmemh,
 }
 
-/// Runs the command. Errors: a selection without any case; an output that cannot be written.
+/// Runs the command. Errors: a selection without cases; an output that cannot be written.
 pub(crate) fn run(args: &GenCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     let placed = args.selection.shard.place()?;
     refuse_shared(&args.roles()?)?;
@@ -122,13 +122,13 @@ fn generate(args: &GenCommand, placed: Placed, recorder: &Recorder) -> Result<Ex
     Ok(Exit::Done)
 }
 
-/// The report's part of what was generated.
+/// The report's entry about the generated vectors.
 fn part(cases: u64) -> ReportPart {
     ReportPart { name: "vectors".to_owned(), cases, ..ReportPart::default() }
 }
 
 impl GenCommand {
-    /// The files of the command. Errors: the coverage file can be none.
+    /// The files of the command. Errors: the path cannot be that of a coverage file.
     fn roles(&self) -> Result<Vec<Role<'_>>, Failure> {
         let coverage = self.coverage.iter().flatten().map(|path| coverage_file::role(path));
         let coverage: Vec<_> = coverage.collect::<Result<_, _>>()?;
@@ -169,7 +169,7 @@ impl GenCommand {
         Ok(Exit::Done)
     }
 
-    /// Reports the coverage of the cases, added to what a file holds if one is given.
+    /// Reports the coverage of the cases, added to the contents of a file if one is given.
     fn report_coverage(
         &self,
         file: Option<PathBuf>,
@@ -184,7 +184,7 @@ impl GenCommand {
         coverage.record_stream(None, bar.wrap_iter(self.cases(placed)));
         bar.finish_and_clear();
         recorder.update(|report| report.add_parts([part(count)]));
-        // The file may have hits of other configurations too.
+        // The file may also have hits of other configurations.
         let Selection { domain, partitioning, output, split, .. } = self.selection();
         let outside = Exclusions::outside(configurations_among(
             &Vec::from_iter(domain),
@@ -201,14 +201,14 @@ impl GenCommand {
         Ok(Exit::Done)
     }
 
-    /// How many cases there are in all shards.
+    /// The number of cases in all shards.
     fn all(&self) -> u64 {
         let selection = self.selection();
         let systematic = Selection { random: Some(0), ..selection }.cases().count() as u64;
         systematic.saturating_add(selection.random_count())
     }
 
-    /// A bar for this many cases, out of the way of vectors that go to the same terminal.
+    /// A progress bar for this many cases; hidden if vectors go to the same terminal.
     fn progress(&self, count: u64) -> ProgressBar {
         if self.output.is_stdout() && io::stdout().is_terminal() {
             return ProgressBar::hidden();
@@ -216,7 +216,7 @@ impl GenCommand {
         progress(count, "cases")
     }
 
-    /// The first line of what is written, with the arguments that the cases depend on as notes.
+    /// The first line of the output, with the arguments on which the cases depend as notes.
     fn header(&self, count: u64, placed: Placed) -> Header {
         let mut notes = self.selection.notes(placed);
         if self.rules {

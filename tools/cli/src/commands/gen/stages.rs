@@ -1,5 +1,5 @@
-//! Vectors of single stages, for blocks of a circuit: what a stage takes and what the model makes
-//! of it.
+//! Vectors of single stages, for blocks of a circuit: the inputs of a stage, and the model's
+//! outputs.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -10,7 +10,7 @@ use tess_core::{
 use tess_verify::Case;
 use tess_verify::Named;
 
-/// A stage that a circuit may have as a block.
+/// A stage that may be a block of a circuit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StageBlock {
     /// Factor processing of a patch (spec section 3).
@@ -33,8 +33,7 @@ impl Named for StageBlock {
     ];
 }
 
-/// The columns of a stage's rows, each with its width in bits: first what the stage takes, then
-/// what it gives.
+/// The columns of a stage's rows with their widths in bits: first the inputs, then the outputs.
 const FACTORS: &str = "domain 2, partitioning 2, raw0 32, raw1 32, raw2 32, raw3 32, raw4 32, raw5 32, \
     outcome 2, fixed0 23, odd0 1, fixed1 23, odd1 1, fixed2 23, odd2 1, fixed3 23, odd3 1, \
     fixed4 23, odd4 1, fixed5 23, odd5 1";
@@ -54,13 +53,13 @@ impl StageBlock {
         }
     }
 
-    /// Name and width of each column.
+    /// The name and width of each column.
     fn columns(self) -> impl Iterator<Item = (&'static str, usize)> {
         let columns = self.layout().split(", ").filter_map(|column| column.split_once(' '));
         columns.filter_map(|(name, bits)| Some((name, bits.parse().ok()?)))
     }
 
-    /// The meaning of the columns' numbers.
+    /// The meaning of the numbers in the columns.
     pub(super) const fn meaning(self) -> &'static str {
         match self {
             Self::Factors => {
@@ -78,7 +77,7 @@ impl StageBlock {
     }
 }
 
-/// The distinct rows that a stage has in the model for some cases, ascending.
+/// The distinct rows of a stage in the model for some cases, ascending.
 pub(super) fn rows(block: StageBlock, cases: impl Iterator<Item = Case>) -> BTreeSet<Vec<u32>> {
     let mut rows = BTreeSet::new();
     for case in cases {
@@ -103,13 +102,13 @@ pub(super) fn rows(block: StageBlock, cases: impl Iterator<Item = Case>) -> BTre
     rows
 }
 
-/// The number of a value in the list of the specification.
+/// The position of a value in the list of the specification.
 pub(super) fn position<T: Named>(value: T) -> u32 {
     let found = T::NAMES.iter().zip(0..).find(|((_, named), _)| *named == value);
     found.map_or(0, |(_, number)| number)
 }
 
-/// The bits of six factors, of which those that a domain does not have are 0.
+/// The bits of six factors; those that the domain lacks are 0.
 pub(super) fn raw_factors(case: &Case) -> impl Iterator<Item = u32> {
     case.factors.iter().map(f32::to_bits).chain([0; 6]).take(6)
 }
@@ -130,7 +129,7 @@ fn factors(case: &Case) -> Vec<u32> {
     row
 }
 
-/// Split order, parity and processed factor of each factor, with its context.
+/// The split order, parity and processed factor of each factor, with its context.
 fn contexts(case: &Case) -> impl Iterator<Item = ([u32; 3], FactorContext)> {
     let patch = case.patch();
     let all: Vec<(FixedFactor, Parity)> = patch
@@ -172,7 +171,7 @@ fn stitches(case: &Case, rows: &mut BTreeSet<Vec<u32>>) {
     });
 }
 
-/// Writes rows as CSV: a comment with what the numbers mean, the columns' names, and the numbers in
+/// Writes rows as CSV: a comment that explains the numbers, the columns' names, and the numbers in
 /// hex. Errors: those of the writer.
 pub(super) fn write_csv(
     out: &mut dyn Write,
@@ -198,7 +197,7 @@ pub(super) fn write_csv(
 }
 
 /// Writes rows as an image for `$readmemh`: a comment with the layout from the top bit down, then
-/// one word a row. Errors: those of the writer.
+/// one word per row. Errors: those of the writer.
 pub(super) fn write_memh(
     out: &mut dyn Write,
     block: StageBlock,
@@ -210,7 +209,7 @@ pub(super) fn write_memh(
     rows.iter().try_for_each(|row| writeln!(out, "{}", word(block, row)))
 }
 
-/// The numbers side by side, as one number in hex.
+/// The numbers of a row joined into one number in hex.
 fn word(block: StageBlock, row: &[u32]) -> String {
     let columns = block.columns().zip(row);
     let bits: String = columns.map(|((_, bits), number)| format!("{number:0bits$b}")).collect();
@@ -232,7 +231,8 @@ mod tests {
         rows(block, Selection::level(GenLevel::One, 1).cases().step_by(3))
     }
 
-    /// Split, parity and factor; then the six numbers. Detail 2.5 is odd, and has 4 points.
+    /// The split order, parity and factor, then the six numbers. Detail 2.5 is odd and has 4
+    /// points.
     #[test]
     fn a_context_number_by_number() {
         let line = "case isoline fractional_odd line ruler 3f800000 40200000";
@@ -240,7 +240,7 @@ mod tests {
         assert!(contexts.contains(&vec![0, 1, 0x28000, 0x10000, 0x5555, 0xc000, 2, 0, 4]));
     }
 
-    /// Every number fits its column, and some number needs its whole width.
+    /// Every number fits its column, and in each column some number needs the whole width.
     #[test]
     fn widths() {
         for &(name, block) in StageBlock::NAMES {
@@ -254,7 +254,8 @@ mod tests {
         }
     }
 
-    /// A stitch's steps are its triangles: entries advance by one a step, up to the rows' ends.
+    /// A stitch has one step per triangle: the entries advance by one per step, up to the rows'
+    /// ends.
     #[test]
     fn steps_walk_both_rows() {
         let rows: Vec<Vec<u32>> = all(StageBlock::Stitch).into_iter().collect();
@@ -294,7 +295,7 @@ mod tests {
         assert!(text(write_memh).ends_with(&format!("\n{word:013x}\n")), "{}", text(write_memh));
     }
 
-    /// The heads of files give the numbers that the rows have, in the order of the names.
+    /// The comments of files number the names in the order in which the rows use them.
     #[test]
     fn heads_name_the_numbers() {
         fn numbered<T: Named>() -> String {

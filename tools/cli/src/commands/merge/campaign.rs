@@ -1,21 +1,21 @@
-//! Which reports belong together, which shards they prove, and their sums.
+//! Determines which reports belong together, which shards they prove, and their sums.
 
 use super::read::FoundReport;
 use crate::campaign::report::{KnownCases, Report, ReportPart, RunState};
 use crate::failure::Failure;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The reports of one campaign, and those that are of others.
+/// The reports of one campaign, and those of others.
 #[derive(Debug)]
 pub(super) struct Campaign {
-    /// By shard; more than one where a shard ran more than once.
+    /// By shard; a shard that ran several times has several.
     shards: BTreeMap<u64, Vec<FoundReport>>,
-    /// Number of shards.
+    /// The number of shards.
     pub(super) of: u64,
-    /// The place of each report of another campaign, and how it differs from the first.
+    /// The place of each report of another campaign, and how it differs from the first report.
     pub(super) strangers: Vec<(String, String)>,
-    /// The sums of all shards that ended: cases, mismatches, also by stage and by part, and the
-    /// time.
+    /// The sums over all shards that ended: cases and mismatches, also by stage and by part, and
+    /// the time.
     pub(super) sum: Report,
 }
 
@@ -23,16 +23,16 @@ pub(super) struct Campaign {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ShardFault {
     pub(super) shard: u64,
-    /// Such as `is missing`.
+    /// For example `is missing`.
     pub(super) what: String,
-    /// Its reports.
+    /// The places of its reports.
     pub(super) places: String,
 }
 
-/// Everything in which the reports of a campaign agree, by name.
+/// Everything in which the reports of a campaign must agree, by name.
 fn identity(report: &Report) -> BTreeMap<String, String> {
     let Report { version, commit, executable, command, seed, shards, known, options, .. } = report;
-    // A build of changed or unknown sources is known only by its file.
+    // A build from changed or unknown sources is identified only by its file.
     let is_sure = commit != "unknown" && !commit.ends_with("+changes");
     let file = executable.as_ref().filter(|_| !is_sure);
     let file = file.map(|digest| format!(" (file {digest})")).unwrap_or_default();
@@ -46,7 +46,7 @@ fn identity(report: &Report) -> BTreeMap<String, String> {
         ("the baseline", baseline.to_owned()),
     ];
     let own = own.map(|(name, value)| (name.to_owned(), value));
-    // The values in brackets: "a,b" is not "a" and "b".
+    // The values are printed as lists, so that "a,b" differs from "a" and "b".
     let options = options.iter().map(|(name, values)| (option(name), format!("{values:?}")));
     own.into_iter().chain(options).collect()
 }
@@ -55,7 +55,8 @@ fn option(name: &str) -> String {
     format!("the option {name}")
 }
 
-/// How a report differs from the `usual` identity, that of the report at `place`, if it does.
+/// How a report differs from the `usual` identity, which is that of the report at `place`; `None`
+/// if it does not.
 fn strangeness(report: &Report, usual: &BTreeMap<String, String>, place: &str) -> Option<String> {
     let own = identity(report);
     let mut names = usual.keys().chain(own.keys());
@@ -65,10 +66,10 @@ fn strangeness(report: &Report, usual: &BTreeMap<String, String>, place: &str) -
 }
 
 impl Campaign {
-    /// The campaign of the first report.
+    /// The campaign to which the first report belongs.
     ///
     /// # Errors
-    /// There is no report.
+    /// There are no reports.
     pub(super) fn of(reports: Vec<FoundReport>) -> Result<Self, Failure> {
         let mut reports = reports.into_iter();
         let Some(first) = reports.next() else {
@@ -107,12 +108,12 @@ impl Campaign {
         self.shards.values().filter_map(move |found| found.iter().find(done))
     }
 
-    /// The report of each shard that ran once and ended.
+    /// The report of each shard that ran exactly once and ended.
     pub(super) fn once(&self) -> impl Iterator<Item = &FoundReport> {
         self.done().filter(|one| self.shards[&one.report.shard].len() == 1)
     }
 
-    /// The faults of the shards, in their order.
+    /// The faults of the shards, in the order of the shards.
     pub(super) fn faults(&self) -> impl Iterator<Item = ShardFault> {
         (1..=self.of).filter_map(|shard| self.fault(shard))
     }
@@ -135,7 +136,7 @@ impl Campaign {
         Some(ShardFault { shard, what, places: places.join(", ") })
     }
 
-    /// Whether every shard ran once, and some case was compared.
+    /// Whether every shard ran exactly once, and at least one case was compared.
     pub(super) fn is_complete(&self) -> bool {
         self.strangers.is_empty() && self.faults().next().is_none() && self.sum.cases > 0
     }
@@ -144,7 +145,7 @@ impl Campaign {
         let mut sum = Report::default();
         let mut parts: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
         for FoundReport { report, .. } in self.done() {
-            // No sum wraps round.
+            // Sums saturate instead of wrapping around.
             sum.cases = sum.cases.saturating_add(report.cases);
             sum.mismatches = sum.mismatches.saturating_add(report.mismatches);
             sum.milliseconds = sum.milliseconds.saturating_add(report.milliseconds);
@@ -165,8 +166,8 @@ impl Campaign {
         sum
     }
 
-    /// How many different baselines there are, and what became of them in all shards; `None` if
-    /// there was none.
+    /// The number of different baselines, and their outcome in all shards; `None` if there was no
+    /// baseline.
     pub(super) fn known(&self) -> Option<(u64, KnownCases)> {
         let mut digests = BTreeSet::new();
         let mut gone = BTreeSet::new();
@@ -183,7 +184,8 @@ impl Campaign {
     }
 }
 
-/// How the baseline of a report differs from an earlier one of the same name, if it does.
+/// How the baseline of a report differs from an earlier one of the same name; `None` if it does
+/// not.
 fn other_baseline(
     baselines: &mut BTreeMap<String, Option<String>>,
     FoundReport { report, .. }: &FoundReport,

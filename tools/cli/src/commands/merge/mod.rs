@@ -1,5 +1,5 @@
-//! `tess merge`: proves from the reports of a campaign that all its shards ran once, and adds them
-//! up.
+//! `tess merge`: proves from the reports of a campaign that all its shards ran once, and adds up
+//! their results.
 
 mod campaign;
 mod read;
@@ -10,7 +10,7 @@ use crate::output::{OutputArgs, Role, note, refuse_shared};
 use campaign::Campaign;
 use std::path::PathBuf;
 
-/// Prove that all shards of a campaign ran once, and add up what they found
+/// Prove that all shards of a campaign ran once, and add up their results
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 The reports are those that `tess gen`, `check`, `verify` and `probe` write with --report: one line of JSON each. A file may have several lines.
@@ -34,7 +34,7 @@ pub(crate) struct MergeCommand {
     junit: Option<PathBuf>,
 }
 
-/// Runs the command. Errors: a file that is no report; files that cannot be read or written.
+/// Runs the command. Errors: a file that is not a report; files that cannot be read or written.
 pub(crate) fn run(args: &MergeCommand) -> Result<Exit, Failure> {
     let inputs = args.reports.iter().map(|path| Role::input("REPORT", path));
     let junit = args.junit.iter().map(|path| Role::output("--junit", path));

@@ -6,26 +6,26 @@ use crate::input;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The most bytes of one file: a hundred thousand reports have some 100 MB.
+/// The largest size of one file in bytes. A hundred thousand reports have about 100 MB.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// A report, and the file that it stands in.
+/// A report, and its file.
 #[derive(Debug)]
 pub(super) struct FoundReport {
     pub(super) place: String,
     pub(super) report: Report,
 }
 
-/// The content of the files.
+/// The contents of the files.
 #[derive(Debug, Default)]
 pub(super) struct Reports {
     pub(super) reports: Vec<FoundReport>,
-    /// The files that are not there.
+    /// The files that do not exist.
     pub(super) absent: Vec<PathBuf>,
 }
 
 /// Reads every report of the files. Errors: a file that cannot be read, is too long, or has a line
-/// that is no report; which, and the line.
+/// that is not a report; the message names the file and the line.
 pub(super) fn reports(paths: &[PathBuf]) -> Result<Reports, Failure> {
     let mut all = Reports::default();
     for path in paths {

@@ -7,17 +7,17 @@ use crate::campaign::report::Report;
 use crate::output::counted;
 use std::fmt::Write;
 
-/// How many shards of a kind the text shows.
+/// The largest number of shards of a kind that the text shows.
 const SHOWN: usize = 100;
 
-/// How many faults the `JUnit` file lists: a report may speak of more shards than there is memory
-/// for.
+/// The largest number of faults that the `JUnit` file lists. A report may claim more shards than
+/// fit into memory.
 const LISTED: usize = 1_000_000;
 
-/// The table, what differs, what is wrong, and what to run again.
+/// The table, the differences, the faults, and the shards to run again.
 pub(super) fn text(campaign: &Campaign) -> String {
     let mut text = String::new();
-    // Writing to a String does not fail: the results of `write!` are dropped throughout.
+    // Writing to a String does not fail, so the results of `write!` are dropped throughout.
     if let Some(Report { command, version, commit, options, .. }) = campaign.sample() {
         let options: String =
             options.iter().map(|(name, values)| format!(" {name}={}", values.join(","))).collect();
@@ -99,7 +99,7 @@ fn more(text: &mut String, hidden: usize, one: &str) {
     }
 }
 
-/// A word as a shell takes it.
+/// A word, quoted for a shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./,:=+@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
@@ -108,7 +108,7 @@ fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
-/// A test case for each shard, and one for each report of another campaign.
+/// One test case per shard, and one per report of another campaign.
 pub(super) fn junit(campaign: &Campaign) -> String {
     let command = campaign.sample().map_or("", |report| &report.command);
     let case = |name: String, milliseconds, outcome| JunitCase {

@@ -1,7 +1,7 @@
-//! `tess mesh`: from a model file to a tessellated mesh or a picture.
+//! `tess mesh`: turns a model file into a tessellated mesh or a picture.
 //!
 //! [`input`] reads and checks the whole model; [`pipeline`] sends its patches through factors,
-//! tessellation and evaluation, a block at a time; [`output`] takes the blocks as they come.
+//! tessellation and evaluation, one block at a time; [`output`] takes the blocks as they come.
 #![expect(clippy::float_arithmetic, reason = "surfaces and pictures are made of floats")]
 
 mod input;
@@ -38,12 +38,12 @@ Neighbouring patches get the same factor on their common edge, and the same poin
 them. Corners are the same if their coordinates are equal. Where a corner is on the inside of another face's edge, or \
 differs from another corner in its last digits, a crack may open: a note counts such corners, and --weld closes the gaps.
 
-Some faces are changed, and a note says how many and where the first one is. Polygons of more than four corners and \
+Some faces are changed; a note gives their number and the place of the first one. Polygons of more than four corners and \
 concave quads are cut into triangles. Faces without area are left out. Faces with a normal that is zero or NaN get smooth \
-normals, as do faces without normals. Where more than two faces share an edge, each keeps its own normals. A face that is \
-there twice, once for each side, is two sheets. Points and lines are left out.
+normals, as do faces without normals. Where more than two faces share an edge, each keeps its own normals. A face that \
+occurs twice, once for each side, is two sheets. Points and lines are left out.
 
-glTF models are in the pose that they have at rest, with the weights of morph targets, the joints of skins and the \
+glTF models are in their pose at rest, with the weights of morph targets, the joints of skins and the \
 transforms of nodes; animations are not applied. Buffers must be files in the model's folder or below it.
 
 --displace maps the image by the model's texture coordinates, (0, 0) at the lower left. A face without texture coordinates \
@@ -62,21 +62,21 @@ pub(crate) struct MeshCommand {
     input: Option<PathBuf>,
     /// File to write: .obj, .gltf or .glb for a mesh, .png for a picture; - is stdout
     ///
-    /// A .gltf has its binary part beside it in a .bin of the same name. An existing .bin is
+    /// A .gltf has its binary part in a .bin of the same name next to it. An existing .bin is
     /// replaced only if the existing .gltf refers to it.
     #[arg(short = 'o', value_name = "OUT", required = true)]
     output: PathBuf,
-    /// Form of the result [default: from the file's name]
+    /// Format of the result [default: from the file's name]
     #[arg(long, value_name = "NAME")]
     format: Option<ResultForm>,
     /// Surface of triangles and quads [default: pn]
     #[arg(long, value_name = "NAME", value_parser = choice(SURFACES))]
     surface: Option<Style>,
-    /// Close gaps between faces that are at most this wide, in the model's units
+    /// Close gaps between faces, up to this width in the model's units
     ///
-    /// Joins corners that are closer to each other, and splits edges at corners that are closer to
-    /// them. Without a length, only gaps that come from rounding are closed: up to 1e-6 of the
-    /// model's diagonal. Only edges of one face have gaps.
+    /// Joins corners that are closer than this to each other, and splits edges at corners that are
+    /// closer than this. Without a width, only gaps caused by rounding are closed: up to 1e-6 of
+    /// the model's diagonal. Only edges of a single face can have gaps.
     #[arg(long, value_name = "LENGTH", num_args = 0..=1, require_equals = true)]
     #[arg(value_parser = ValueParser::new(positive))]
     weld: Option<Option<f32>>,
@@ -120,7 +120,7 @@ const SURFACES: Choices<Style> = &[
     ),
 ];
 
-/// What is beyond a height image.
+/// The continuation of a height image beyond its borders.
 const WRAPS: Choices<Address> = &[
     ("repeat", Address::Repeat, "The image again"),
     ("clamp", Address::Clamp, "The outermost pixels"),
@@ -140,7 +140,7 @@ struct RuleArgs {
     /// Length of a segment in the picture, in pixels
     #[arg(long, value_name = "PIXELS", value_parser = ValueParser::new(positive))]
     pixels: Option<f32>,
-    /// Distance from the surface that triangles may have, in the model's units
+    /// Largest distance of triangles from the surface, in the model's units
     #[arg(long, value_name = "LENGTH", value_parser = ValueParser::new(positive))]
     tolerance: Option<f32>,
 }
@@ -190,7 +190,7 @@ fn too_high(error: HeightError) -> Failure {
     Failure::bad_input(format!("--height is too large: {error}"))
 }
 
-/// Runs the command. Errors: a model that cannot be read or tessellated, an output that cannot be
+/// Runs the command. Errors: a model that cannot be read or tessellated; an output that cannot be
 /// written.
 pub(crate) fn run(args: &MeshCommand) -> Result<Exit, Failure> {
     let form = args.form()?;
@@ -218,7 +218,7 @@ pub(crate) fn run(args: &MeshCommand) -> Result<Exit, Failure> {
     };
     pipeline::run(&job, &mut sink, &mut statistics)?;
     statistics.time(MeshStage::Output, || sink.finish())?;
-    // Nobody may be listening; the output is there all the same.
+    // Nobody may be reading stderr; the output is complete all the same.
     _ = write!(std::io::stderr(), "{statistics}");
     Ok(Exit::Done)
 }
@@ -238,14 +238,14 @@ impl MeshCommand {
         Ok((input, displacement.transpose()?))
     }
 
-    /// The heights beyond the image.
+    /// How the height image continues beyond its borders.
     fn address(&self, texcoords: &TexcoordRange) -> Address {
         let fitting = if texcoords.is_unit { Address::Clamp } else { Address::Repeat };
         self.wrap.unwrap_or(fitting)
     }
 
-    /// The files of the command: with the buffers beside the model that it reads, and the binary
-    /// part beside the result that it writes.
+    /// The files of the command, including the buffers next to the model and the binary part next
+    /// to the result.
     fn roles<'a>(&'a self, buffers: &'a [PathBuf], part: Option<&'a Path>) -> Vec<Role<'a>> {
         let input = self.input.as_deref().map(|path| Role::input("IN", path));
         let map = self.displace.as_deref().map(|path| Role::input("--displace", path));
@@ -255,8 +255,8 @@ impl MeshCommand {
         inputs.chain([Role::output("-o", &self.output)]).chain(part).collect()
     }
 
-    /// The form of the result. Errors: no form can be told from the name, an option that this form
-    /// does not have, or bytes for a terminal.
+    /// The format of the result. Errors: a name that implies no format; an option that the format
+    /// does not have; binary data for a terminal.
     fn form(&self) -> Result<ResultForm, Failure> {
         let form = form::choose(self.format, &self.output)?;
         let is_picture = form == ResultForm::Png;
@@ -282,7 +282,7 @@ impl MeshCommand {
         Ok(form)
     }
 
-    /// The points that the camera must have in its picture; none if there is no use for a camera.
+    /// The points that must be in the camera's picture; empty if no camera is needed.
     fn outline(&self, form: ResultForm, model: &Model) -> Vec<Vec3> {
         let reach = if self.displace.is_some() { self.height.abs() } else { 0.0 };
         let looks = form == ResultForm::Png || self.rule.looks();

@@ -1,4 +1,4 @@
-//! Points of a surface that a camera must have in its picture.
+//! Points of a surface that must be in the camera's picture.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -6,11 +6,11 @@ use tess_core::Domain;
 use tess_surface::Model;
 use tess_surface::patch::Sample;
 
-/// About how many points are enough.
+/// The approximate number of points that is enough.
 const POINTS: usize = 1 << 18;
 
-/// Points of every patch: a grid, the finer the fewer patches there are, but the corners always. A
-/// surface that is displaced by up to `reach` has points on both sides.
+/// Points of every patch: a grid, which is finer if there are fewer patches and always includes the
+/// corners. A surface that is displaced by up to `reach` has points on both sides.
 pub(super) fn outline(model: &Model, reach: f32) -> Vec<Vec3> {
     let steps = (POINTS / model.len().max(1)).isqrt().clamp(1, 8);
     let points = (0..model.len()).into_par_iter().flat_map_iter(|number| {
@@ -24,7 +24,7 @@ pub(super) fn outline(model: &Model, reach: f32) -> Vec<Vec3> {
     points.flat_map_iter(sides).collect()
 }
 
-/// Domain points `1 / steps` apart.
+/// Domain points at distances of `1 / steps`.
 fn grid(domain: Domain, steps: usize) -> impl Iterator<Item = [f32; 2]> {
     let points = (0..=steps).flat_map(move |i| (0..=steps).map(move |j| (i, j)));
     points

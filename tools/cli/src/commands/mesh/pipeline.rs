@@ -1,6 +1,7 @@
-//! Factors, tessellation and evaluation, a block of patches at a time.
+//! Factors, tessellation and evaluation, one block of patches at a time.
 //!
-//! Beyond the model, memory holds the factors of its patches and one block, whatever the factors.
+//! Besides the model, memory holds the factors of its patches and one block, whatever the factors
+//! are.
 
 use super::output::{MeshBlock, MeshFile, Totals};
 use super::statistics::{MeshStage, Statistics};
@@ -13,35 +14,35 @@ use tess_core::{
 use tess_simd::{Batch, Numbering, Output, Tessellator};
 use tess_surface::{DisplacedModel, FactorRule, Model, Sample};
 
-/// Patches that are counted and sorted by domain at a time.
+/// The number of patches that are counted and sorted by domain at a time.
 const FACTOR_BLOCK: usize = 8192;
 
-/// Largest number of vertices that are held at a time: 32 MiB of them and 24 MiB of indices.
+/// The largest number of vertices held at a time: 32 MiB of vertices and 24 MiB of indices.
 const VERTEX_BLOCK: f32 = 1_048_576.0;
 
-/// Patches that a thread takes at a time.
+/// The number of patches that a thread takes at a time.
 const PATCHES_PER_TASK: usize = 32;
 
-/// The steps that a model takes.
+/// The stages that a model passes through.
 #[derive(Debug)]
 pub(crate) struct MeshJob<'a> {
     /// The patches.
     pub(crate) model: &'a Model,
-    /// How finely they are cut.
+    /// How finely the patches are cut.
     pub(crate) rule: FactorRule,
-    /// Spacing of the cuts.
+    /// The spacing of the cuts.
     pub(crate) partitioning: Partitioning,
     /// The same patches with their displacement, if they are displaced.
     pub(crate) displaced: Option<&'a DisplacedModel<'a>>,
 }
 
-/// Patches of one domain, their factors ready.
+/// Patches of one domain, with their factors.
 struct Group<F> {
     patches: Vec<usize>,
     factors: Vec<F>,
 }
 
-/// The state that is kept from block to block.
+/// The state that is kept between blocks.
 struct Stream<'a> {
     job: &'a MeshJob<'a>,
     tessellator: Tessellator,
@@ -89,7 +90,7 @@ impl MeshJob<'_> {
 }
 
 impl Stream<'_> {
-    /// Vertices and indices of all patches.
+    /// The numbers of vertices and indices of all patches.
     fn count(&mut self, factors: &[PatchFactors]) -> Result<Totals, Failure> {
         let mut totals = Totals::default();
         for block in factors.chunks(FACTOR_BLOCK) {
@@ -103,7 +104,7 @@ impl Stream<'_> {
         Ok(totals)
     }
 
-    /// Patches of consecutive numbers, from `first` on.
+    /// Processes consecutive patches, starting with number `first`.
     fn block_of_patches(
         &mut self,
         first: usize,
@@ -150,7 +151,7 @@ impl Stream<'_> {
         Ok(())
     }
 
-    /// The vertices of the block: every patch's domain points on its surface.
+    /// Computes the vertices of the block: each patch's domain points on its surface.
     fn evaluate(&mut self, patches: &[usize]) {
         let (points, ranges) = (self.domain_points.points(), self.domain_points.ranges());
         self.vertices.resize(points.len(), Sample::default());
@@ -171,7 +172,7 @@ impl Stream<'_> {
     }
 }
 
-/// Consecutive patches, from number `first` on, with their factors, by domain.
+/// Consecutive patches, starting with number `first`, and their factors, by domain.
 fn by_domain(
     first: usize,
     factors: &[PatchFactors],
@@ -194,9 +195,9 @@ impl<F> Group<F> {
         self.factors.push(factors);
     }
 
-    /// The group in parts of few enough vertices, by the largest factor of each patch.
+    /// Splits the group into parts with few enough vertices, by the largest factor of each patch.
     fn parts(&self, largest: impl Fn(&F) -> f32) -> impl Iterator<Item = (&[usize], &[F])> {
-        // A patch of factors up to f has at most as many points as a grid of f + 2 by f + 2.
+        // A patch with factors up to f has at most as many points as a grid of f + 2 by f + 2.
         let mut room = VERTEX_BLOCK;
         let parts = self.factors.chunk_by(move |a, b| {
             let side = largest(a).max(largest(b)) + 3.0;

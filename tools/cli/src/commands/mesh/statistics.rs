@@ -1,4 +1,4 @@
-//! The amount of work and the time of each stage.
+//! The amount of work, and the time of each stage.
 
 use crate::output::counted;
 use std::fmt;
@@ -19,23 +19,23 @@ pub(crate) enum MeshStage {
     Output,
 }
 
-/// Their names.
+/// The names of the stages.
 const STAGES: [&str; 5] = ["load", "factors", "tessellation", "evaluation", "output"];
 
-/// Counts and times of one run.
+/// The counts and times of one run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Statistics {
-    /// Patches.
+    /// The number of patches.
     pub(crate) patches: usize,
-    /// Vertices of the result.
+    /// The number of vertices in the result.
     pub(crate) vertices: u64,
-    /// Triangles of the result.
+    /// The number of triangles in the result.
     pub(crate) triangles: u64,
     times: [Duration; STAGES.len()],
 }
 
 impl Statistics {
-    /// Runs a part of a stage and adds the time that it takes.
+    /// Runs a part of a stage, and adds its time to the stage.
     pub(crate) fn time<T>(&mut self, stage: MeshStage, part: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let result = part();

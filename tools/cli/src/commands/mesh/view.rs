@@ -1,10 +1,10 @@
-//! The camera: of pictures, and of the factor rules that look from somewhere.
+//! The camera of pictures, and of factor rules that depend on a viewpoint.
 
 use super::input::Up;
 use clap::builder::ValueParser;
 use glam::{Mat4, Vec3};
 
-/// Where the model is seen from.
+/// The viewpoint.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct ViewArgs {
     /// Position of the eye, in the model's units [default: so that the model fills the picture]
@@ -26,35 +26,37 @@ pub(crate) struct ViewArgs {
     pub(crate) up: Option<Up>,
 }
 
-/// A camera at rest.
+/// A fixed camera.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CameraView {
-    /// Where the eye is.
+    /// The position of the eye.
     pub(crate) eye: Vec3,
-    /// From the model's coordinates to clip space: x and y in -w..w on the picture, w the depth.
+    /// The matrix from the model's coordinates to clip space: x and y are in -w..w inside the
+    /// picture, and w is the depth.
     pub(crate) clip: Mat4,
-    /// Width and height of the picture in pixels.
+    /// The width and height of the picture in pixels.
     pub(crate) size: (u32, u32),
-    /// Pixels that a length of 1 covers at distance 1.
+    /// The number of pixels that a length of 1 covers at distance 1.
     pub(crate) pixels_per_unit: f32,
 }
 
-/// Largest width and height of a picture.
+/// The largest width and height of a picture.
 const MAX_SIDE: u32 = 8192;
 
-/// Most pixels of a picture: each takes 63 bytes while it is drawn, a gigabyte in all.
+/// The largest number of pixels in a picture. Each takes 63 bytes while it is drawn, which is a
+/// gigabyte in all.
 const MAX_PIXELS: u32 = 4096 * 4096;
 
-/// Part of the picture's half width and half height that the default camera fills.
+/// The part of the picture's half width and half height that the default camera fills.
 const FILLED: f32 = 0.94;
 
 impl ViewArgs {
-    /// Whether any of the camera is given.
+    /// Whether any option of the camera is given.
     pub(crate) const fn is_chosen(&self) -> bool {
         self.eye.is_some() || self.target.is_some() || self.fov.is_some() || self.size.is_some()
     }
 
-    /// The camera, for a surface with these points.
+    /// The camera for a surface with these points.
     pub(crate) fn view(&self, points: &[Vec3], up: Up) -> CameraView {
         let first = points.first().copied().unwrap_or_default();
         let grow = |(low, high): (Vec3, Vec3), &point: &Vec3| (low.min(point), high.max(point));
@@ -74,10 +76,10 @@ impl ViewArgs {
             target + away * distance_to_fit(points, target, away, axis, half).max(radius * 0.1)
         });
         let forward = (target - eye).normalize_or(Vec3::X);
-        // Straight up or down, any direction may be the picture's top.
+        // When the view is straight up or down, any direction may be at the top of the picture.
         let right = forward.cross(axis).normalize_or(forward.any_orthonormal_vector());
         let top = right.cross(forward);
-        // Clip x, y, z, w of a point: z is 0 on the near plane, w the distance from the eye.
+        // Clip x, y, z, w of a point: z is 0 on the near plane, and w is the distance from the eye.
         let row = |v: Vec3, offset: f32| v.extend(offset - v.dot(eye));
         let near = radius * 1e-3;
         let rows = Mat4::from_cols(
@@ -95,15 +97,15 @@ impl ViewArgs {
     }
 }
 
-/// How far from `target`, in direction `away`, points fill the picture: all lie within [`FILLED`]
-/// of its half width and half height, which are `half` at distance 1.
+/// The distance from `target`, in direction `away`, at which the points fill the picture: all are
+/// within [`FILLED`] of its half width and half height, which are `half` at distance 1.
 fn distance_to_fit(points: &[Vec3], target: Vec3, away: Vec3, axis: Vec3, half: [f32; 2]) -> f32 {
     let right = axis.cross(away).normalize();
     let top = away.cross(right);
     let mut distance = 0.0f32;
     for &point in points {
         let point = point - target;
-        // From `distance`, the point is `distance - point.dot(away)` deep.
+        // At `distance`, the depth of the point is `distance - point.dot(away)`.
         for (across, half) in [(right, half[0]), (top, half[1])] {
             distance = distance.max(point.dot(across).abs() / (half * FILLED) + point.dot(away));
         }

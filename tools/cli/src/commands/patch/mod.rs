@@ -23,28 +23,28 @@ Examples:
 pub(crate) struct PatchCommand {
     #[command(flatten)]
     patch: Option<PatchArgs>,
-    /// Instead of one patch, the cases of a vector file, or lines that begin with `case`; - is
+    /// Instead of one patch: the cases of a vector file, or lines that begin with `case`; - is
     /// stdin
     #[arg(long, value_name = "FILE", conflicts_with = "PatchArgs")]
     cases: Option<PathBuf>,
     #[command(flatten)]
     backend: BackendArgs,
-    /// Form of the result [default: from the file's name, else text]
+    /// Format of the result [default: from the file's name, else text]
     #[arg(long, value_name = "NAME")]
     format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
 }
 
-/// The command, which needs a patch only where there is no file of cases.
+/// The command, changed so that it needs a patch only if no file of cases is given.
 pub(crate) fn without_patch_if_cases(command: clap::Command) -> clap::Command {
     ["domain", "outer"].into_iter().fold(command, |command, name| {
         command.mut_arg(name, |arg| arg.required(false).required_unless_present("cases"))
     })
 }
 
-/// Runs the command. Errors: wrong number of factors, cases that cannot be read, a backend that is
-/// not available, an output that cannot be written.
+/// Runs the command. Errors: a wrong number of factors; cases that cannot be read; an unavailable
+/// backend; an output that cannot be written.
 pub(crate) fn run(args: &PatchCommand) -> Result<Exit, Failure> {
     let format = form::choose(args.format, &args.output.file)?;
     let patch = match (&args.cases, &args.patch) {
@@ -64,8 +64,8 @@ pub(crate) fn run(args: &PatchCommand) -> Result<Exit, Failure> {
 }
 
 impl PatchCommand {
-    /// Tessellates the cases one after another into one file of listings. How many there are shows
-    /// at the end, so the header has no count, and the file marks its end.
+    /// Tessellates the cases one after another into one file of listings. Their number is not known
+    /// in advance, so the header has no count, and the file marks its end.
     fn run_cases(&self, path: &Path, format: Format) -> Result<Exit, Failure> {
         if format != Format::Text {
             return Err(Failure::bad_input("--cases writes listings, --format text"));

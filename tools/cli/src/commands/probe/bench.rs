@@ -1,4 +1,4 @@
-//! `tess probe --bench`: the fixed-function stage beside the compute shaders.
+//! `tess probe --bench`: compares the fixed-function stage with the compute shaders.
 
 use crate::commands::shaders::{Checks, spirv};
 use crate::failure::Failure;
@@ -7,12 +7,12 @@ use std::fmt::Write;
 use tess_probe::{BenchTimes, bench};
 use tess_verify::workloads::Workload;
 
-/// How often each way runs; the fastest counts.
+/// The number of runs of each way; the fastest counts.
 const RUNS: u32 = 10;
-/// The workloads that are timed unless others are named: triangles of one domain each.
+/// The workloads that are timed by default: each has triangles of one domain.
 const WORKLOADS: [&str; 3] = ["uniform", "terrain", "character"];
 
-/// Times the workloads of these names, or the usual ones, and writes a table or JSON.
+/// Times the workloads of these names, or the default ones, and writes a table or JSON.
 pub(super) fn run(
     device: usize,
     names: &[String],
@@ -39,8 +39,8 @@ pub(super) fn run(
     output.write(text.as_bytes())
 }
 
-/// Milliseconds and billions of triangles a second, of tessellation alone and from factors to
-/// pixels: the fixed-function stage, the compute shaders, and these with the vertex-cache order.
+/// Milliseconds, and billions of triangles per second, for tessellation alone and from factors to
+/// pixels: of the fixed-function stage, of the compute shaders, and of these in vertex-cache order.
 #[expect(
     clippy::float_arithmetic,
     clippy::cast_precision_loss,

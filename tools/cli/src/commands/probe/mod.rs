@@ -1,4 +1,4 @@
-//! `tess probe`: a Vulkan device's fixed-function tessellator against the model.
+//! `tess probe`: compares a Vulkan device's fixed-function tessellator with the model.
 
 #[cfg(feature = "shaders")]
 mod bench;
@@ -28,8 +28,8 @@ Sends the patches of `tess gen` through the fixed-function tessellator of a devi
 points of every primitive, and compares them bit by bit. The table counts, for each configuration, the
 patches whose primitives are the model's in order, with another leading vertex (leading), in another
 order (reorder), with other connections (connected), with other points (points, and by how many units of
-2^-16), culled by one of the two alone (culling), and with a wrong third coordinate (third). Below it
-stands what explains the differences, and the first that no freedom of the specification explains.
+2^-16), culled by only one of the two (culling), and with a wrong third coordinate (third). Explanations
+of the differences follow, and the first difference that no freedom of the specification explains.
 
 Exit code 0: equal, or equal under the freedoms asked for; 1: different; 2: bad usage; 3: no such device.
 
@@ -47,7 +47,7 @@ pub(crate) struct ProbeCommand {
     /// List the devices and end
     #[arg(long)]
     list: bool,
-    /// Number of the device, as --list shows it
+    /// Number of the device in --list
     #[arg(long, value_name = "N", default_value_t = 0)]
     device: usize,
     #[command(flatten)]
@@ -61,14 +61,14 @@ pub(crate) struct ProbeCommand {
     /// Treatment of positive denormal outer factors that counts as equal
     #[arg(long, value_name = "NAME", default_value = "keep", value_parser = choice(DENORMALS))]
     denormals: Denormals,
-    /// Capture domain points alone, as is done on devices without transform feedback
+    /// Capture only domain points, as on devices without transform feedback
     #[arg(long)]
     points: bool,
-    /// The most vertices of a draw. Drivers whose numbers wrap around give other results with more
-    /// than 65536
+    /// Largest number of vertices in a draw. Drivers whose vertex numbers wrap around give other
+    /// results above 65536
     #[arg(long, value_name = "N", default_value_t = tess_probe::DRAW_VERTICES)]
     draw_vertices: usize,
-    /// Instead, judge the device by the rules of this standard: vulkan, opengl or d3d11
+    /// Instead: judge the device by the rules of this standard: vulkan, opengl or d3d11
     /// (docs/rules.md)
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
     #[arg(conflicts_with_all = ["level", "given", "points", "picture", "json"])]
@@ -79,7 +79,7 @@ pub(crate) struct ProbeCommand {
     /// Draw the first unexplained patch, the model in grey and the device in red: .svg or .png
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
-    /// Time the fixed-function stage beside the compute shaders, and drawing what each gives
+    /// Time the fixed-function stage and the compute shaders, and the drawing of their results
     #[cfg(feature = "shaders")]
     #[arg(long, conflicts_with_all = ["points", "picture", "rules", "known", "report", "junit"])]
     bench: bool,
@@ -104,8 +104,8 @@ const LIST_ORDERS: Choices<ListOrder> = &[
     ("any", ListOrder::Any, "Any, and any leading vertex of a triangle"),
 ];
 
-/// Runs the command. Errors: no Vulkan, no such device, one that cannot be captured, or one that
-/// fails; no case to ask; an output that cannot be written.
+/// Runs the command. Errors: Vulkan or the device is missing; the device cannot be captured, or
+/// fails; there are no cases; an output cannot be written.
 pub(crate) fn run(args: &ProbeCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     if args.list {
         return args.list_devices();
@@ -207,7 +207,7 @@ impl ProbeCommand {
     }
 }
 
-/// Says on stderr how it ends.
+/// Notes the result on stderr, and returns the exit code.
 fn verdict(report: &ProbeReport) -> Exit {
     let ProbeReport { patches, different, known, .. } = report;
     if *different > 0 {
@@ -233,7 +233,7 @@ fn is_of(row: &ProbeRow, case: &Case) -> bool {
     names == (row.domain, row.partitioning, row.output)
 }
 
-/// Adds the configurations, and where each first differs.
+/// Adds the configurations, with the first difference of each.
 fn note_parts(record: &mut Report, report: &ProbeReport) {
     let passes_alone = report.passes_alone;
     let first = |First { line, difference, .. }: &First| FirstOf {
@@ -250,15 +250,15 @@ fn note_parts(record: &mut Report, report: &ProbeReport) {
     record.add_stages(report.stages.iter().map(|(stage, more)| (stage, *more)));
 }
 
-/// A picture to draw if there is something to show.
+/// A picture that will be drawn if there is a difference.
 struct FirstPicture {
     format: PictureFormat,
     output: OutputArgs,
 }
 
 impl FirstPicture {
-    /// Finds the form and tries the place, before the device is asked. Errors: a name that says no
-    /// form; a place that cannot be written.
+    /// Determines the format and tries the place, before the device is used. Errors: a name that
+    /// implies no format; a place that cannot be written.
     fn prepare(file: &Path) -> Result<Self, Failure> {
         let format = form::choose(None, file)?;
         let output = OutputArgs { file: file.to_owned() };
@@ -266,10 +266,10 @@ impl FirstPicture {
         Ok(Self { format, output })
     }
 
-    /// Draws the model's patch with what the device gave over it.
+    /// Draws the model's patch, with the device's output over it.
     fn draw(&self, first: &First) -> Result<(), Failure> {
         let Some(output) = first.captured.output() else {
-            note("no picture: a coordinate of the device is no number that can be drawn");
+            note("no picture: a coordinate of the device cannot be drawn");
             return Ok(());
         };
         let case = first.case;

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-/// The variables of sizes.
+/// The variables of the sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Variable {
@@ -22,7 +22,7 @@ impl Variable {
     }
 }
 
-/// A name of words that begin with large letters, with small ones and `_` between.
+/// Converts a name of capitalized words to lower case with `_` between the words.
 pub(super) fn snake(name: &str) -> String {
     let mut snake = String::new();
     for letter in name.chars() {
@@ -50,7 +50,7 @@ pub(super) struct Term {
     pub(super) per: u32,
 }
 
-/// A formula without terms is its number; any other has its text and its parts.
+/// A formula without terms is written as a number; any other as its text and its parts.
 impl Serialize for Formula {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
@@ -81,7 +81,7 @@ impl Formula {
         Self { terms: vec![Term { times: times.into(), of, per }], ..Self::from(0) }
     }
 
-    /// The sum of two formulas, of which neither is rounded.
+    /// The sum of two formulas, neither of which is rounded.
     pub(super) fn and(mut self, more: impl Into<Self>) -> Self {
         let more = more.into();
         self.constant += more.constant;

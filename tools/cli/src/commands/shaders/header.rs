@@ -7,7 +7,7 @@ use super::structures::Structure;
 use std::fmt::{Debug, Display, Write};
 use tess_gpu::Resource;
 
-/// The text in front of the tables, which does not depend on the setup.
+/// The text before the tables, which does not depend on the setup.
 const DECLARATIONS: &str = include_str!("declarations.h");
 
 /// The header.
@@ -98,7 +98,7 @@ fn table(ty: &str, name: &str, size: &str, rows: impl Iterator<Item = String>) -
     format!("\nstatic const {ty} {name}[{size}] = {{\n    {rows}\n}};")
 }
 
-/// Such as `TESS_HOST_WRITES_JOBS`.
+/// For example `TESS_HOST_WRITES_JOBS`.
 fn constant(prefix: &str, value: impl Debug) -> String {
     format!("TESS_{prefix}{}", snake(&format!("{value:?}")).to_uppercase())
 }
@@ -107,7 +107,7 @@ fn resource_name(resource: Resource) -> String {
     constant("", resource)
 }
 
-/// A structure as C declares it. An array to the buffer's end is left to a comment.
+/// A structure as a C declaration. An array up to the buffer's end becomes a comment.
 fn structure(structure: &Structure) -> String {
     let mut text =
         format!("\nstruct tess_{} {{ /* {} bytes */\n", snake(&structure.name), structure.bytes);

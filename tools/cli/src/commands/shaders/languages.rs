@@ -1,4 +1,4 @@
-//! A stage in each language, through naga's writers.
+//! Writes a stage in each language, through naga's writers.
 
 use super::manifest::{Binding, Kind, MetalSizes, Stage as Described};
 use super::structures::ends_open;
@@ -9,14 +9,14 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ResourceBinding, ShaderStage};
 use tess_gpu::{Access, Resource, Setup, Stage};
 
-/// A stage in its language.
+/// A stage, written in a language.
 pub(super) struct Written {
     pub(super) file: String,
     pub(super) text: Vec<u8>,
     pub(super) stage: Described,
 }
 
-/// A stage that naga has read, to be written in any language.
+/// A stage that naga has parsed and that can be written in any language.
 pub(super) struct Read {
     source: String,
     module: Module,
@@ -25,10 +25,10 @@ pub(super) struct Read {
 }
 
 impl Read {
-    /// Reads a stage.
+    /// Parses a stage.
     ///
     /// # Errors
-    /// It is not valid.
+    /// The stage is not valid.
     pub(super) fn new(stage: Stage, setup: Setup) -> Result<Self, String> {
         let source = stage.source(setup);
         let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", stage.entry_point());
@@ -45,15 +45,15 @@ impl Translation {
     /// Writes a stage.
     ///
     /// # Errors
-    /// The language has no words for something in the stage.
+    /// The language cannot express the stage.
     pub(super) fn write(self, stage: Stage, setup: Setup) -> Result<Written, String> {
         self.write_read(&Read::new(stage, setup)?)
     }
 
-    /// Writes a stage that was read.
+    /// Writes a stage that has been parsed.
     ///
     /// # Errors
-    /// The language has no words for something in the stage.
+    /// The language cannot express the stage.
     pub(super) fn write_read(self, read: &Read) -> Result<Written, String> {
         let stage = read.stage;
         let (text, entry_point) = match self.target {
@@ -203,8 +203,7 @@ impl Target {
 }
 
 impl Read {
-    /// Each binding with what stands for it in a language that numbers bindings of all kinds
-    /// together.
+    /// Each binding with its counterpart in a language that numbers bindings of all kinds together.
     fn map<T>(&self, target: impl Fn(u32) -> T) -> impl Iterator<Item = (ResourceBinding, T)> {
         let count = u32::try_from(self.stage.bindings().len()).unwrap_or(u32::MAX);
         (0..count).map(move |binding| (ResourceBinding { group: 0, binding }, target(binding)))
@@ -224,13 +223,13 @@ impl Read {
         })
     }
 
-    /// Metal's first buffer slot behind the bindings.
+    /// Metal's first buffer slot after the bindings.
     fn sizes_slot(&self) -> u32 {
         u32::try_from(self.stage.bindings().len()).unwrap_or(u32::MAX)
     }
 
-    /// The bindings whose length only the host knows, in the order in which naga's MSL asks for
-    /// them.
+    /// The bindings whose length only the host knows, in the order in which naga's MSL expects the
+    /// lengths.
     fn unsized_bindings(&self) -> Vec<u32> {
         let globals = self.module.global_variables.iter();
         globals
@@ -243,7 +242,7 @@ impl Read {
         format!("{} has no words for {}: {error}", language, self.stage.entry_point())
     }
 
-    /// The name that the entry point has in a language.
+    /// The name of the entry point in a language.
     fn named<E: std::fmt::Display>(
         &self,
         language: &str,
@@ -257,8 +256,8 @@ impl Read {
     }
 }
 
-/// HLSL in which atomic loads from buffers, which naga writes as `x.InterlockedOr(at, 0, result)`,
-/// have an unsigned zero: glslang makes an invalid instruction of the signed one.
+/// HLSL in which atomic loads from buffers use an unsigned zero. naga writes such a load as
+/// `x.InterlockedOr(at, 0, result)`; glslang turns the signed zero into an invalid instruction.
 fn with_unsigned_zeros(hlsl: &str) -> String {
     let line = |line: &str| {
         if line.contains(".InterlockedOr(") {

@@ -1,4 +1,5 @@
-//! The manifest: what a host needs to run the shaders. docs/shaders.md explains each entry.
+//! The manifest: the data that a host needs to run the shaders. docs/shaders.md explains each
+//! entry.
 
 use super::plan::{Variant, resource_name, resources};
 use super::structures::Structure;
@@ -12,18 +13,18 @@ use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{Resource, Setup};
 use tess_verify::Named;
 
-/// The file of the manifest, and what its first entry says.
+/// The file of the manifest, and its first entry.
 pub(super) const FILE: &str = "manifest.json";
 pub(super) const FORMAT: &str = "tess-shaders 1";
 
-/// The file of the tables' contents.
+/// The file with the contents of the tables.
 pub(super) const TABLES_FILE: &str = "tables.bin";
 
-/// The file of the manifest for C.
+/// The manifest as a file for C.
 pub(super) const HEADER_FILE: &str = "tess_shaders.h";
 
-/// The names of the files that this command wrote into a folder; none if it has no manifest of this
-/// format.
+/// The names of the files that this command has written into a folder; empty if the folder has no
+/// manifest of this format.
 pub(super) fn files_of(folder: &Path) -> Vec<String> {
     #[derive(Deserialize)]
     struct Written {
@@ -53,13 +54,13 @@ pub(super) struct Manifest {
     pub(super) setup: Described,
     pub(super) stages: Vec<Stage>,
     pub(super) resources: Vec<ResourceRole>,
-    /// Bytes between two jobs in their buffer.
+    /// The distance between two jobs in their buffer, in bytes.
     pub(super) job_stride: u64,
     pub(super) plans: Vec<Variant>,
     pub(super) structures: Vec<Structure>,
 }
 
-/// A setup in names and numbers.
+/// A setup as names and numbers.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Described {
     pub(super) domain: &'static str,
@@ -106,14 +107,14 @@ pub(super) enum Kind {
     Storage,
 }
 
-/// The buffer of Metal in which the host says how long others are: a word for each binding.
+/// The buffer of Metal in which the host passes the lengths of others: one word per binding.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct MetalSizes {
     pub(super) buffer: u32,
     pub(super) of_bindings: Vec<u32>,
 }
 
-/// The use that the host makes of a buffer.
+/// How the host uses a buffer.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct ResourceRole {
     #[serde(serialize_with = "resource_name")]
@@ -124,19 +125,20 @@ pub(super) struct ResourceRole {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Host {
-    /// Writes the jobs.
+    /// It writes the jobs.
     WritesJobs,
-    /// Writes the raw factors.
+    /// It writes the raw factors.
     WritesFactors,
-    /// Writes the contents of `tables.bin`, once.
+    /// It writes the contents of `tables.bin`, once.
     WritesTables,
-    /// Fills it with zeros before the first run; every run leaves it as the next one needs it.
+    /// It fills the buffer with zeros before the first run. Every run leaves it as the next one
+    /// needs it.
     Clears,
-    /// Dispatches and draws with it.
+    /// It dispatches and draws with the buffer.
     UsesIndirectly,
-    /// Takes the result.
+    /// It reads the result.
     Reads,
-    /// Only keeps it: its contents pass from one dispatch to another.
+    /// It only keeps the buffer, whose contents pass from one dispatch to another.
     Keeps,
 }
 

@@ -1,4 +1,5 @@
-//! `tess shaders`: the compute shaders in any language, and what a host needs to run them.
+//! `tess shaders`: the compute shaders in any language, with the data that a host needs to run
+//! them.
 
 mod formula;
 mod header;
@@ -27,10 +28,10 @@ pub(crate) use translation::Checks;
 use translation::Checks;
 use translation::{Target, Translation};
 
-/// Write the compute shaders for any API, with a manifest that says how to run them
+/// Write the compute shaders for any API, with a manifest that describes how to run them
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The folder gets a file for each stage, tables.bin with the constants that they look up, and the same manifest twice: \
+The folder gets a file per stage, tables.bin with the constants that they look up, and the same manifest twice: \
 manifest.json, and tess_shaders.h for C99. With wgsl it also gets surfaces/, functions for shaders of your own: factors by \
 rule, culling, surfaces without cracks. bindings/vulkan is a host in C that needs nothing else. Tests compile spirv, glsl and \
 hlsl; no Metal compiler has seen msl.
@@ -59,13 +60,13 @@ pub(crate) struct ShadersCommand {
     #[arg(long, value_name = "NAME", default_value = "ruler")]
     #[arg(value_parser = name_of::<SplitOrder>())]
     split: SplitOrder,
-    /// Form of the points, 8 bytes each
+    /// Format of the points, 8 bytes each
     #[arg(long, value_name = "FORM", default_value = "packed", value_parser = choice(POINTS))]
     points: PointFormat,
     /// Width of the indices
     #[arg(long, value_name = "TYPE", default_value = "u32", value_parser = choice(INDEX_TYPES))]
     index_type: IndexType,
-    /// Which point has index 0
+    /// Point that has index 0
     #[arg(long, value_name = "NAME", default_value = "per-batch", value_parser = choice(NUMBERINGS))]
     numbering: Numbering,
     /// Order of the triangles
@@ -75,7 +76,7 @@ pub(crate) struct ShadersCommand {
     /// Whether the shaders check every access and every loop
     #[arg(long, value_name = "WHICH", default_value = "full")]
     checks: Checks,
-    /// Replace the folder, with all that is in it, if this command wrote it or it is empty
+    /// Replace the folder and everything in it, if this command wrote it or it is empty
     #[arg(long)]
     force: bool,
     /// New folder to write
@@ -99,7 +100,7 @@ const NUMBERINGS: Choices<Numbering> = &[
 /// Runs the command.
 ///
 /// # Errors
-/// The folder is there already and not to be replaced, or cannot be written.
+/// The folder exists and is not to be replaced, or it cannot be written.
 pub(crate) fn run(args: &ShadersCommand) -> Result<Exit, Failure> {
     refuse_stdout(&args.folder, "the shaders are several files")?;
     let setup = args.setup();
@@ -121,7 +122,7 @@ pub(crate) fn run(args: &ShadersCommand) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Whether a folder has only files that this command wrote, as its manifest lists them, or nothing.
+/// Whether a folder is empty or has only files that this command wrote, according to its manifest.
 fn is_ours(folder: &Path) -> bool {
     let surfaces = folder.join(surfaces::FOLDER);
     has_only(folder, &manifest::files_of(folder))
@@ -153,7 +154,7 @@ impl ShadersCommand {
 /// A stage in SPIR-V.
 ///
 /// # Errors
-/// SPIR-V has no words for something in the stage.
+/// SPIR-V cannot express the stage.
 #[cfg(feature = "probe")]
 pub(crate) fn spirv(
     stage: tess_gpu::Stage,
@@ -164,7 +165,7 @@ pub(crate) fn spirv(
     translation.write(stage, setup).map(|written| written.text)
 }
 
-/// Everything that the folder gets.
+/// The contents of the folder.
 struct Shaders {
     target: Target,
     manifest: Manifest,
@@ -176,7 +177,7 @@ impl Shaders {
     /// The shaders of a setup.
     ///
     /// # Errors
-    /// Exit code 3 if a shader has something that the language cannot say.
+    /// Exit code 3 if the language cannot express a shader.
     fn new(setup: Setup, translation: Translation) -> Result<Self, Failure> {
         let plans = plan::variants(setup);
         let mut files = Vec::new();

@@ -1,5 +1,5 @@
-//! The dispatches of a batch of one portion and one window, as formulas: everything that
-//! `tess_gpu::Plan` says.
+//! The dispatches of a batch of one portion and one window, as formulas that cover everything in
+//! `tess_gpu::Plan`.
 
 use super::formula::{Formula, Variable};
 use serde::{Serialize, Serializer};
@@ -10,14 +10,14 @@ use tess_gpu::{
     Capacity, IndexType, Limits, Numbering, Plan, Resource, Setup, Span, Stage, Workgroups,
 };
 
-/// How batches of these numbers of patches run.
+/// How batches of this range of patches run.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Variant {
     pub(super) min_patches: u32,
     pub(super) max_patches: u32,
     pub(super) max_points: u32,
     pub(super) max_primitives: u32,
-    /// Bytes of each resource's buffer, in the order of [`resources`].
+    /// The bytes of each resource's buffer, in the order of [`resources`].
     pub(super) buffers: Vec<Buffer>,
     /// The words of each job.
     pub(super) jobs: Vec<Vec<Formula>>,
@@ -31,7 +31,7 @@ pub(super) struct Buffer {
     pub(super) bytes: Formula,
 }
 
-/// One dispatch: what it binds, from binding 0 on, and how many workgroups it has.
+/// One dispatch: its bindings, from binding 0, and its number of workgroups.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Dispatch {
     #[serde(serialize_with = "stage_name")]
@@ -49,8 +49,8 @@ pub(super) struct Bound {
     pub(super) bytes: Formula,
 }
 
-/// Workgroups in all, laid out in rows of `max_workgroups`; or where three words in the buffer of
-/// arguments say them.
+/// The total number of workgroups, laid out in rows of `max_workgroups`; or the place of its three
+/// words in the buffer of arguments.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Count {
@@ -76,8 +76,7 @@ pub(super) fn stages(variants: &[Variant]) -> impl Iterator<Item = Stage> {
     Stage::ALL.into_iter().filter(runs)
 }
 
-/// All ways in which batches run, by their numbers of patches from 1 on: with a catalogue, or
-/// without.
+/// All ways in which batches run, by their numbers of patches from 1: with a catalogue, or without.
 pub(super) fn variants(setup: Setup) -> Vec<Variant> {
     let most = with(setup, u32::MAX).portion_patches();
     let ranges = match with(setup, most).has_catalogue() {
@@ -87,17 +86,17 @@ pub(super) fn variants(setup: Setup) -> Vec<Variant> {
     ranges.into_iter().map(|(least, most)| Variant::new(setup, least, most)).collect()
 }
 
-/// The resources of a batch without groups, which is what manifests describe.
+/// The resources of a batch without groups; only these are in manifests.
 pub(super) fn resources() -> impl Iterator<Item = Resource> {
     let is_of_groups = |resource: &Resource| matches!(resource, Resource::Groups | Resource::Draws);
     Resource::ALL.into_iter().filter(move |resource| !is_of_groups(resource))
 }
 
-/// Bytes of one storage binding: in nothing are batches bound but by the number of workgroups in a
-/// row.
+/// The bytes of one storage binding: large enough that batches are limited only by the number of
+/// workgroups in a row.
 const BINDING: u64 = 1 << 35;
 
-/// The plan of a batch with room for one point and one primitive, in the stages that every batch
+/// The plan of a batch with room for one point and one primitive, in those stages that every batch
 /// can have.
 fn with(setup: Setup, patches: u32) -> Plan {
     let limits = Limits { storage_binding: BINDING, workgroups: u32::MAX };
@@ -110,7 +109,7 @@ impl Variant {
             (IndexType::U16, Numbering::PerBatch) => 1 << 16,
             _ => u32::MAX,
         };
-        // Those of the whole tiles that one binding takes.
+        // The primitives of the whole tiles that one binding holds.
         let bound =
             BINDING / u64::from(setup.primitive_bytes()) / u64::from(TILE) * u64::from(TILE);
         let least = Least { setup, plan: with(setup, min_patches) };
@@ -127,14 +126,14 @@ impl Variant {
     }
 }
 
-/// The smallest batch of a variant. What does not depend on the batch is as in its plan; a test
-/// compares the formulas with the plans of others.
+/// The smallest batch of a variant. Its plan provides everything that does not depend on the batch;
+/// a test compares the formulas with the plans of other batches.
 struct Least {
     setup: Setup,
     plan: Plan,
 }
 
-/// `times` the patches, rounded up to whole blocks; `times` is of a block.
+/// `times` the number of blocks of patches, rounded up; `times` is per block.
 fn blocks(times: impl Into<u64>) -> Formula {
     Formula::term(times, Variable::Patches, BLOCK)
 }
@@ -189,7 +188,7 @@ impl Least {
         bytes.chunks(usize::try_from(ALIGNMENT).unwrap_or_default()).map(job).collect()
     }
 
-    /// A dispatch. In one portion and one window all but jobs are bound whole.
+    /// A dispatch. With one portion and one window, everything except jobs is bound whole.
     fn dispatch(&self, one: &tess_gpu::Dispatch) -> Dispatch {
         let bound = |(resource, span): (Resource, Span)| Bound {
             resource,

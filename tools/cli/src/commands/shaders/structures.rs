@@ -1,10 +1,10 @@
-//! The structures that host and shaders share, as the shaders declare them.
+//! The structures that host and shaders share, as declared in the shaders.
 
 use naga::{Module, Scalar, ScalarKind, TypeInner};
 use serde::Serialize;
 use tess_gpu::{Setup, Stage};
 
-/// A structure: its bytes, and its members from the first on.
+/// A structure: its size in bytes, and its members in order.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub(super) struct Structure {
     pub(super) name: String,
@@ -16,7 +16,7 @@ pub(super) struct Structure {
 pub(super) struct Member {
     pub(super) name: String,
     pub(super) offset: u32,
-    /// `u32`, or the name of a structure; a name in brackets is an array to the buffer's end.
+    /// `u32`, or the name of a structure; a name in brackets is an array up to the buffer's end.
     #[serde(rename = "type")]
     pub(super) ty: String,
 }
@@ -60,8 +60,8 @@ fn add(module: &Module, ty: naga::Handle<naga::Type>, found: &mut Vec<Structure>
     found.push(Structure { name: name.clone(), bytes, members });
 }
 
-/// Whether only the host knows how long something of this type is: an array, or a structure that
-/// ends with one.
+/// Whether only the host knows the length of this type: it is an array, or a structure that ends
+/// with one.
 pub(super) fn ends_open(module: &Module, ty: naga::Handle<naga::Type>) -> bool {
     match &module.types[ty].inner {
         TypeInner::Array { size: naga::ArraySize::Dynamic, .. } => true,
@@ -83,7 +83,7 @@ fn type_name(module: &Module, ty: naga::Handle<naga::Type>) -> String {
     }
 }
 
-/// [`tess_gpu::layout::DrawIndexed`], which no shader declares.
+/// [`tess_gpu::layout::DrawIndexed`], which is not declared in any shader.
 fn draw_indexed() -> Structure {
     let names = ["index_count", "instance_count", "first_index", "base_vertex", "first_instance"];
     let members = (0..).zip(names).map(|(word, name)| Member {

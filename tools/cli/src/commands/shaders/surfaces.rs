@@ -1,5 +1,5 @@
-//! The folder `surfaces` beside shaders in WGSL: modules of functions for shaders of the user's
-//! own.
+//! The folder `surfaces`, which accompanies shaders in WGSL: modules of functions for the user's
+//! own shaders.
 
 use crate::output::json;
 use serde::Serialize;
@@ -16,7 +16,7 @@ pub(super) const FOLDER: &str = "surfaces";
 struct Entry {
     name: &'static str,
     file: String,
-    /// Names of the modules that it cannot do without.
+    /// The names of the modules that it needs.
     needs: &'static [&'static str],
 }
 
@@ -29,8 +29,8 @@ pub(super) fn files() -> Vec<String> {
     modules.chain([LIST, TABLES].map(str::to_owned)).collect()
 }
 
-/// Writes the folder into another: a file for each module, their list, and the tables of modules
-/// and functions.
+/// Writes the folder into another one: a file per module, their list, and the tables of modules and
+/// functions.
 ///
 /// # Errors
 /// A file cannot be written.

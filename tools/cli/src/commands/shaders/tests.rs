@@ -1,4 +1,5 @@
-//! The formulas against the plan, and every language against a compiler that is not naga.
+//! Compares the formulas with the plan, and compiles every language with a compiler that is not
+//! naga.
 
 use super::formula::{Formula, Term};
 use super::languages::Read;
@@ -21,7 +22,7 @@ fn small() -> Setup {
     Setup::new(Domain::Quad, Config::new(Partitioning::Pow2, OutputPrimitive::Line))
 }
 
-/// The manifest's account of a batch, against the plan's under a device's limits.
+/// The manifest's description of a batch equals the plan's under a device's limits.
 #[test]
 fn the_manifest_says_what_the_plan_says() {
     let mut random = SplitMix64::new(7);
@@ -83,7 +84,7 @@ fn compare(setup: Setup, variants: &[Variant], batch: [u32; 4]) {
     }
 }
 
-/// The words of a job but for the tiles of a window, which only tell windows apart.
+/// The words of a job, without the tiles of a window, which only tell windows apart.
 fn assert_windows(pairs: impl Iterator<Item = (u32, u64)>, words: usize, batch: [u32; 4]) {
     const WINDOW_TILES: [usize; 3] = [
         offset_of!(Job, window_tiles) / 4,
@@ -100,9 +101,9 @@ fn assert_windows(pairs: impl Iterator<Item = (u32, u64)>, words: usize, batch: 
     }
 }
 
-/// Every language writes every stage of every configuration, and no writer needs constants from the
-/// host that the manifest does not have. What is written depends on a stage's source alone, which
-/// many configurations share: each source is written once.
+/// Every language can express every stage of every configuration, and no writer needs constants
+/// from the host that the manifest lacks. The result depends only on a stage's source, which many
+/// configurations share, so each source is written once.
 #[test]
 fn every_language_has_words_for_every_stage() {
     let mut sources = HashSet::new();
@@ -126,7 +127,7 @@ fn every_language_has_words(stage: tess_gpu::Stage, setup: Setup) {
             let written = translation.write_read(&read).expect("it has words");
             let text = String::from_utf8_lossy(&written.text);
             assert!(!text.contains("NagaConstants"), "{target:?} {stage:?}");
-            // HLSL has no numbers of workgroups: naga writes the workgroup's own again.
+            // HLSL has no number of workgroups; naga would write the workgroup's own number twice.
             let ids = text.matches("SV_GroupID").count();
             assert!(ids <= 1, "{target:?} {stage:?} asks for the number of workgroups");
         }
@@ -153,7 +154,7 @@ fn the_header_has_what_the_manifest_has() {
     );
 }
 
-/// The modules for shaders of the user's own come with WGSL, and `modules.json` names their files.
+/// The modules for the user's own shaders come with WGSL, and `modules.json` names their files.
 #[test]
 fn wgsl_comes_with_surfaces() {
     for (target, comes_with) in [(Target::Wgsl, true), (Target::Glsl, false)] {

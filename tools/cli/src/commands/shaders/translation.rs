@@ -1,4 +1,4 @@
-//! How stages are written: the language, and what a shader checks itself.
+//! How stages are written: the language, and the checks in the shaders.
 
 use clap::ValueEnum;
 use serde::Serialize;
@@ -19,13 +19,13 @@ pub(super) enum Target {
     Msl,
 }
 
-/// Which accesses and loops a shader checks itself.
+/// The accesses and loops that a shader checks itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Checks {
-    /// All: even a buffer that is too small is not overrun, and every loop ends
+    /// All: no access goes beyond a buffer, even one that is too small, and every loop ends
     Full,
-    /// None: buffers must have the sizes that the manifest says
+    /// None: buffers must have the sizes given in the manifest
     None,
 }
 

@@ -1,4 +1,4 @@
-//! `tess verify`: every backend against the model.
+//! `tess verify`: compares every backend with the model.
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
@@ -15,14 +15,14 @@ use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::rules::{Specification, check_rules};
 use tess_verify::{Backend, Named};
 
-/// Compare every backend with the model, over generated levels or over everything there is
+/// Compare every backend with the model, over generated levels or over everything finite
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Without --exhaustive: levels 1 and 2 of `tess gen`; the row level-2 has the cases of level 2 that level 1 does not have. With it, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and locations, all transitions and all interiors. Shards are disjoint and together are everything, so any batch system can spread the work. A shard without units of a subject says so on stderr, and nothing differs. The rows of a subject are printed when it is done.
+Without --exhaustive: levels 1 and 2 of `tess gen`; the row level-2 has the cases of level 2 that level 1 does not have. With --exhaustive, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and locations, all transitions and all interiors. Shards are disjoint and together cover everything, so any batch system can distribute the work. A shard without units of a subject says so on stderr, and counts as equal. The rows of a subject are printed when it is done.
 
 --random N compares N patches of each of the 96 configurations (domain, partitioning, output, split order) instead: all kinds of factors in every position, most of the patches small. The same seed gives the same patches, and a larger N begins with the patches of a smaller one.
 
---rules NAME judges each backend by the demands of a standard, without the model, over the patches of `tess gen --rules` (docs/rules.md). The backend core is the model itself then.
+--rules NAME judges each backend by the demands of a standard, without the model, over the patches of `tess gen --rules` (docs/rules.md). The backend core is then the model itself.
 
 Exit code 0: all equal, or no rule broken; 1: differences; 3: a backend is not available.
 
@@ -45,11 +45,11 @@ pub(crate) struct VerifyCommand {
     /// Compare only this subject: level-1, level-2, transitions, interiors, locations or factors
     #[arg(long, value_name = "NAME", value_parser = name_of::<Subject>())]
     subject: Vec<Subject>,
-    /// Instead, compare N random patches of each configuration
+    /// Instead: compare N random patches of each configuration
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     #[arg(conflicts_with_all = ["exhaustive", "subject"])]
     random: Option<u64>,
-    /// Instead, judge by the rules of this standard: vulkan, opengl or d3d11
+    /// Instead: judge by the rules of this standard: vulkan, opengl or d3d11
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
     #[arg(conflicts_with_all = ["exhaustive", "subject", "random", "given"])]
     rules: Option<Specification>,
@@ -64,7 +64,7 @@ pub(crate) struct VerifyCommand {
     report: ReportArgs,
 }
 
-/// Runs the command. Errors: a backend that is not available.
+/// Runs the command. Errors: an unavailable backend.
 pub(crate) fn run(args: &VerifyCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     args.options.fit(args.backends())?;
     let placed = match args.rules {
@@ -156,7 +156,8 @@ impl VerifyCommand {
         }
     }
 
-    /// One thread with every backend that was asked for; a GPU is not shared.
+    /// One list of all requested backends per thread. A GPU is not shared, so there is one thread
+    /// then.
     fn workers(&self) -> Result<Vec<Vec<Box<dyn Backend>>>, Failure> {
         let names = self.backends();
         let threads = if names.contains(&BackendName::Gpu) {
@@ -175,7 +176,8 @@ impl VerifyCommand {
     }
 }
 
-/// Says of which subjects the shard has nothing: they have fewer units than shards were asked for.
+/// Names the subjects of which the shard has nothing, because they have fewer units than there are
+/// shards.
 fn report_empty(table: &[SubjectRow], placed: Placed) {
     let mut empty: Vec<&str> =
         table.iter().filter(|row| row.compared == 0).map(|row| row.subject.name()).collect();
@@ -210,7 +212,7 @@ fn heading() -> String {
     format!("{:<12} {:<8} {:>15} {:>10}\n", "subject", "backend", "compared", "mismatches")
 }
 
-/// The rows of one subject, then the first difference of each.
+/// The rows of one subject, then the first difference in each.
 fn lines(table: &[SubjectRow]) -> String {
     let mut text = String::new();
     for SubjectRow { subject, backend, compared, mismatches, .. } in table {

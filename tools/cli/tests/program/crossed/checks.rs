@@ -13,8 +13,7 @@ fn second(case: Case) -> Case {
     Case { factors: PatchFactors::from_fn(case.domain(), |i| FACTORS[5 - i]), ..case }
 }
 
-/// A file with the model's answer and then a wrong one to the second case, as listings or as
-/// digests.
+/// A file with the model's answer and a wrong answer to the second case, as listings or as digests.
 fn answers(case: Case, kind: &str) -> String {
     let (right, mut wrong) = (Listing::of_model(case), Listing::of_model(second(case)));
     let last = wrong.output.points.last_mut().expect("a point");
@@ -26,8 +25,8 @@ fn answers(case: Case, kind: &str) -> String {
     right.replacen(" count=1 ", " count=2 ", 1) + &wrong
 }
 
-/// How the backend of a check runs is one option: all but the first exclude what is for the
-/// listings of devices.
+/// How the backend of a check runs counts as one option. All but the first value exclude the
+/// options for listings of a device.
 const CHECKED_BY: [&str; 5] = [
     "",
     "--backend core",
@@ -88,7 +87,7 @@ fn check(folder: &Path, words: &[&str]) -> String {
     format!("check - {}", words.split_whitespace().map(path).collect::<Vec<_>>().join(" "))
 }
 
-/// The model's answer is equal and a wrong one is different, whatever the options.
+/// Whatever the options, the model's answer is equal and a wrong one is different.
 #[test]
 fn answers_are_judged_whatever_the_options() {
     let folder = directory("crossed_checks");
@@ -120,12 +119,12 @@ fn answers_are_judged_whatever_the_options() {
     assert!(runs > 20, "{runs} runs");
 }
 
-/// The files that the options ask for have the wrong answer, and it alone.
+/// The files that the options ask for contain the wrong answer only.
 fn are_written(folder: &Path, case: Case, words: &[&str], said: &str) {
     let file = |name: &str| read_to_string(folder.join(name)).expect("written");
     let mut texts = Vec::new();
     if words[7].starts_with("--failures") {
-        // A listing begins with its case, a row of digests has it with commas.
+        // A listing begins with its case; a row of digests contains it, separated by commas.
         texts.push(file("failures.txt").replace(',', " "));
     }
     if words[10].starts_with("--report") {

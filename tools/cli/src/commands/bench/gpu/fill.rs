@@ -1,4 +1,4 @@
-//! Plain stores of as many bytes, for comparison.
+//! Plain stores of the same number of bytes, for comparison.
 
 use tess_wgpu::Gpu;
 
@@ -24,7 +24,7 @@ pub(super) struct Fill {
     pipeline: wgpu::ComputePipeline,
 }
 
-/// Bytes of a buffer, bound.
+/// A range of a buffer, bound.
 #[derive(Debug)]
 pub(super) struct Span {
     group: wgpu::BindGroup,
@@ -48,7 +48,8 @@ impl Fill {
         Self { pipeline }
     }
 
-    /// The first `bytes` bytes of a buffer, rounded up to 16, in as many bindings as they need.
+    /// Covers the first `bytes` bytes of a buffer, rounded up to 16, with as many bindings as
+    /// needed.
     pub(super) fn spans(&self, gpu: &Gpu, buffer: &wgpu::Buffer, bytes: u64) -> Vec<Span> {
         let most = gpu.device.limits().max_storage_buffer_binding_size / 256 * 256;
         let bytes = bytes.next_multiple_of(16).min(buffer.size());

@@ -1,4 +1,4 @@
-//! The compute shaders under the clock of their device.
+//! The compute shaders, timed by the clock of their device.
 
 use super::BenchCommand;
 use super::runner::{Amount, Description, Runner, WorkingSet, totals};
@@ -16,12 +16,13 @@ use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
 mod fill;
 
-/// How long the device works before a measurement if it was idle, so that its clock is up.
+/// How long the device works before a measurement if it has been idle, so that its clock rate is
+/// up.
 const WARM_UP: Duration = Duration::from_millis(700);
-/// How long a pause makes a device idle.
+/// The length of a pause after which a device counts as idle.
 const IDLE: Duration = Duration::from_millis(5);
 
-/// Batches that are submitted together, so that a part is long enough for a clock.
+/// The number of batches that are submitted together, so that a part is long enough to be timed.
 const BATCHES_PER_PART: usize = 64;
 
 /// Everything from factors to draw arguments, on the device.
@@ -38,7 +39,7 @@ pub(super) struct GpuRunner {
     last_use: Option<Instant>,
 }
 
-/// A batch, what it amounts to, and the bind groups that fill its bytes.
+/// A batch, its amount of work, and the bind groups that fill its bytes.
 #[derive(Debug)]
 struct Timed {
     batch: Batch,
@@ -111,7 +112,7 @@ impl GpuRunner {
         })
     }
 
-    /// Runs a part until the device has left its idle state.
+    /// Runs a part until the device is no longer idle.
     fn warm(&mut self, part: usize) -> Result<(), BackendError> {
         if self.last_use.is_none_or(|last| last.elapsed() > IDLE) {
             let start = Instant::now();

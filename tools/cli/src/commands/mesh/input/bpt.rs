@@ -1,20 +1,20 @@
-//! Bezier patch files: the number of patches, then for each its degrees, `3 3`, and its 16
+//! Bezier patch files: the number of patches, then for each patch its degrees, `3 3`, and its 16
 //! control points row by row, three numbers each.
 //!
-//! Points may have four numbers, x y z w: then they are rational with weight w, a form that the
-//! classic files do not know. Some files have the numbers of points, `4 4`, in the place of the
+//! Points may have four numbers, x y z w; they are then rational with weight w, a form that the
+//! classic files do not have. Some files have the numbers of points, `4 4`, in place of the
 //! degrees. The file is text, and `#` begins a comment.
 //!
-//! There are two layouts. With one point on each line, points of three and of four numbers may be
-//! mixed. In a free layout, with any white space between the numbers, all points must have the same
-//! number of numbers: the length of the file says which.
+//! There are two layouts. With one point per line, points of three and of four numbers may be
+//! mixed. In a free layout, with any white space between the numbers, all points must have equally
+//! many numbers; the length of the file determines how many.
 
 use super::text::{number, quoted, without_mark, words};
 use glam::{Vec3, Vec4};
 use std::borrow::Cow;
 use tess_surface::BezierPatch;
 
-/// The content of a file.
+/// The contents of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Bpt {
     /// The patches.
@@ -35,12 +35,12 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Bpt, String> {
     })
 }
 
-/// Reads lines of which each has one point.
+/// Reads a file that has one point per line.
 fn read<'a>(lines: Box<dyn Iterator<Item = Line<'a>> + 'a>) -> Result<Bpt, String> {
     let mut reader = Reader { lines, line: 0 };
     let mut bpt = Bpt::default();
     let read = reader.file(&mut bpt);
-    // A file without any line is named by the one that it should begin with.
+    // A fault of a file without any lines is reported for line 1.
     read.map_err(|what| format!("line {}: {what}", reader.line.max(1)))?;
     Ok(bpt)
 }
@@ -56,14 +56,14 @@ fn without_comment(line: &[u8]) -> &[u8] {
     line[..end.unwrap_or(line.len())].trim_ascii()
 }
 
-/// The number of numbers of each point in a free layout; `None` if the layout is not free. Errors:
-/// a file with several points on a line that has not as many numbers as its patches need.
+/// The number of coordinates of each point in a free layout; `None` if the layout is not free.
+/// Errors: a file with several points on a line whose length does not fit its number of patches.
 fn free_numbers(bytes: &[u8]) -> Result<Option<usize>, String> {
     let Some((line, first)) = lines(bytes).next() else { return Ok(None) };
     let Some(count) = words(first).next().and_then(count_of) else { return Ok(None) };
     let lengths = || lines(bytes).map(|(_, text)| words(text).count());
     let all = lengths().sum::<usize>() - 1;
-    // Two words of degrees and 16 points.
+    // Per patch: two words of degrees, and 16 points.
     let fits = |numbers: &usize| count.checked_mul(2 + 16 * numbers) == Some(all);
     let numbers = [3, 4].into_iter().find(fits);
     let has_lines = words(first).count() == 1 && lengths().all(|length| length <= 4);
@@ -76,7 +76,7 @@ fn free_numbers(bytes: &[u8]) -> Result<Option<usize>, String> {
     Ok(numbers)
 }
 
-/// The words of a free layout with one point, or the degrees of one patch, on each line.
+/// The words of a free layout, rearranged to one point, or the degrees of one patch, per line.
 fn points_of_words(bytes: &[u8], numbers: usize) -> impl Iterator<Item = Line<'_>> {
     let words = lines(bytes).flat_map(|(line, text)| words(text).map(move |word| (line, word)));
     let mut words = words.peekable();
@@ -90,13 +90,13 @@ fn points_of_words(bytes: &[u8], numbers: usize) -> impl Iterator<Item = Line<'_
     })
 }
 
-/// A number of patches, which is not 0.
+/// Parses a number of patches, which must not be 0.
 fn count_of(word: &[u8]) -> Option<usize> {
     let count = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
     count.filter(|&count: &usize| count > 0)
 }
 
-/// The lines that are left, and the number of the last one that was read.
+/// The remaining lines, and the number of the last line read.
 struct Reader<'a> {
     lines: Box<dyn Iterator<Item = Line<'a>> + 'a>,
     line: usize,
@@ -153,7 +153,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A point in homogeneous coordinates.
+/// Parses a point into homogeneous coordinates.
 fn point(text: &[u8]) -> Result<Vec4, String> {
     let wrong = || format!("{} is not a point: three numbers, or four with a weight", quoted(text));
     let mut numbers = Vec::new();

@@ -1,8 +1,9 @@
 //! Faces without area, such as those at the pole of a sphere.
 //!
-//! A triangle with corners in the same place is an edge. Without it, the faces on its two sides
-//! meet at that edge, so it is dropped; a quad with one collapsed edge becomes a triangle. Faces
-//! whose distinct corners are on one line are dropped too, but the edges around them are then open.
+//! A triangle with two corners in the same place is an edge. If it is dropped, the faces on its two
+//! sides meet at that edge. A quad with one collapsed edge becomes a triangle. Faces whose distinct
+//! corners are on one line are dropped too, but the edges around them are then open. whose distinct
+//! corners are on one line are dropped too, but the edges around them are then open.
 
 use super::draft::Draft;
 use super::tally::Tally;
@@ -10,8 +11,8 @@ use glam::Vec3;
 use rayon::prelude::*;
 use tess_surface::{Face, FaceError, PolygonMesh, Sides};
 
-/// Drops faces that have no area, and corners that coincide with the one before. Faces with another
-/// fault stay as they are.
+/// Drops faces that have no area, and corners that coincide with the one before. Faces with other
+/// faults are left unchanged.
 pub(super) fn repair(draft: &mut Draft) {
     let has_fault = |face: &Face| fault(&draft.mesh, face).is_some();
     if !draft.mesh.faces.par_iter().any(has_fault) {
@@ -36,19 +37,19 @@ pub(super) fn repair(draft: &mut Draft) {
     draft.note(straight.note("face", " with all corners on one line", open));
 }
 
-/// The result for one face.
+/// The result of a repair of one face.
 enum Repaired {
-    /// There is nothing to repair here.
+    /// The face needs no repair here.
     Whole,
-    /// A quad that becomes this triangle.
+    /// The face is a quad that becomes this triangle.
     Narrowed(Face),
-    /// It has no area, as corners are in the same place.
+    /// The face has no area, because corners are in the same place.
     Repeated,
-    /// It has no area, as its corners are on one line.
+    /// The face has no area, because its corners are on one line.
     Straight,
 }
 
-/// The fault of a face that is repaired here, whatever its normals are.
+/// The fault of a face that is repaired here; its normals are ignored.
 fn fault(mesh: &PolygonMesh, face: &Face) -> Option<FaceError> {
     let fault = mesh.check_face(&Face { normals: None, ..*face }).err();
     fault.filter(|fault| matches!(fault, FaceError::RepeatedCorner | FaceError::NoArea))
@@ -68,7 +69,7 @@ fn repaired(mesh: &PolygonMesh, face: Face) -> Repaired {
     }
 }
 
-/// The triangle that a quad is without the corner that repeats the one before, if one does.
+/// The triangle that remains of a quad if one of its corners repeats the corner before.
 fn without_repeats(positions: &[Vec3], face: &Face) -> Option<Face> {
     let places = face.positions.map(|index| positions[index as usize]);
     let places = places.as_slice();

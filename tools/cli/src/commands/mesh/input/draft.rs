@@ -1,5 +1,5 @@
-//! A mesh between the file and the model: its faces may be cut or dropped, and keep their places in
-//! the file.
+//! A mesh between the file and the model. Its faces may be cut or dropped, and remember their
+//! places in the file.
 
 use tess_surface::{Face, PolygonMesh};
 
@@ -8,7 +8,7 @@ use tess_surface::{Face, PolygonMesh};
 pub(super) enum FacePlaces {
     /// The line of each face.
     Lines(Vec<usize>),
-    /// The first face of each run of triangles, and the run's name.
+    /// The first face of each run of triangles, and the name of the run.
     Runs(Vec<(usize, String)>),
 }
 
@@ -26,14 +26,14 @@ impl FacePlaces {
     }
 }
 
-/// A mesh that is being repaired.
+/// A mesh during its repairs.
 #[derive(Debug)]
 pub(super) struct Draft {
     pub(super) mesh: PolygonMesh,
     places: FacePlaces,
-    /// The number that each face had in the file; empty while none has changed.
+    /// The number of each face in the file; empty while no face has changed.
     originals: Vec<usize>,
-    /// What was done to the mesh.
+    /// Notes on the changes to the mesh.
     pub(super) notes: Vec<String>,
 }
 
@@ -55,8 +55,8 @@ impl Draft {
         self.originals.get(face).copied().unwrap_or(face)
     }
 
-    /// Replaces every face by those that `with` makes of it. It gets the mesh, the face and a
-    /// function that gives the face's place.
+    /// Replaces every face by those that `with` returns for it. `with` receives the mesh, the face,
+    /// and a function that returns the face's place.
     pub(super) fn replace_faces(
         &mut self,
         mut with: impl FnMut(&PolygonMesh, &Face, &dyn Fn() -> String) -> Vec<Face>,

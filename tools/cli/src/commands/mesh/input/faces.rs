@@ -1,4 +1,4 @@
-//! Repairs of single faces: concave quads are cut, and normals without a direction dropped.
+//! Repairs of single faces: concave quads are cut, and normals without a direction are dropped.
 
 use super::draft::Draft;
 use super::polygon::{corners, is_concave, triangles};
@@ -7,7 +7,8 @@ use glam::Vec3;
 use rayon::prelude::*;
 use tess_surface::{Face, FaceError, PolygonMesh, Sides};
 
-/// Cuts quads with a corner that points inwards: as one surface they would fold over themselves.
+/// Cuts quads that have a corner pointing inwards. As a single surface, such a quad would fold over
+/// itself.
 pub(super) fn cut_concave_quads(draft: &mut Draft) {
     let is_concave = |mesh: &PolygonMesh, face: &Face| {
         let Sides::Quad(corners) = face.positions else { return false };
@@ -28,7 +29,8 @@ pub(super) fn cut_concave_quads(draft: &mut Draft) {
     draft.note(cut.note("concave quad", "", "cut into two triangles"));
 }
 
-/// Drops the normals of faces with one that is zero, NaN or infinite. They get smooth ones.
+/// Drops the normals of faces that have a normal that is zero, NaN or infinite. Such faces get
+/// smooth ones.
 pub(super) fn drop_bad_normals(draft: &mut Draft) {
     let is_bad = |mesh: &PolygonMesh, face: &Face| {
         face.normals.is_some() && mesh.check_face(face) == Err(FaceError::NotFinite("normal"))

@@ -1,4 +1,4 @@
-//! The readers as fuzz targets call them: bytes in, a mesh or a message out.
+//! The readers in the form that fuzz targets call: from bytes to a mesh or a message.
 
 use super::draft::{Draft, FacePlaces};
 use super::{bpt, collapsed, gltf, height, obj};
@@ -6,7 +6,7 @@ use std::io::Cursor;
 use tess_surface::BezierPatch;
 use tess_surface::PolygonMesh;
 
-/// A grey image: width, height, and texels row by row from the top.
+/// A grey image: its width and height, and its texels row by row from the top.
 pub type Heights = (usize, usize, Vec<f32>);
 
 /// Reads an OBJ file.
@@ -17,7 +17,7 @@ pub fn obj(bytes: &[u8]) -> Result<PolygonMesh, String> {
     obj::parse(bytes).map(|obj| obj.mesh)
 }
 
-/// Reads a glTF or GLB file of at most `most` vertices and triangles, without files beside it.
+/// Reads a glTF or GLB file of at most `most` vertices and triangles that refers to no other files.
 ///
 /// # Errors
 /// The fault and its place.
@@ -42,7 +42,7 @@ pub fn height_png(bytes: &[u8], most: u64) -> Result<Heights, String> {
     Ok((heights.width, heights.height, heights.texels))
 }
 
-/// Drops faces whose corners coincide, as is done with every mesh that is read.
+/// Drops faces whose corners coincide, as with every mesh that is read.
 pub fn without_collapsed(mesh: &mut PolygonMesh) {
     let places = FacePlaces::Lines((1..=mesh.faces.len()).collect());
     let mut draft = Draft::new(std::mem::take(mesh), places);

@@ -1,4 +1,4 @@
-//! Height images: PNG files, the brightness taken as height 0..=1.
+//! Height images: PNG files whose brightness is a height in 0..=1.
 
 use crate::failure::Failure;
 use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
@@ -7,10 +7,11 @@ use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 use tess_surface::HeightMap;
 
-/// Most bytes that decoding takes beside the pixels and a row of them: tables and text of the file.
+/// The largest memory in bytes that decoding may need besides the pixels and one row of them: for
+/// tables and text in the file.
 const MOST_BESIDE: usize = 16 << 20;
 
-/// Most bytes of a pixel: four channels of 16 bits.
+/// The largest size of a pixel in bytes: four channels of 16 bits.
 const MOST_OF_PIXEL: usize = 8;
 
 /// A grey image, row by row from the top.
@@ -21,7 +22,7 @@ pub(crate) struct Heights {
     pub(crate) texels: Vec<f32>,
 }
 
-/// Reads a PNG of at most `most` pixels. Errors: a file that cannot be read, is no PNG or is too
+/// Loads a PNG of at most `most` pixels. Errors: a file that cannot be read, is not a PNG or is too
 /// large.
 pub(crate) fn load(path: &Path, most: u64) -> Result<HeightMap, Failure> {
     let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
@@ -30,7 +31,7 @@ pub(crate) fn load(path: &Path, most: u64) -> Result<HeightMap, Failure> {
     HeightMap::new(width, height, texels).map_err(|error| in_file(error.to_string()))
 }
 
-/// Decodes a PNG. Grey images keep up to 16 bits; of colours the Rec. 709 luma is taken. Errors:
+/// Decodes a PNG. Grey images keep up to 16 bits; colours are converted to Rec. 709 luma. Errors:
 /// the malformed part, or the size and the limit.
 pub(crate) fn decode(file: impl BufRead + Seek, most: u64) -> Result<Heights, String> {
     let mut decoder = Decoder::new_with_limits(file, Limits { bytes: MOST_BESIDE });
@@ -72,7 +73,8 @@ pub(crate) fn decode(file: impl BufRead + Seek, most: u64) -> Result<Heights, St
     Ok(Heights { width: info.width as usize, height: info.height as usize, texels })
 }
 
-/// The decoder panics where a palette ends within a colour. It refuses those that are too long.
+/// Refuses a palette that ends within a colour, because the decoder would panic. The decoder itself
+/// refuses palettes that are too long.
 fn check_palette(palette: Option<&[u8]>) -> Result<(), String> {
     match palette.map(<[u8]>::len) {
         Some(length) if !length.is_multiple_of(3) => {

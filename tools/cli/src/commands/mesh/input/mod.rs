@@ -1,6 +1,6 @@
-//! Reading models.
+//! Readers of models.
 //!
-//! Every reader takes the bytes of a file and gives what they hold or says what is wrong and where;
+//! Every reader takes the bytes of a file, and returns their contents or the fault and its place;
 //! [`load`] adds the file's name.
 
 mod bpt;
@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 use tally::Tally;
 use tess_surface::{Face, HalfEdge, MeshError, Model, PolygonMesh, Style, teapot};
 
-/// Which way is up in a model.
+/// The direction that is up in a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Up {
     /// +y, as in glTF and most OBJ files
@@ -34,46 +34,46 @@ pub(crate) enum Up {
     Z,
 }
 
-/// How a model is read.
+/// Options for reading a model.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct InputOptions {
-    /// The surface of polygons, if it is chosen.
+    /// The surface of polygons, if one was selected.
     pub(crate) style: Option<Style>,
     /// Whether gaps between faces are closed.
     pub(crate) weld: Weld,
 }
 
-/// Closing of gaps between faces.
+/// The closing of gaps between faces.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) enum Weld {
-    /// They stay open, with a note.
+    /// Gaps stay open, with a note.
     #[default]
     No,
-    /// Those that are at most as wide as this, or as rounding makes them.
+    /// Gaps up to this width are closed; without a width, those that rounding causes.
     UpTo(Option<f32>),
 }
 
-/// A model and what its kind of file implies.
+/// A model, with the defaults that its kind of file implies.
 #[derive(Debug)]
 pub(crate) struct Input {
     /// The patches.
     pub(crate) model: Model,
-    /// Which way is up.
+    /// The direction that is up.
     pub(crate) up: Up,
-    /// Notes for the user on what was changed or left out.
+    /// Notes for the user on parts that were changed or left out.
     pub(crate) notes: Vec<String>,
-    /// The files beside the model's own that were read.
+    /// The other files that were read.
     pub(crate) files: Vec<PathBuf>,
-    /// Where the texture coordinates are.
+    /// The range of the texture coordinates.
     pub(crate) texcoords: TexcoordRange,
 }
 
-/// Where the texture coordinates of a model are.
+/// The range of a model's texture coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct TexcoordRange {
-    /// Whether all are within 0 and 1, but for rounding.
+    /// Whether all are within 0 and 1, except for rounding.
     pub(crate) is_unit: bool,
-    /// A note about the faces that have none; each gets the whole image.
+    /// A note about the faces without texture coordinates; each of them gets the whole image.
     pub(crate) missing: Option<String>,
 }
 
@@ -104,8 +104,8 @@ impl TexcoordRange {
 }
 
 /// Reads a model file, or makes the teapot if there is none. Errors: a file that cannot be read, is
-/// of no known kind or is malformed; a model that cannot be tessellated. The message has file and
-/// line, or file and face.
+/// of an unknown kind or is malformed; a model that cannot be tessellated. The message names the
+/// file and the line or face.
 pub(crate) fn load(path: Option<&Path>, options: InputOptions) -> Result<Input, Failure> {
     let Some(path) = path else { return embedded_teapot(options) };
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
@@ -156,7 +156,7 @@ fn embedded_teapot(options: InputOptions) -> Result<Input, Failure> {
 }
 
 impl InputOptions {
-    /// Refuses options of polygons for a model of Bezier patches.
+    /// Refuses options for polygons if the model consists of Bezier patches.
     fn refuse_for_patches(self, what: &str) -> Result<(), Failure> {
         let option = match self {
             Self { style: Some(_), .. } => "--surface",
@@ -169,10 +169,10 @@ impl InputOptions {
     }
 }
 
-/// The most bytes of a model file: a GLB has no more.
+/// The largest size of a model file in bytes, which is also that of a GLB file.
 const MOST_BYTES: u64 = 1 << 32;
 
-/// Reads a model file. Refuses devices and pipes, which may have no end.
+/// Reads a model file. Devices and pipes are refused, because they may be endless.
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let cannot = |error: std::io::Error| Failure::file("read", path, &error);
     let found = fs::metadata(path).map_err(cannot)?;
@@ -190,7 +190,7 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// The model of a polygon mesh, after repairs; `notes` are those of its reader.
+/// The model of a polygon mesh, after repairs. `notes` are those of its reader.
 fn polygons(mut draft: Draft, notes: Vec<String>, options: InputOptions) -> Result<Input, String> {
     let style = options.style.unwrap_or(Style::PointNormal);
     let count = draft.mesh.faces.len();
@@ -217,7 +217,7 @@ fn polygons(mut draft: Draft, notes: Vec<String>, options: InputOptions) -> Resu
     Ok(Input { model, up: Up::Y, notes: draft.notes, files: Vec::new(), texcoords })
 }
 
-/// Repairs each face for itself.
+/// Repairs each face by itself.
 fn repair(draft: &mut Draft, style: Style) {
     if style == Style::Flat {
         draft.mesh.faces.iter_mut().for_each(|face| face.normals = None);
@@ -227,13 +227,13 @@ fn repair(draft: &mut Draft, style: Style) {
     faces::drop_bad_normals(draft);
 }
 
-/// Notes about edges of more than two faces, which are named by `noun` and `place`.
+/// Notes on edges of more than two faces, which are called `noun` and located by `place`.
 fn notes_of_edges(model: &Model, noun: &str, place: impl Fn(usize) -> String) -> Vec<String> {
     let at = |half: HalfEdge| place(half.patch);
     let crowded = model.crowded_edges();
     let paired = Tally::of(crowded.len(), || at(crowded[0]));
     let seams = model.seams();
-    // The side that is one too many is the last in the file.
+    // The surplus side is the last one in the file.
     let alone =
         Tally::of(seams.len(), || seams[0].last().map_or_else(String::new, |&side| at(side)));
     let nouns = if noun == "patch" { "patches" } else { "faces" };
@@ -245,7 +245,7 @@ fn notes_of_edges(model: &Model, noun: &str, place: impl Fn(usize) -> String) ->
     notes.into_iter().flatten().collect()
 }
 
-/// The message about a model whose faces are named by `place`, such as `line 12`.
+/// The message about a model whose faces are located by `place`, for example at `line 12`.
 fn refused(error: MeshError, place: impl Fn(usize) -> String) -> String {
     match error {
         MeshError::Face { face, fault } => format!("{}: {fault}", place(face)),

@@ -1,9 +1,9 @@
 //! OBJ files: polygons with texture coordinates and normals.
 //!
-//! The keywords are `v`, `vt`, `vn` and `f` with all forms of indices. Comments, names, groups,
-//! materials and display attributes do not change a surface and are skipped. Points and lines have
-//! no surface; they are skipped and counted. Every other keyword is an error, so that no misspelt
-//! line is lost. Polygons of more than four corners are cut into triangles.
+//! The keywords are `v`, `vt`, `vn` and `f`, with all forms of indices. Comments, names, groups,
+//! materials and display attributes do not affect a surface and are skipped. Points and lines have
+//! no surface; they are skipped and counted. Any other keyword is an error, so that a misspelt line
+//! is not lost. Polygons of more than four corners are cut into triangles.
 
 use super::polygon::{self, Corner, triangles};
 use super::tally::Tally;
@@ -12,7 +12,7 @@ use crate::output::counted;
 use glam::{Vec2, Vec3};
 use tess_surface::{Face, PolygonMesh};
 
-/// Keywords of lines that do not change the surface.
+/// Keywords of lines that do not affect the surface.
 const SKIPPED: &str = "o g s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj \
      trace_obj";
 
@@ -20,30 +20,30 @@ const SKIPPED: &str = "o g s mg usemtl mtllib usemap maplib lod bevel c_interp d
 const FREE_FORM: &str = "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con \
      ctech stech bsp bzp cdc cdp res";
 
-/// The content of a file.
+/// The contents of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Obj {
-    /// The faces of all objects and groups, every index within its list.
+    /// The faces of all objects and groups, with every index in range.
     pub(crate) mesh: PolygonMesh,
     /// The line of each face, from 1.
     pub(crate) lines: Vec<usize>,
-    /// What was cut or left out.
+    /// Notes on the parts that were cut or left out.
     pub(crate) notes: Vec<String>,
 }
 
-/// A file that is being read.
+/// A file during reading.
 #[derive(Debug, Default)]
 struct Reader {
     mesh: PolygonMesh,
     lines: Vec<usize>,
-    /// Polygons of more than four corners; `mesh` has a triangle of each in its place, with this
+    /// Polygons of more than four corners. `mesh` holds one triangle in place of each, with this
     /// number.
     polygons: Vec<(usize, Vec<Corner>)>,
-    /// Points and lines.
+    /// The skipped points and lines.
     skipped: Tally,
 }
 
-/// Reads a file. Errors: the first line that is malformed, or the first face with an index out of
+/// Parses a file. Errors: the first malformed line, or the first face with an index that is out of
 /// range.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
     let mut reader = Reader::default();
@@ -65,7 +65,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
     Ok(Obj { mesh, lines, notes: notes.into_iter().flatten().collect() })
 }
 
-/// The faces and their lines, with the triangles of each polygon in the place of its first one.
+/// The faces and their lines, with each polygon's placeholder replaced by its triangles.
 fn with_polygons(
     mut mesh: PolygonMesh,
     lines: Vec<usize>,
@@ -135,7 +135,8 @@ impl Reader {
         Ok(())
     }
 
-    /// One of `v`, `v/vt`, `v//vn` and `v/vt/vn`; what is empty is missing, as in `v/` and `v/vt/`.
+    /// Parses a corner: `v`, `v/vt`, `v//vn` or `v/vt/vn`. An empty index counts as missing, as in
+    /// `v/` and `v/vt/`.
     fn corner(&self, word: &[u8]) -> Result<Corner, String> {
         let PolygonMesh { positions, texcoords, normals, .. } = &self.mesh;
         let mut parts = word.split(|&byte| byte == b'/');
@@ -157,7 +158,7 @@ impl Reader {
         })
     }
 
-    /// Positive indices may name what comes later in the file, so ranges are checked at its end.
+    /// Positive indices may refer to later lines of the file, so ranges are checked at its end.
     fn check_ranges(&self) -> Result<(), String> {
         let mut polygons = self.polygons.iter().peekable();
         for (number, (face, line)) in self.mesh.faces.iter().zip(&self.lines).enumerate() {
@@ -189,7 +190,7 @@ impl Reader {
     }
 }
 
-/// Whether a keyword is one of those that are skipped.
+/// Accepts a keyword that is skipped.
 fn unread(keyword: &[u8]) -> Result<(), String> {
     let is_in = |list: &str| list.split(' ').any(|name| name.as_bytes() == keyword);
     if keyword.starts_with(b"#") || is_in(SKIPPED) {
@@ -202,7 +203,8 @@ fn unread(keyword: &[u8]) -> Result<(), String> {
     })
 }
 
-/// Resolves an index: from 1, or from -1 backwards from the last of the `count` so far.
+/// Resolves an index: it counts from 1, or from -1 backwards from the last of the `count` elements
+/// so far.
 fn resolve(part: &[u8], what: &str, count: usize) -> Result<u32, String> {
     let number = integer(part).ok_or_else(|| {
         format!("{} is not a {what} index; corners are v, v/vt, v//vn or v/vt/vn", quoted(part))
@@ -236,7 +238,8 @@ fn texcoord<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec2, String> {
     }
 }
 
-/// A normal, which may be zero, NaN or infinite: programs write such for faces without area.
+/// Parses a normal, which may be zero, NaN or infinite: programs write such normals for faces
+/// without area.
 fn normal<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, String> {
     let what = "a normal is three numbers";
     match numbers(words, any_float, what)? {
@@ -245,7 +248,7 @@ fn normal<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, String> {
     }
 }
 
-/// At most `N` numbers and how many there are; zeros fill the rest.
+/// Parses at most `N` numbers, and returns them with their number; zeros fill the rest.
 fn numbers<'a, const N: usize>(
     words: impl Iterator<Item = &'a [u8]>,
     read: fn(&[u8]) -> Result<f32, String>,

@@ -1,15 +1,15 @@
-//! Polygons of any number of corners, and cutting them into triangles.
+//! Polygons of any number of corners, and their division into triangles.
 //!
-//! Ears are cut off, one after the other (G. H. Meisters, *Polygons Have Ears*, American
-//! Mathematical Monthly 82(6), 1975): triangles of three consecutive corners with no other corner
-//! in them. The roundest ear is cut first. So a corner on the straight line between its neighbours
-//! stays until it is part of a triangle with area, and meets the corner of a neighbouring face that
-//! is there; libraries for pictures leave such corners out.
+//! Ears are cut off one after another (G. H. Meisters, *Polygons Have Ears*, American Mathematical
+//! Monthly 82(6), 1975). An ear is a triangle of three consecutive corners that contains no other
+//! corner. The roundest ear is cut first. So a corner on the straight line between its neighbours
+//! remains until it belongs to a triangle with area, and it meets the corner of a neighbouring face
+//! at the same place. Libraries for pictures leave such corners out.
 
 use glam::{DVec2, DVec3, Vec3};
 use tess_surface::{Face, Sides};
 
-/// The indices of one corner, from 0.
+/// The indices of one corner, counted from 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Corner {
     pub(super) position: u32,
@@ -17,8 +17,8 @@ pub(super) struct Corner {
     pub(super) normal: Option<u32>,
 }
 
-/// A face of three or four corners, which all have the same kinds of indices; `None` for other
-/// numbers.
+/// A face of three or four corners, all of which have the same kinds of indices; `None` for other
+/// numbers of corners.
 pub(super) fn face(corners: &[Corner]) -> Option<Face> {
     let sides = match *corners {
         [a, b, c] => Sides::Triangle([a, b, c]),
@@ -48,17 +48,18 @@ pub(super) fn corners(face: &Face) -> Vec<Corner> {
         .collect()
 }
 
-/// The triangles that a polygon is cut into.
+/// The triangles into which a polygon is cut.
 pub(super) fn triangles(corners: &[Corner], positions: &[Vec3]) -> Vec<Face> {
     let places: Vec<Vec3> =
         corners.iter().map(|corner| positions[corner.position as usize]).collect();
-    // One that crosses itself has no inside; a fan is as good as any other set of triangles.
+    // A polygon that crosses itself has no inside, so a fan is as good as any other set of
+    // triangles.
     let cut = cut(&places).unwrap_or_else(|| (2..corners.len()).map(|k| [0, k - 1, k]).collect());
     cut.into_iter().filter_map(|triangle| face(&triangle.map(|corner| corners[corner]))).collect()
 }
 
 /// The triangles of a polygon's inside, as numbers of its corners, each in the polygon's direction.
-/// Every corner is used, also one on the straight line between its neighbours. `None` for a polygon
+/// Every corner is used, even one on the straight line between its neighbours. `None` for a polygon
 /// that has no area or crosses itself.
 fn cut(corners: &[Vec3]) -> Option<Vec<[usize; 3]>> {
     let plane = flattened(corners)?;
@@ -74,23 +75,23 @@ fn cut(corners: &[Vec3]) -> Option<Vec<[usize; 3]>> {
     (roundness(last.map(|corner| plane[corner])) >= 0.0).then_some(triangles)
 }
 
-/// The corner with this place among those that are left, between the one before and the one after.
+/// The remaining corner at this position, between its remaining neighbours.
 fn neighbours(left: &[usize], at: usize) -> [usize; 3] {
     let count = left.len();
     [left[(at + count - 1) % count], left[at], left[(at + 1) % count]]
 }
 
-/// The roundness up to which a triangle may be one without area that is rounded.
+/// The roundness up to which a triangle may be one without area, rounded.
 const THIN: f64 = 1e-5;
 
-/// The place of the corner whose ear is the roundest. It is rounder than `thin`, and would still be
-/// empty if it were wider by this part of its size.
+/// The position of the corner with the roundest ear. The ear must be rounder than `thin`, and must
+/// contain no other corner even if it is widened by this part of its size.
 fn roundest_ear(plane: &[DVec2], left: &[usize], thin: f64) -> Option<usize> {
     let triangle = |at: usize| neighbours(left, at).map(|corner| plane[corner]);
     let mut ears: Vec<(f64, usize)> =
         (0..left.len()).map(|at| (roundness(triangle(at)), at)).collect();
     ears.retain(|&(roundness, _)| roundness > thin);
-    // Most corners have ears, so that few need to be looked at.
+    // Most corners have ears, so only few need to be examined.
     ears.sort_by(|a, b| b.0.total_cmp(&a.0));
     let is_empty = |at: usize| {
         let ear = triangle(at);
@@ -100,15 +101,15 @@ fn roundest_ear(plane: &[DVec2], left: &[usize], thin: f64) -> Option<usize> {
     ears.into_iter().map(|(_, at)| at).find(|&at| is_empty(at))
 }
 
-/// Twice the area of a triangle divided by the sum of its sides' squares; negative if it turns
-/// clockwise.
+/// Twice the area of a triangle, divided by the sum of the squares of its sides; negative for a
+/// clockwise triangle.
 fn roundness([a, b, c]: [DVec2; 3]) -> f64 {
     let sides = (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared();
     (b - a).perp_dot(c - a) / sides.max(f64::MIN_POSITIVE)
 }
 
-/// Whether a point is in a triangle that turns counter-clockwise, on one of its sides, or as close
-/// to it as this part of a side.
+/// Whether a point is in a counter-clockwise triangle or on one of its sides. It may be outside by
+/// `reach` times the length of a side.
 fn is_in([a, b, c]: [DVec2; 3], point: DVec2, reach: f64) -> bool {
     [[a, b], [b, c], [c, a]].iter().all(|&[from, to]| {
         let side = to - from;
@@ -116,8 +117,8 @@ fn is_in([a, b, c]: [DVec2; 3], point: DVec2, reach: f64) -> bool {
     })
 }
 
-/// The corners in the plane that fits them, so that they turn counter-clockwise. The plane's normal
-/// is M. Newell's: the sum of all corners' cross products.
+/// The corners in the plane that fits them, where they are counter-clockwise. The plane's normal is
+/// M. Newell's: the sum of all corners' cross products.
 fn flattened(corners: &[Vec3]) -> Option<Vec<DVec2>> {
     let first = corners.first()?.as_dvec3();
     let points: Vec<DVec3> = corners.iter().map(|corner| corner.as_dvec3() - first).collect();
@@ -127,16 +128,16 @@ fn flattened(corners: &[Vec3]) -> Option<Vec<DVec2>> {
     Some(points.iter().map(|point| DVec2::new(point.dot(right), point.dot(up))).collect())
 }
 
-/// Whether a quad has a corner that points inwards, so that its surface would fold over itself.
+/// Whether a quad has a corner pointing inwards, so that its surface would fold over itself.
 pub(super) fn is_concave(corners: [Vec3; 4]) -> bool {
     let [a, b, c, d] = corners.map(|corner| corner.as_dvec3());
     let normal = (c - a).cross(d - b);
     let inwards = [[d, a, b], [a, b, c], [b, c, d], [c, d, a]].map(|[before, here, after]| {
         let cross = (here - before).cross(after - here);
-        // Straight corners round to either side.
+        // For a straight corner, rounding decides the sign.
         cross.dot(normal) < -1e-6 * cross.length() * normal.length()
     });
-    // Two of them cross the quad's edges, and no diagonal would help.
+    // With two such corners the quad's edges cross, and neither diagonal would help.
     inwards.iter().filter(|&&inwards| inwards).count() == 1
 }
 
@@ -146,11 +147,11 @@ mod tests {
     use glam::Vec3;
 
     fn points(corners: &[[f32; 2]]) -> Vec<Vec3> {
-        // Tilted, so that no coordinate can be left out.
+        // The polygon is tilted, so that no coordinate can be left out.
         corners.iter().map(|&[x, y]| Vec3::new(x, y, 3.0 + x - 2.0 * y)).collect()
     }
 
-    /// The area in the plane of x and y; negative if it turns the other way.
+    /// The area in the plane of x and y; negative for the other direction.
     fn area(corners: &[Vec3]) -> f32 {
         let next = |k: usize| corners[(k + 1) % corners.len()];
         let twice = corners.iter().enumerate().map(|(k, a)| a.x * next(k).y - a.y * next(k).x);
@@ -161,13 +162,13 @@ mod tests {
     fn polygons_become_their_triangles() {
         for polygon in [
             &[[0., 0.], [2., 0.], [3., 2.], [1., 3.], [-1., 2.]][..],
-            // A corner on a straight line, which a neighbour may have too.
+            // A corner on a straight line, which a neighbour may share.
             &[[0., 0.], [1., 0.], [2., 0.], [2., 2.], [0., 2.]],
             // An L, an arrow, and a comb.
             &[[0., 0.], [3., 0.], [3., 1.], [1., 1.], [1., 3.], [0., 3.]],
             &[[0., 0.], [2., 0.], [0.4, 0.4], [0., 2.]],
             &[[0., 0.], [5., 0.], [5., 3.], [4., 1.], [3., 3.], [2., 1.], [1., 3.], [0., 1.]],
-            // A square with a hole, which a line that is passed twice joins to the outside.
+            // A square with a hole; a line that is passed twice joins the hole to the outside.
             &[
                 [0., 0.],
                 [4., 0.],

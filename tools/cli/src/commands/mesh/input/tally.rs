@@ -1,8 +1,8 @@
-//! Notes: what was done to a model, how often, and where first.
+//! Notes on changes to a model: what was changed, how often, and where first.
 
 use crate::output::counted;
 
-/// A number of things and the place of the first one.
+/// A count of changes, and the place of the first one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tally {
     count: u64,
@@ -10,7 +10,7 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    /// Counts one thing at a place, such as `line 12`.
+    /// Counts one change at a place, such as `line 12`.
     pub(super) fn add(&mut self, place: impl FnOnce() -> String) {
         if self.count == 0 {
             self.first = place();
@@ -18,14 +18,14 @@ impl Tally {
         self.count += 1;
     }
 
-    /// A number of things, the first of which is at this place.
+    /// A count of changes; the first one is at this place.
     pub(super) fn of(count: usize, first: impl FnOnce() -> String) -> Self {
         let first = if count == 0 { String::new() } else { first() };
         Self { count: count as u64, first }
     }
 
-    /// The note, such as `2 faces without area: left out (first: line 12)`; none if there was
-    /// nothing.
+    /// The note, such as `2 faces without area: left out (first: line 12)`; `None` if the count is
+    /// 0.
     pub(super) fn note(&self, noun: &str, rest: &str, done: &str) -> Option<String> {
         let Self { count, first } = self;
         let things = counted(*count, noun);

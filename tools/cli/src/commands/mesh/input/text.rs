@@ -1,8 +1,8 @@
-//! Pieces of text that the readers share.
+//! Text functions that the readers share.
 
 use std::io::BufRead;
 
-/// Most characters of a file's text that a message repeats.
+/// The largest number of characters of a file's text that a message repeats.
 const SHOWN: usize = 60;
 
 /// A file's bytes without the byte order mark of UTF-8.
@@ -10,7 +10,8 @@ pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
 }
 
-/// A piece of a file in quotes, for a message: cut if it is long, bytes that are no text escaped.
+/// A piece of a file in quotes, for a message. A long piece is cut, and bytes that are not text are
+/// escaped.
 pub(super) fn quoted(piece: &[u8]) -> String {
     let piece = piece.trim_ascii();
     // A character has at most four bytes.
@@ -20,7 +21,7 @@ pub(super) fn quoted(piece: &[u8]) -> String {
     format!("`{shown}{more}`")
 }
 
-/// The lines of a text, without their ends.
+/// The lines of a text, without their line ends.
 pub(super) struct TextLines<'a>(pub(super) &'a [u8]);
 
 impl<'a> Iterator for TextLines<'a> {
@@ -31,7 +32,7 @@ impl<'a> Iterator for TextLines<'a> {
             return None;
         }
         let whole = self.0;
-        // A slice is read without errors.
+        // Reading a slice cannot fail.
         let length = self.0.skip_until(b'\n').unwrap_or(whole.len());
         let line = &whole[..length];
         Some(line.strip_suffix(b"\n").unwrap_or(line))
@@ -43,23 +44,24 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// A whole number.
+/// Parses a whole number.
 #[inline]
 pub(super) fn integer(word: &[u8]) -> Option<i64> {
-    // Up to 18 digits never overflow; other words are the standard library's.
+    // Up to 18 digits cannot overflow; the standard library parses all other words.
     if !word.is_empty() && word.len() <= 18 && word.iter().all(u8::is_ascii_digit) {
         return Some(word.iter().fold(0, |sum, digit| sum * 10 + i64::from(digit - b'0')));
     }
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// A finite number. Errors: a word that is not a number, or one beyond the range of 32 bits.
+/// Parses a finite number. Errors: a word that is not a number, or a number beyond the range of 32
+/// bits.
 #[inline]
 pub(super) fn number(word: &[u8]) -> Result<f32, String> {
     decimal(word).map_or_else(|| any_number(word), Ok)
 }
 
-/// The number of a short word of digits, perhaps with a sign and a point.
+/// Parses a short word of digits, optionally with a sign and a point.
 ///
 /// Both the digits and the power of ten are exact in 32 bits, so the quotient is correctly rounded
 /// (W. D. Clinger, *How to Read Floating Point Numbers Accurately*, PLDI 1990).
@@ -101,7 +103,7 @@ fn any_number(word: &[u8]) -> Result<f32, String> {
     is_finite.then_some(number).ok_or_else(error)
 }
 
-/// A number, which may be NaN or infinite. Errors: a word that is not a number.
+/// Parses a number, which may be NaN or infinite. Errors: a word that is not a number.
 pub(super) fn any_float(word: &[u8]) -> Result<f32, String> {
     let number = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
     number.ok_or_else(|| format!("{} is not a number", quoted(word)))

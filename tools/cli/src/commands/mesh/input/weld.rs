@@ -8,7 +8,7 @@
 //!    |           |       |
 //!    a-----------b-------h        Splitting the edge at e makes a, b, e, c, d a polygon, which is cut into triangles.
 //! ```
-//!
+//! Only edges without a neighbour can have a gap, so closed models cost nothing here.
 //! Only edges without a neighbour can have a gap, so that closed models cost nothing here.
 
 use super::draft::Draft;
@@ -19,16 +19,17 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use tess_surface::sides::edge_corners;
 use tess_surface::{HalfEdge, Model, PolygonMesh};
 
-/// Gaps smaller than this part of the model's diagonal are closed, if no length is given.
+/// Gaps smaller than this part of the model's diagonal are closed if no width is given.
 const PART_OF_DIAGONAL: f32 = 1e-6;
 
-/// Gaps of this many units in the last place of the largest coordinate are closed too.
+/// So are gaps of this many units in the last place of the largest coordinate.
 const UNITS: f32 = 4.0;
 
-/// The most times that edges are split: a split can bring an edge close to another corner.
+/// The largest number of rounds in which edges are split. Splitting an edge can bring it close to
+/// another corner.
 const MOST_ROUNDS: usize = 8;
 
-/// The coordinates of a place, as a key: -0 is 0.
+/// The coordinates of a place as a key, in which -0 equals 0.
 type Place = [u32; 3];
 
 fn key(position: Vec3) -> Place {
@@ -40,14 +41,16 @@ fn key(position: Vec3) -> Place {
 pub(super) struct Gaps {
     /// The largest distance that counts as a gap.
     reach: f32,
-    /// Corners and the corner that each nearly coincides with; the number of a face that each has.
+    /// Pairs of a corner and the corner that it nearly coincides with, each with the number of a
+    /// face that has the first.
     near: Vec<(Vec3, Vec3, usize)>,
-    /// Edges with the corners that hang on each, in the order in which the face's corners go round.
+    /// Edges with the corners that hang on them, in the order of the face's corners.
     hanging: Vec<(HalfEdge, Vec<Vec3>)>,
 }
 
 impl Gaps {
-    /// The gaps of a model made of `mesh`, up to `reach` wide or as wide as rounding makes them.
+    /// The gaps of a model made from `mesh`, up to `reach` wide, or up to the width that rounding
+    /// causes.
     pub(super) fn of(model: &Model, mesh: &PolygonMesh, reach: Option<f32>) -> Self {
         let edges = OpenEdges::of(model, mesh);
         if edges.0.is_empty() {
@@ -58,7 +61,7 @@ impl Gaps {
         Self { reach, near, hanging }
     }
 
-    /// Notes about gaps that stay.
+    /// Adds notes about gaps that stay open.
     pub(super) fn warn(&self, draft: &mut Draft) {
         let crack = "a crack may open there, --weld ";
         self.note(draft, &format!("{crack}joins them"), &format!("{crack}splits the edge"));
@@ -83,7 +86,7 @@ impl Gaps {
     }
 }
 
-/// Closes the gaps of a mesh. `model` makes a model of it, of which only the neighbours count.
+/// Closes the gaps of a mesh. `model` makes a model from it, of which only the neighbours matter.
 pub(super) fn weld<E>(
     draft: &mut Draft,
     reach: Option<f32>,
@@ -147,8 +150,8 @@ fn split(draft: &mut Draft, hanging: &[(HalfEdge, Vec<Vec3>)]) {
     super::collapsed::repair(draft);
 }
 
-/// The corner of a split edge at a place, with texture coordinates and a normal between those of
-/// the edge's ends.
+/// The corner of a split edge at a place. Its texture coordinates and normal are interpolated
+/// between those of the edge's ends.
 fn corner_between(mesh: &mut PolygonMesh, ends: [Corner; 2], at: Vec3, position: u32) -> Corner {
     let [a, b] = ends.map(|corner| mesh.positions[corner.position as usize]);
     let t = (at - a).dot(b - a) / (b - a).length_squared();
@@ -167,14 +170,14 @@ fn corner_between(mesh: &mut PolygonMesh, ends: [Corner; 2], at: Vec3, position:
     Corner { position, texcoord, normal }
 }
 
-/// The corners at the ends of an edge, in the order in which the corners go round.
+/// The corners at the ends of an edge, in the order of the face's corners.
 fn onwards<T>(sides: &tess_surface::Sides<T>, edge: usize) -> [usize; 2] {
     let [start, end] = edge_corners(sides)[edge];
     let follows = end == (start + 1) % sides.as_slice().len();
     if follows { [start, end] } else { [end, start] }
 }
 
-/// The largest gap that comes from rounding.
+/// The largest gap that rounding can cause.
 fn rounding(mesh: &PolygonMesh) -> f32 {
     let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     let used = mesh.faces.iter().flat_map(|face| face.positions.as_slice());
@@ -188,7 +191,7 @@ fn shown(at: Vec3) -> String {
     format!("({}, {}, {})", at.x, at.y, at.z)
 }
 
-/// The edges without a neighbour, each from a corner to the next one.
+/// The edges without a neighbour, each from one corner to the next.
 struct OpenEdges(Vec<(HalfEdge, [Vec3; 2])>);
 
 impl OpenEdges {
@@ -208,11 +211,11 @@ impl OpenEdges {
         Self(open.collect())
     }
 
-    /// The places of all ends in the order of the edges, each once, and the number of the first
+    /// The places of all ends in the order of the edges, each once, with the number of the first
     /// face that has it.
     fn ends(&self) -> Vec<(Vec3, usize)> {
         let mut seen = HashSet::new();
-        // The first edge of a face ends at its first corner.
+        // The first edge of a face ends at the face's first corner.
         let ends = self.0.iter().flat_map(|&(half, [a, b])| [(b, half.patch), (a, half.patch)]);
         ends.filter(|&(end, _)| seen.insert(key(end))).collect()
     }
@@ -273,10 +276,9 @@ impl OpenEdges {
     }
 }
 
-/// Points in an order in which those near a line are found quickly: the middle one splits the
-/// others along x, the middles of both halves split theirs along y, and so on (J. L.
-/// Bentley, *Multidimensional Binary Search Trees Used for Associative Searching*, CACM
-/// 18(9), 1975).
+/// Points in an order in which those near a line are found quickly. The middle point splits the
+/// others along x, the middle points of both halves split theirs along y, and so on (J. L. Bentley,
+/// *Multidimensional Binary Search Trees Used for Associative Searching*, CACM 18(9), 1975).
 struct PointTree(Vec<Vec3>);
 
 impl PointTree {
@@ -285,7 +287,7 @@ impl PointTree {
         Self(points)
     }
 
-    /// Gives `found` all points within `reach` of a line, and some others.
+    /// Passes all points within `reach` of a line, and some others, to `found`.
     fn near(&self, line: [Vec3; 2], reach: f32, found: &mut impl FnMut(Vec3)) {
         visit(&self.0, 0, line, reach, found);
     }
@@ -312,7 +314,7 @@ fn visit(points: &[Vec3], axis: usize, line: [Vec3; 2], reach: f32, found: &mut 
     if let Some(line) = part_below(line, axis, middle[axis] + 2.0 * reach) {
         visit(low, next, line, reach, found);
     }
-    // Above is below with all signs changed.
+    // The upper half is treated as a lower half with all signs changed.
     if let Some(line) = part_below(line.map(|end| -end), axis, 2.0 * reach - middle[axis]) {
         visit(high, next, line.map(|end| -end), reach, found);
     }

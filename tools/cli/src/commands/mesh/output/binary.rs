@@ -1,7 +1,7 @@
 //! The binary part of glTF: interleaved vertices, then indices, and the JSON that describes them.
 //!
-//! How many vertices and indices there will be is known beforehand. So every thread makes the bytes
-//! of a part of a block, and writes them to their place.
+//! The numbers of vertices and indices are known in advance. So every thread makes the bytes of a
+//! part of a block and writes them to their place.
 
 use super::{IndexWidth, MeshBlock, Options, Sink, Totals, glb};
 use crate::commands::mesh::input::Up;
@@ -15,11 +15,11 @@ use tess_surface::Sample;
 /// Position, normal and texture coordinates: eight floats.
 const STRIDE: usize = 32;
 
-/// The largest number of vertices that 16 bits can number: 65535 itself restarts primitives.
+/// The largest number of vertices that 16 bits can index: 65535 itself restarts primitives.
 const MAX_NARROW: u64 = 65535;
 
-/// Bytes that a thread writes at a time: they stay in its cache, and allocators keep so small
-/// pieces.
+/// The number of bytes that a thread writes at a time. They stay in its cache, and allocators keep
+/// blocks of this size.
 const PART: usize = 1 << 16;
 
 /// The smallest and the largest coordinates of positions.
@@ -27,19 +27,19 @@ type Bounds = (Vec3, Vec3);
 
 const EMPTY: Bounds = (Vec3::INFINITY, Vec3::NEG_INFINITY);
 
-/// The output while its binary part grows.
+/// The output while its binary part is being written.
 pub(super) struct Binary {
     /// The file of the binary part.
     file: OutputFile,
-    /// Where the binary part begins in the file.
+    /// The offset of the binary part in the file.
     start: u64,
-    /// The file of the JSON and its reference to the binary part, if the two are apart.
+    /// The file of the JSON and its reference to the binary part, if the two are separate files.
     json: Option<(OutputFile, String)>,
     options: Options,
     totals: Totals,
     narrow: bool,
     bounds: Bounds,
-    /// Indices written so far.
+    /// The number of indices written so far.
     indices: u64,
 }
 
@@ -95,19 +95,19 @@ impl Binary {
         self.totals.indices * if self.narrow { 2 } else { 4 }
     }
 
-    /// Length of the binary part in bytes.
+    /// The length of the binary part in bytes.
     fn length(&self) -> u64 {
         (self.vertex_bytes() + self.index_bytes()).next_multiple_of(4)
     }
 
-    /// The document; `uri` names the file of the binary part, if it is a separate file.
+    /// The document; `uri` refers to the file of the binary part, if it is a separate file.
     fn document(&self, uri: Option<&str>) -> Value {
         let vertex_bytes = self.vertex_bytes();
         let mut buffer = json!({ "byteLength": self.length() });
         if let Some(uri) = uri {
             buffer["uri"] = uri.into();
         }
-        // glTF is y up: a quarter turn about x lays z there.
+        // In glTF y is up: a quarter turn about x moves z there.
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let node = match self.options.up {
             Up::Y => json!({ "mesh": 0 }),
@@ -165,7 +165,7 @@ impl Sink for Binary {
         self.bounds = (self.bounds.0.min(low), self.bounds.1.max(high));
         let first = u32::try_from(block.first_vertex).map_err(|_| too_large())?;
         if self.narrow {
-            // The numbers of so few vertices have 16 bits.
+            // So few vertices have 16-bit indices.
             self.write_indices(block, |index| {
                 let [low, high, ..] = (first + index).to_le_bytes();
                 [low, high]
@@ -177,7 +177,7 @@ impl Sink for Binary {
         Ok(())
     }
 
-    /// Fills up the binary part, a multiple of four bytes, and writes the JSON.
+    /// Pads the binary part to a multiple of four bytes, and writes the JSON.
     fn finish(mut self: Box<Self>) -> io::Result<()> {
         let padding = self.length() - self.vertex_bytes() - self.index_bytes();
         let end = self.start + self.length();

@@ -1,4 +1,4 @@
-//! GLB: JSON and binary part in one file.
+//! GLB: the JSON and the binary part in one file.
 
 use super::Options;
 use super::binary::Binary;
@@ -8,11 +8,11 @@ use serde_json::Value;
 use std::io;
 use std::path::Path;
 
-/// Room for the JSON, which is known last and stands first; the rest is filled with blanks, as
-/// the format has it.
+/// The room for the JSON, which comes first but is known last. Blanks fill the rest, as the format
+/// prescribes.
 const JSON_ROOM: usize = 2048;
 
-/// Header, JSON chunk with its header, header of the binary chunk.
+/// The header, the JSON chunk with its header, and the header of the binary chunk.
 const BEFORE_BINARY: usize = 12 + 8 + JSON_ROOM + 8;
 
 /// Begins the file.
@@ -20,7 +20,7 @@ pub(super) fn create(path: &Path, options: &Options) -> Result<Binary, Failure> 
     Ok(Binary::new(OutputFile::create(path)?, BEFORE_BINARY as u64, None, options))
 }
 
-/// All that stands before the binary part of `length` bytes.
+/// Everything before the binary part, which is `length` bytes long.
 pub(super) fn beginning(json: &Value, length: u64) -> io::Result<Vec<u8>> {
     let word = |value: u64| {
         let too_large = || io::Error::other("more than 4 GiB, which GLB cannot hold; write .gltf");

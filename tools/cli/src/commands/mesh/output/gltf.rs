@@ -1,4 +1,4 @@
-//! glTF in two files: the JSON, and the binary part beside it with the extension `.bin`.
+//! glTF in two files: the JSON, and next to it the binary part with the extension `.bin`.
 
 use super::Options;
 use super::binary::Binary;
@@ -13,7 +13,7 @@ pub(super) fn create(path: &Path, options: &Options) -> Result<Binary, Failure> 
     let uri = encode(&beside);
     if !OutputFile::would_be_file(path) {
         return Err(Failure::bad_input(format!(
-            "{} is no file, and glTF is two files; --format glb is one",
+            "{} is not a regular file, but glTF is two files; --format glb is one",
             path.display()
         )));
     }
@@ -29,8 +29,8 @@ pub(super) fn create(path: &Path, options: &Options) -> Result<Binary, Failure> 
     Ok(Binary::new(OutputFile::create(&beside)?, 0, json, options))
 }
 
-/// The reference to a file beside: every byte percent-encoded that has a meaning in a URI (RFC
-/// 3986, section 2).
+/// The reference to a file in the same folder, with every byte percent-encoded that has a meaning
+/// in a URI (RFC 3986, section 2).
 fn encode(file: &Path) -> String {
     let mut uri = String::new();
     for &byte in file.file_name().unwrap_or_default().as_encoded_bytes() {
@@ -44,7 +44,7 @@ fn encode(file: &Path) -> String {
     uri
 }
 
-/// Whether a glTF file that is there already has this binary part.
+/// Whether an existing glTF file refers to this binary part.
 fn refers_to(gltf: &Path, uri: &str) -> bool {
     let Ok(text) = std::fs::read(gltf) else { return false };
     let document: Value = serde_json::from_slice(&text).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Where the result goes: a mesh or a picture, there whole or not at all.
+//! The destination of the result: a mesh or a picture that exists whole or not at all.
 
 mod binary;
 mod glb;
@@ -19,27 +19,27 @@ use tess_surface::Sample;
 /// Part of the result.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MeshBlock<'a> {
-    /// How many vertices came before.
+    /// The number of vertices in earlier blocks.
     pub(crate) first_vertex: u64,
     /// The vertices.
     pub(crate) vertices: &'a [Sample],
-    /// Three numbers for each triangle, counted from this block's first vertex.
+    /// Three indices per triangle, counted from this block's first vertex.
     pub(crate) indices: &'a [u32],
 }
 
-/// How much there will be.
+/// The size of the result.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Totals {
-    /// Vertices of all blocks.
+    /// The number of vertices in all blocks.
     pub(crate) vertices: u64,
-    /// Three for each triangle.
+    /// The number of indices, three per triangle.
     pub(crate) indices: u64,
 }
 
-/// Takes the result block by block. Errors: the output cannot be written, or the form cannot hold
-/// so much.
+/// Takes the result block by block. Errors: the output cannot be written, or the format cannot hold
+/// this much.
 trait Sink {
-    /// Takes how much there will be, before the first block.
+    /// Takes the size of the result, before the first block.
     fn begin(&mut self, _totals: Totals) -> io::Result<()> {
         Ok(())
     }
@@ -47,12 +47,11 @@ trait Sink {
     /// The next vertices and triangles.
     fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()>;
 
-    /// Ends the output and puts it in its place; after an error nothing is there, or what was there
-    /// before.
+    /// Ends the output and moves it into its place. After an error the place is as it was before.
     fn finish(self: Box<Self>) -> io::Result<()>;
 }
 
-/// The output, whose errors name its file.
+/// An output whose errors name its file.
 pub(crate) struct MeshFile {
     path: PathBuf,
     sink: Box<dyn Sink>,
@@ -85,7 +84,7 @@ impl MeshFile {
     }
 }
 
-/// Width of the indices in glTF.
+/// The width of indices in glTF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum IndexWidth {
     /// 16 bits if all vertices can be numbered with them, else 32
@@ -98,12 +97,12 @@ pub(crate) enum IndexWidth {
     Bits32,
 }
 
-/// How the result is written.
+/// Options for writing the result.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Options {
-    /// Which way is up in the model.
+    /// The direction that is up in the model.
     pub(crate) up: Up,
-    /// Width of the indices in glTF.
+    /// The width of indices in glTF.
     pub(crate) indices: IndexWidth,
     /// The camera of pictures.
     pub(crate) view: CameraView,
@@ -111,12 +110,12 @@ pub(crate) struct Options {
     pub(crate) wireframe: bool,
 }
 
-/// The forms of the result.
+/// The formats of the result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum ResultForm {
     /// A mesh as text
     Obj,
-    /// A mesh in two files: JSON, and the binary part beside it
+    /// A mesh in two files: JSON, and its binary part
     Gltf,
     /// A mesh in one binary file
     Glb,
@@ -135,7 +134,7 @@ impl ResultForm {
     }
 }
 
-/// The second file of a form that has two: the binary part of glTF.
+/// The second file of a format that has two: the binary part of glTF.
 pub(crate) fn part_beside(path: &Path, form: ResultForm) -> Option<PathBuf> {
     (form == ResultForm::Gltf).then(|| path.with_extension("bin"))
 }

@@ -1,11 +1,11 @@
-//! OBJ: positions, texture coordinates, normals and triangles, block after block.
+//! OBJ: positions, texture coordinates, normals and triangles, block by block.
 
 use super::MeshBlock;
 use super::Sink;
 use crate::output::OutputFile;
 use std::io::{self, BufWriter, Write};
 
-/// A text file that grows.
+/// A text file that grows block by block.
 pub(super) struct Obj(pub(super) BufWriter<OutputFile>);
 
 impl Sink for Obj {

@@ -1,4 +1,4 @@
-//! PNG pictures: shaded, or with the triangles' edges.
+//! PNG pictures: shaded, or with the edges of triangles.
 
 use super::MeshBlock;
 use super::raster::{Fragment, Raster};
@@ -11,13 +11,13 @@ use png::{BitDepth, ColorType, Compression, Encoder};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Samples per pixel along each axis.
+/// The number of samples per pixel along each axis.
 const SAMPLES: usize = 3;
 
-/// Half the width of the lines of a wireframe, in pixels.
+/// Half the width of a wireframe's lines, in pixels.
 const HALF_LINE: f32 = 0.5;
 
-/// A picture while it is drawn. Its memory is the picture's alone.
+/// A picture while it is being drawn. It uses no memory besides the picture's.
 pub(super) struct PngPicture {
     file: OutputFile,
     raster: Raster,
@@ -25,7 +25,7 @@ pub(super) struct PngPicture {
     size: (u32, u32),
 }
 
-/// How a surface is lit.
+/// The lighting of a surface.
 #[derive(Clone, Copy)]
 struct Light {
     eye: Vec3,
@@ -43,7 +43,7 @@ impl PngPicture {
             raster: Raster::new(samples, clip, [250, 250, 252]),
             light: Light {
                 eye,
-                // Over the left shoulder.
+                // The light comes from over the left shoulder.
                 towards: (row(1) * 0.8 - row(0) * 0.55 - row(3)).normalize_or(Vec3::Z),
                 wireframe: options.wireframe,
             },
@@ -51,7 +51,7 @@ impl PngPicture {
         })
     }
 
-    /// Encodes the picture, each pixel the mean of its samples.
+    /// Encodes the picture; each pixel is the mean of its samples.
     fn encode(&mut self) -> io::Result<()> {
         let size = self.size;
         let mut encoder = Encoder::new(&mut self.file, size.0, size.1);
@@ -92,11 +92,11 @@ impl Light {
     )]
     fn shade(&self, fragment: &Fragment) -> [u8; 3] {
         let to_eye = (self.eye - fragment.position).normalize_or(Vec3::Z);
-        // Inside of the surface, the other side of the normal is lit.
+        // On the back of the surface, the normal is reversed for lighting.
         let normal = if fragment.front { fragment.normal } else { -fragment.normal };
         let diffuse = 0.5 + 0.5 * normal.dot(self.towards);
         let shine = normal.dot((self.towards + to_eye).normalize_or(Vec3::Z)).max(0.0);
-        // To the 48th power, in the same way on every machine.
+        // The 48th power, computed in the same way on every machine.
         let shine = (0..4).fold(shine * shine * shine, |power, _| power * power);
         let base = match (fragment.front, self.wireframe) {
             (true, false) => Vec3::new(0.80, 0.47, 0.25),

@@ -1,26 +1,27 @@
-//! A rasteriser: triangles into a depth buffer, without a GPU.
+//! A rasteriser that draws triangles with a depth buffer, without a GPU.
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use tess_surface::Sample;
 
-/// How much nearer triangles seen from behind would have to be: where a sheet has a face for each
-/// side, the two are at one place but for rounding, and the one that looks here is seen.
+/// How much nearer triangles seen from behind would have to be. Where a sheet has one face per
+/// side, the two are at the same place except for rounding, and the one that faces the eye is
+/// drawn.
 const BEHIND: f32 = 1.0 - 1.0 / 16384.0;
 
 /// The point of a surface that a pixel shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fragment {
-    /// Unit normal of the surface, interpolated.
+    /// The interpolated unit normal of the surface.
     pub(super) normal: Vec3,
-    /// Position on the surface.
+    /// The position on the surface.
     pub(super) position: Vec3,
     /// Whether the triangle is seen from the side that its normal points to.
     pub(super) front: bool,
-    /// Distance to the nearest edge of the triangle, in pixels.
+    /// The distance to the nearest edge of the triangle, in pixels.
     pub(super) edge: f32,
 }
 
-/// A picture in the making.
+/// A picture while it is being drawn.
 pub(super) struct Raster {
     size: (usize, usize),
     clip: Mat4,
@@ -38,7 +39,7 @@ struct Corner {
     normal: Vec3,
 }
 
-/// A corner on the screen: x and y in pixels, y down, and 1 / w.
+/// A corner on the screen: x and y in pixels, with y pointing down, and 1 / w.
 #[derive(Clone, Copy)]
 struct Pinned {
     at: Vec2,
@@ -57,7 +58,7 @@ impl Raster {
         &self.colour
     }
 
-    /// Draws one triangle, its colours from `shade`.
+    /// Draws one triangle with colours from `shade`.
     pub(super) fn triangle(&mut self, corners: [&Sample; 3], shade: impl Fn(&Fragment) -> [u8; 3]) {
         let corners = corners.map(|sample| Corner {
             clip: self.clip * sample.position.extend(1.0),
@@ -65,7 +66,7 @@ impl Raster {
             normal: sample.normal,
         });
         let in_front = clip_near(&corners);
-        // A triangle fan of what is left: none, one or two triangles.
+        // The remaining part is a triangle fan of zero, one or two triangles.
         for k in 2..in_front.len() {
             let pinned = [in_front[0], in_front[k - 1], in_front[k]].map(|corner| self.pin(corner));
             self.pinned(pinned, &shade);
@@ -82,7 +83,8 @@ impl Raster {
 
     fn pinned(&mut self, corners: [Pinned; 3], shade: &impl Fn(&Fragment) -> [u8; 3]) {
         let [a, b, c] = corners.map(|corner| corner.at);
-        // Twice the area; negative where the corners turn counter-clockwise on screen, y down.
+        // Twice the area; negative if the corners are counter-clockwise on the screen, where y
+        // points down.
         let area = (b - a).perp_dot(c - a);
         if area == 0.0 || !area.is_finite() {
             return;
@@ -118,7 +120,7 @@ impl Raster {
         front: bool,
         shade: &impl Fn(&Fragment) -> [u8; 3],
     ) {
-        // 1 / w is linear on the screen; attributes over w are too.
+        // 1 / w is linear on the screen, and so are attributes divided by w.
         let [a, b, c] = [0, 1, 2].map(|k| corners[k].inverse * weights[k]);
         let inverse = a + b + c;
         let depth = if front { inverse } else { inverse * BEHIND };
@@ -162,7 +164,7 @@ fn clip_near(corners: &[Corner; 3]) -> Vec<Corner> {
     kept
 }
 
-/// The pixels whose centres may lie between two coordinates on the screen.
+/// The pixels whose centres may be between two coordinates on the screen.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

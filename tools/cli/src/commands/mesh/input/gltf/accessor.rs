@@ -1,13 +1,13 @@
 //! Accessors: the rules about their bytes, and reading them.
 //!
-//! glTF 2.0 Specification, section 3.6.2 and the properties `accessor` and `bufferView` in
-//! section 5. [`check`] must have passed before anything is read.
+//! The source is the glTF 2.0 Specification, section 3.6.2 and the properties `accessor` and
+//! `bufferView` in section 5. [`check`] must have passed before anything is read.
 
 use super::document::{Accessor, BufferView, ComponentType, Document, Sparse, broken};
 use std::borrow::Cow;
 
-/// Checks every buffer view and every accessor of a document. Errors: the first rule that is
-/// broken, with the JSON path.
+/// Checks every buffer view and every accessor of a document. Errors: the first broken rule, with
+/// the JSON path.
 pub(super) fn check(document: &Document) -> Result<(), String> {
     for (number, view) in document.buffer_views.iter().enumerate() {
         check_view(document, view)
@@ -20,7 +20,7 @@ pub(super) fn check(document: &Document) -> Result<(), String> {
     Ok(())
 }
 
-/// The property that is wrong, and what is wrong with it.
+/// The property at fault, and its fault.
 type BrokenRule = (&'static str, String);
 
 fn check_view(document: &Document, view: &BufferView) -> Result<(), BrokenRule> {
@@ -97,7 +97,7 @@ fn check_sparse(
     Ok(())
 }
 
-/// Whether a type can number vertices.
+/// Whether integers of a type can be indices of vertices.
 pub(super) const fn is_index(kind: ComponentType) -> bool {
     use ComponentType::{UnsignedByte, UnsignedInt, UnsignedShort};
     matches!(kind, UnsignedByte | UnsignedShort | UnsignedInt)
@@ -109,7 +109,7 @@ fn view(document: &Document, number: usize) -> Result<&BufferView, String> {
     view.ok_or_else(|| format!("{number} is out of range: there are {count} buffer views"))
 }
 
-/// Elements in a buffer view, all in bytes.
+/// Elements in a buffer view; all sizes are in bytes.
 #[derive(Clone, Copy)]
 struct ElementBytes {
     offset: u64,
@@ -142,7 +142,7 @@ impl ElementBytes {
     }
 }
 
-/// A checked document and the content of its buffers.
+/// A checked document and the contents of its buffers.
 #[derive(Debug)]
 pub(super) struct Data<'a> {
     pub(super) document: &'a Document,
@@ -150,8 +150,9 @@ pub(super) struct Data<'a> {
 }
 
 impl Data<'_> {
-    /// The elements of an accessor with `N` components, each made of its bytes by `component`.
-    /// Errors: sparse indices that are out of range or do not increase, with the JSON path.
+    /// The elements of an accessor with `N` components, each converted from its bytes by
+    /// `component`. Errors: sparse indices that are out of range or do not increase, with the JSON
+    /// path.
     pub(super) fn read<T: Copy + Default, const N: usize>(
         &self,
         number: usize,
@@ -182,8 +183,8 @@ impl Data<'_> {
         Ok(elements)
     }
 
-    /// The elements of an accessor of any component type; normalized integers as section 3.6.2.2
-    /// has it.
+    /// The elements of an accessor of any component type; normalized integers are converted as in
+    /// section 3.6.2.2.
     pub(super) fn numbers<const N: usize>(&self, number: usize) -> Result<Vec<[f32; N]>, String> {
         let accessor = &self.document.accessors[number];
         let most = match (accessor.normalized, accessor.component_type) {
@@ -224,7 +225,7 @@ impl Data<'_> {
         }
     }
 
-    /// The bytes of a buffer view from `offset` on.
+    /// The bytes of a buffer view, starting at `offset`.
     fn view(&self, number: usize, offset: u64) -> &[u8] {
         let view = &self.document.buffer_views[number];
         let (start, end) = (view.byte_offset + offset, view.byte_offset + view.byte_length);
@@ -232,7 +233,7 @@ impl Data<'_> {
     }
 }
 
-/// A checked length or offset as an index: buffers are in memory, so it fits.
+/// A checked length or offset as an index. It fits, because buffers are in memory.
 fn index(number: u64) -> usize {
     usize::try_from(number).unwrap_or(usize::MAX)
 }

@@ -1,4 +1,4 @@
-//! The content of buffers: from the file itself, from base64 in it, or from a file beside it.
+//! The contents of buffers: from the file itself, from base64 in it, or from a file next to it.
 
 use super::document::{GltfBuffer, broken};
 use base64::Engine;
@@ -8,20 +8,20 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
-/// Most bytes that all buffers of a model may have together: what a GLB file can hold.
+/// The largest total size of a model's buffers in bytes, which is what a GLB file can hold.
 const MOST: u64 = 1 << 32;
 
 /// The result of [`load`].
 pub(super) struct LoadedBuffers<'a> {
-    /// Every buffer's content, exactly as long as the buffer says.
+    /// The contents of every buffer, exactly as long as the buffer declares.
     pub(super) contents: Vec<Cow<'a, [u8]>>,
-    /// The files beside that were read.
+    /// The other files that were read.
     pub(super) files: Vec<PathBuf>,
 }
 
-/// The content of every buffer. Errors: a buffer without content or with too little, a URI that
-/// leads out of `folder`, a file that cannot be read or is no ordinary file, buffers of more than 4
-/// GiB.
+/// Loads the contents of every buffer. Errors: a buffer without contents or with too few bytes; a
+/// URI that leads out of `folder`; a file that cannot be read or is not an ordinary file; more than
+/// 4 GiB in all buffers.
 pub(super) fn load<'a>(
     buffers: &[GltfBuffer],
     folder: Option<&Path>,
@@ -70,7 +70,7 @@ fn exactly(content: Cow<'_, [u8]>, length: u64) -> Result<Cow<'_, [u8]>, String>
     })
 }
 
-/// The bytes that a URI stands for, and the file that they are from.
+/// The bytes that a URI refers to, and the file from which they were read.
 fn from_uri(
     uri: &str,
     folder: Option<&Path>,
@@ -108,7 +108,8 @@ fn file_name(uri: &str) -> Result<PathBuf, String> {
     if scheme || depth == 0 { Err(outside()) } else { Ok(path) }
 }
 
-/// RFC 3986, section 2.1; `None` for what is not two digits after a `%`, and not UTF-8.
+/// Decodes percent encoding (RFC 3986, section 2.1); `None` if a `%` is not followed by two digits,
+/// or the result is not UTF-8.
 fn percent_decoded(uri: &str) -> Option<String> {
     let mut pieces = uri.split('%');
     let mut bytes = pieces.next()?.as_bytes().to_vec();
@@ -123,7 +124,8 @@ fn percent_decoded(uri: &str) -> Option<String> {
     String::from_utf8(bytes).ok().filter(|path| !path.contains('\0'))
 }
 
-/// Reads no more than `length` bytes of an ordinary file that lies below `folder`, links followed.
+/// Reads at most `length` bytes of an ordinary file that is below `folder` after links are
+/// followed.
 fn read_file(path: &Path, folder: &Path, length: u64) -> Result<Vec<u8>, String> {
     let shown = path.display();
     let cannot = |error: std::io::Error| format!("cannot read {shown}: {error}");

@@ -1,4 +1,4 @@
-//! GLB: a header, the JSON document, and perhaps the content of the first buffer.
+//! GLB: a header, the JSON document, and optionally the contents of the first buffer.
 
 /// "glTF" as a little-endian number, and the types of chunks alike.
 const MAGIC: &[u8] = b"glTF";

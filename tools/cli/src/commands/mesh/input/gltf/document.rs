@@ -1,13 +1,14 @@
-//! The part of a glTF document that makes triangles: its JSON, and the rules for single values.
+//! The part of a glTF document that affects triangles: its JSON, and the rules for single values.
 //!
-//! glTF 2.0 Specification, Khronos Group: sections 3.2 (asset), 3.5 (scenes), 3.6 (binary data),
-//! 3.7 (geometry); 5 has the properties. Everything else in a document is left alone.
+//! The source is the glTF 2.0 Specification of the Khronos Group: sections 3.2 (asset), 3.5
+//! (scenes), 3.6 (binary data) and 3.7 (geometry); section 5 has the properties. Everything else in
+//! a document is ignored.
 
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// A rule that a document breaks: the JSON path of the value and what is wrong with it.
+/// The message for a rule that a document breaks: the JSON path of the value, and its fault.
 pub(super) fn broken(path: impl std::fmt::Display, what: impl std::fmt::Display) -> String {
     format!("{path}: {what}")
 }
@@ -40,14 +41,14 @@ pub(super) struct Document {
     pub(super) buffers: Vec<GltfBuffer>,
 }
 
-/// Root nodes.
+/// The root nodes of a scene.
 #[derive(Debug, Deserialize)]
 pub(super) struct SceneRoots {
     #[serde(default)]
     pub(super) nodes: Vec<usize>,
 }
 
-/// A place in the scene.
+/// A node: a place in the scene.
 #[derive(Debug, Deserialize)]
 pub(super) struct Node {
     #[serde(default)]
@@ -64,21 +65,21 @@ pub(super) struct Node {
     pub(super) scale: Option<[f32; 3]>,
     #[serde(default, deserialize_with = "present")]
     pub(super) skin: Option<usize>,
-    /// The weights of morph targets, in the place of the mesh's.
+    /// The weights of morph targets; they replace the mesh's.
     #[serde(default, deserialize_with = "present")]
     pub(super) weights: Option<Vec<f32>>,
     #[serde(default)]
     pub(super) extensions: BTreeMap<String, Value>,
 }
 
-/// Joints that move the vertices of a mesh.
+/// A skin: joints that move the vertices of a mesh.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Skin {
-    /// An accessor with a matrix for each joint.
+    /// An accessor with one matrix per joint.
     #[serde(default, deserialize_with = "present")]
     pub(super) inverse_bind_matrices: Option<usize>,
-    /// Nodes.
+    /// The nodes that are joints.
     pub(super) joints: Vec<usize>,
 }
 
@@ -90,7 +91,7 @@ pub(super) struct Mesh {
     pub(super) weights: Option<Vec<f32>>,
 }
 
-/// The accessors of attributes by their names.
+/// Attributes: accessors by name.
 pub(super) type Attributes = BTreeMap<String, usize>;
 
 /// Triangles, lines or points.
@@ -101,14 +102,14 @@ pub(super) struct Primitive {
     pub(super) indices: Option<usize>,
     #[serde(default = "triangles")]
     pub(super) mode: u32,
-    /// Morph targets: what their weights are multiplied with.
+    /// The morph targets, which are scaled by their weights.
     #[serde(default)]
     pub(super) targets: Vec<Attributes>,
     #[serde(default)]
     pub(super) extensions: BTreeMap<String, Value>,
 }
 
-/// Elements in a buffer view, some of them replaced.
+/// An accessor: elements in a buffer view, some of which may be replaced.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
@@ -187,7 +188,7 @@ pub(super) enum ComponentType {
     Float,
 }
 
-/// How many components an element has.
+/// The number of components of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(super) enum ElementKind {
@@ -217,7 +218,7 @@ impl TryFrom<u64> for ComponentType {
 }
 
 impl ComponentType {
-    /// Size in bytes.
+    /// The size in bytes.
     pub(super) const fn size(self) -> u64 {
         match self {
             Self::Byte | Self::UnsignedByte => 1,
@@ -228,7 +229,7 @@ impl ComponentType {
 }
 
 impl ElementKind {
-    /// Size of an element in bytes. Columns of matrices begin at multiples of 4 bytes.
+    /// The size of an element in bytes. Columns of matrices begin at multiples of 4 bytes.
     pub(super) const fn size(self, component: ComponentType) -> u64 {
         let (columns, rows) = match self {
             Self::Scalar => (1, 1),
@@ -248,12 +249,13 @@ const fn triangles() -> u32 {
     4
 }
 
-/// A value that may be absent but not `null`.
+/// Reads a value that may be absent, but not `null`.
 fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
     T::deserialize(from).map(Some)
 }
 
-/// Beginnings of the names of extensions that change no triangle: materials, textures and lights.
+/// Prefixes of the names of extensions that do not affect triangles: materials, textures and
+/// lights.
 const NO_GEOMETRY: &[&str] = &[
     "KHR_materials_",
     "KHR_texture_",
@@ -268,11 +270,11 @@ const NO_GEOMETRY: &[&str] = &[
     "ADOBE_materials_",
 ];
 
-/// The extension by which vertices have integers of 8 and 16 bits.
+/// The extension that allows vertices of 8-bit and 16-bit integers.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 impl Document {
-    /// Whether attributes may be integers of 8 and 16 bits.
+    /// Whether attributes may be 8-bit and 16-bit integers.
     pub(super) fn is_quantized(&self) -> bool {
         self.extensions_used
             .iter()
@@ -294,15 +296,15 @@ impl Document {
     }
 }
 
-/// Reads the JSON. Errors: text that is not JSON, a document of another version, a value of the
-/// wrong type, an extension that would change triangles.
+/// Parses the JSON. Errors: text that is not JSON; a document of another version; a value of the
+/// wrong type; an extension that would affect triangles.
 pub(super) fn parse(json: &[u8]) -> Result<Document, String> {
     let json = str::from_utf8(json).map_err(|error| {
         let lines = json[..error.valid_up_to()].split(|&byte| byte == b'\n').count();
         format!("the JSON is not UTF-8 at line {lines}")
     })?;
     let mut value: Value = serde_json::from_str(json).map_err(|error| error.to_string())?;
-    // Other versions have other types, whose names would mislead.
+    // Other versions have other types, so errors about types would mislead.
     check_version(&value["asset"])?;
     write_whole_numbers(&mut value);
     let document: Document = serde_path_to_error::deserialize(value)
@@ -311,12 +313,12 @@ pub(super) fn parse(json: &[u8]) -> Result<Document, String> {
     Ok(document)
 }
 
-/// Writes numbers such as `36.0` as `36`: JSON has one kind of numbers.
+/// Rewrites numbers such as `36.0` as `36`, because JSON has only one kind of number.
 fn write_whole_numbers(value: &mut Value) {
     match value {
         Value::Number(number) => {
             let float = number.as_f64().filter(|_| number.is_f64());
-            // Up to 2^53 every whole number is a float.
+            // Every whole number up to 2^53 is a float.
             let is_whole = |float: &f64| float.fract() == 0.0 && (0.0..=9e15).contains(float);
             #[expect(
                 clippy::cast_possible_truncation,
@@ -333,7 +335,7 @@ fn write_whole_numbers(value: &mut Value) {
     }
 }
 
-/// Refuses documents of other versions than 2.0. Files of version 1 may have no version.
+/// Refuses documents of versions other than 2.0. Files of version 1 may have no version.
 fn check_version(asset: &Value) -> Result<(), String> {
     let read = |name: &str| {
         let path = format!("asset.{name}");

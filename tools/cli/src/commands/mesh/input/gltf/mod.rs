@@ -1,10 +1,9 @@
-//! glTF and GLB files: the triangles of all meshes of a scene, in the pose that the file has at
-//! rest.
+//! glTF and GLB files: the triangles of all meshes of a scene, in the pose at rest.
 //!
-//! [`container`] splits GLB files, [`document`] reads the JSON, [`buffers`] fetches the bytes that
-//! it names, [`accessor`] checks and reads them, [`scene`] walks the nodes, [`pose`] moves vertices
-//! by morph targets, skins and nodes, [`primitive`] makes faces. Messages begin with the JSON path
-//! of the value at fault.
+//! [`container`] splits GLB files, [`document`] parses the JSON, [`buffers`] loads the bytes that
+//! it refers to, [`accessor`] checks and reads them, [`scene`] walks the nodes, [`pose`] moves
+//! vertices by morph targets, skins and nodes, and [`primitive`] makes faces. Messages begin with
+//! the JSON path of the faulty value.
 
 mod accessor;
 mod buffers;
@@ -24,26 +23,26 @@ use scene::{Nodes, out_of_range};
 use std::path::{Path, PathBuf};
 use tess_surface::PolygonMesh;
 
-/// Most vertices and most triangles of a scene. Nodes can repeat a mesh, so that a small file can
-/// have any number of them; this many take about 8 GiB.
+/// The largest number of vertices, and of triangles, in a scene. Nodes can repeat a mesh, so a
+/// small file can have any number of them; this many need about 8 GiB.
 pub(crate) const MOST: usize = 1 << 26;
 
-/// The content of a file.
+/// The contents of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Scene {
     /// The triangles of all nodes, in the scene's coordinates.
     pub(crate) mesh: PolygonMesh,
     /// The first face and the name of every primitive of every node.
     pub(crate) runs: Vec<(usize, String)>,
-    /// The files beside that buffers were read from.
+    /// The other files from which buffers were read.
     pub(crate) files: Vec<PathBuf>,
-    /// What was left out.
+    /// Notes on the parts that were left out.
     pub(crate) notes: Vec<String>,
 }
 
-/// Reads the default scene, or the first one, with morph targets, skins and nodes' transforms
+/// Reads the default scene, or the first one, with morph targets, skins and the transforms of nodes
 /// applied. Buffers may be files in `folder` or below it; `most` limits vertices and triangles.
-/// Errors: the first rule of glTF that is broken, with its JSON path.
+/// Errors: the first broken rule of glTF, with its JSON path.
 pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>, most: usize) -> Result<Scene, String> {
     let (json, blob) = container::split(bytes)?;
     let document = document::parse(json)?;
@@ -71,7 +70,7 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>, most: usize) -> Result<
     Ok(scene)
 }
 
-/// Notes on what was left out.
+/// Notes on the parts that were left out.
 fn notes(document: &Document, nodes: &Nodes, skipped: &Skipped) -> Vec<String> {
     let animations = Tally::of(document.animations.len(), || "animations[0]".to_owned());
     let mut instanced = Tally::default();

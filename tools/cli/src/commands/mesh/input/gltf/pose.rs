@@ -1,7 +1,8 @@
-//! The pose of a mesh at rest: morph targets, then the skin's joints or the node's transform.
+//! The pose of a mesh at rest: morph targets first, then the skin's joints or the node's transform.
 //!
-//! glTF 2.0 Specification, sections 3.7.2.2 (morph targets) and 3.7.3 (skins). A vertex of a skin
-//! is moved by the weighted sum of its joints' matrices, and not by its node's transform.
+//! The source is the glTF 2.0 Specification, sections 3.7.2.2 (morph targets) and 3.7.3 (skins). A
+//! vertex with a skin is moved by the weighted sum of its joints' matrices, not by its node's
+//! transform.
 
 use super::accessor::{Data, float};
 use super::document::{Attributes, ComponentType, ElementKind, Skin, broken};
@@ -11,7 +12,7 @@ use glam::{Mat3, Mat4, Vec3};
 /// The pose of one node's mesh.
 #[derive(Debug)]
 pub(super) struct Pose {
-    /// The node's transform to the scene.
+    /// The node's transform to scene coordinates.
     transform: Mat4,
     /// The matrix of each joint, if there is a skin.
     joints: Option<Vec<Mat4>>,
@@ -19,20 +20,19 @@ pub(super) struct Pose {
     weights: Option<Vec<f32>>,
 }
 
-/// A joint of a vertex and its weight.
+/// A joint that moves a vertex, and its weight.
 type Influence = (usize, f32);
 
-/// The matrices of a primitive's vertices.
+/// The matrices that move a primitive's vertices.
 pub(super) enum Matrices<'a> {
-    /// One for all.
+    /// One matrix for all vertices.
     Same(Mat4),
-    /// Weighted sums of joints' matrices: for each vertex its joints, as many for each.
+    /// Weighted sums of joints' matrices: the joints of each vertex, equally many for each.
     Blended { joints: &'a [Mat4], influences: Vec<Vec<[Influence; 4]>> },
 }
 
 impl Pose {
-    /// The pose of a node's mesh. Errors: a skin with a rule that is broken, weights that are not
-    /// finite.
+    /// The pose of a node's mesh. Errors: a skin that breaks a rule; weights that are not finite.
     pub(super) fn of(data: &Data<'_>, nodes: &Nodes, number: usize) -> Result<Self, String> {
         let document = data.document;
         let node = &document.nodes[number];
@@ -56,9 +56,9 @@ impl Pose {
         Ok(Self { transform, joints: joints.transpose()?, weights: weights.cloned() })
     }
 
-    /// Adds the morph targets' displacements of an attribute to its values. Errors: another number
-    /// of weights than of targets, a target of another type or length, with the path below the
-    /// primitive.
+    /// Adds the morph targets' displacements of an attribute to its values. Errors: the number of
+    /// weights is not that of targets; a target of another type or length. The message has the path
+    /// below the primitive.
     pub(super) fn morph(
         &self,
         data: &Data<'_>,
@@ -113,7 +113,7 @@ impl Pose {
             }
             influences.push(of_set);
         }
-        // A mesh without joints is moved by its node, skin or not.
+        // A mesh without joints is moved by its node, whether or not the node has a skin.
         if influences.is_empty() {
             return Ok(Matrices::Same(self.transform));
         }
@@ -130,7 +130,8 @@ impl Matrices<'_> {
         };
         let of_vertex = || influences.iter().flat_map(|set| set[vertex]);
         let sum: f32 = of_vertex().map(|(_, weight)| weight).sum();
-        // Rounded weights have a sum beside 1. Without any, the first joint moves the vertex.
+        // Rounded weights may not add up to exactly 1. If all are zero, the first joint moves the
+        // vertex.
         if !(sum > 0.0 && sum.is_finite()) {
             return of_vertex().next().map_or(Mat4::IDENTITY, |(joint, _)| joints[joint]);
         }
@@ -140,7 +141,7 @@ impl Matrices<'_> {
         blended * (1.0 / sum)
     }
 
-    /// Whether the vertex's matrix turns faces over.
+    /// Whether the vertex's matrix turns faces inside out.
     pub(super) fn is_mirrored(&self, vertex: usize) -> bool {
         Mat3::from_mat4(self.of(vertex)).determinant() < 0.0
     }
@@ -148,8 +149,9 @@ impl Matrices<'_> {
 
 /// A normal moved by a matrix, of any length; zero if the matrix flattens its face to a line.
 ///
-/// The matrix of cofactors is the inverse transpose times the determinant, and exists where that is
-/// 0 too: a face that is flattened to a plane gets the plane's normal.
+/// It is moved by the matrix of cofactors, which is the inverse transpose times the determinant.
+/// That matrix exists even where the determinant is 0: a face that is flattened to a plane gets the
+/// plane's normal.
 pub(super) fn moved_normal(matrix: Mat4, normal: Vec3) -> Vec3 {
     let linear = Mat3::from_mat4(matrix);
     let [x, y, z] = linear.to_cols_array_2d().map(Vec3::from_array);
@@ -162,7 +164,7 @@ pub(super) fn moved_normal(matrix: Mat4, normal: Vec3) -> Vec3 {
     if x.dot(y.cross(z)) < 0.0 { -moved } else { moved }
 }
 
-/// The matrix of each joint of a skin: from the mesh in its bind pose to the scene.
+/// The matrix of each joint of a skin, from the mesh's bind pose to the scene.
 fn joint_matrices(
     data: &Data<'_>,
     nodes: &Nodes,

@@ -1,4 +1,4 @@
-//! Primitives: triangles of a mesh in its pose.
+//! Primitives: the triangles of a mesh in its pose.
 
 use super::super::tally::Tally;
 use super::accessor::{Data, is_index};
@@ -8,7 +8,7 @@ use super::scene::out_of_range;
 use glam::{Vec2, Vec3};
 use tess_surface::{Face, PolygonMesh, Sides};
 
-/// The way in which vertices make triangles.
+/// How vertices form triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Triangles {
     List,
@@ -16,7 +16,7 @@ enum Triangles {
     Fan,
 }
 
-/// Where a primitive is and how it is placed.
+/// A primitive with its place and pose.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlacedPrimitive<'a> {
     pub(super) data: &'a Data<'a>,
@@ -26,20 +26,20 @@ pub(super) struct PlacedPrimitive<'a> {
     pub(super) pose: &'a Pose,
 }
 
-/// Primitives that are left out.
+/// Counts of primitives that are left out, wholly or in part.
 #[derive(Debug, Default)]
 pub(super) struct Skipped {
-    /// Those of points or lines.
+    /// Primitives of points or lines.
     pub(super) lines: Tally,
-    /// Those without positions.
+    /// Primitives without positions.
     pub(super) unplaced: Tally,
-    /// Those with indices after the last whole triangle.
+    /// Primitives with indices after the last whole triangle.
     pub(super) rest: Tally,
 }
 
 impl PlacedPrimitive<'_> {
-    /// Appends the triangles, unless vertices or faces then become more than `most`. Errors: a rule
-    /// that is broken, with the JSON path.
+    /// Appends the triangles, unless there would be more than `most` vertices or faces. Errors: a
+    /// broken rule, with the JSON path.
     pub(super) fn append(
         &self,
         mesh: &mut PolygonMesh,
@@ -77,7 +77,7 @@ impl PlacedPrimitive<'_> {
         Ok(())
     }
 
-    /// The way in which vertices make triangles; `None` for points and lines.
+    /// How vertices form triangles; `None` for points and lines.
     fn mode(&self) -> Result<Option<Triangles>, String> {
         match self.primitive.mode {
             0..=3 => Ok(None),
@@ -90,7 +90,7 @@ impl PlacedPrimitive<'_> {
         }
     }
 
-    /// Refuses a primitive whose data is only there in a compressed form.
+    /// Refuses a primitive whose data exists only in compressed form.
     fn refuse_compressed(&self) -> Result<(), String> {
         const DRACO: &str = "KHR_draco_mesh_compression";
         let accessors = &self.data.document.accessors;
@@ -107,7 +107,8 @@ impl PlacedPrimitive<'_> {
         Ok(())
     }
 
-    /// The vectors of an attribute with its morph targets; none if there is no such attribute.
+    /// The vectors of an attribute with its morph targets applied; empty if there is no such
+    /// attribute.
     fn vectors(&self, name: &str) -> Result<Vec<Vec3>, String> {
         let Some(number) = self.attribute(name) else { return Ok(Vec::new()) };
         let numbers = self.data.numbers::<3>(number)?;
@@ -117,8 +118,8 @@ impl PlacedPrimitive<'_> {
         Ok(vectors)
     }
 
-    /// The face of a triangle whose vertices are numbered from `first` on: positions, normals,
-    /// texture coordinates.
+    /// The face of a triangle. `first` has the numbers of the primitive's first position, normal
+    /// and texture coordinates.
     fn face(&self, [a, b, c]: [u32; 3], matrices: &Matrices<'_>, first: [usize; 3]) -> Face {
         let corners = if matrices.is_mirrored(a as usize) { [a, c, b] } else { [a, b, c] };
         let numbers = |first: usize| {
@@ -136,7 +137,7 @@ impl PlacedPrimitive<'_> {
         self.primitive.attributes.get(name).copied()
     }
 
-    /// Checks all attributes and gives the number of vertices.
+    /// Checks all attributes, and returns the number of vertices.
     fn check_attributes(&self) -> Result<usize, String> {
         let path = format!("{}.attributes", self.path);
         let accessors = &self.data.document.accessors;
@@ -161,7 +162,7 @@ impl PlacedPrimitive<'_> {
             let Some(accessor) = accessors.get(number) else {
                 return Err(broken(path, out_of_range(number, accessors.len(), "accessors")));
             };
-            // Other attributes of morph targets are not read.
+            // Other attributes of morph targets are not used.
             if role == Role::Moves && name != "POSITION" && name != "NORMAL" {
                 continue;
             }
@@ -221,7 +222,7 @@ impl PlacedPrimitive<'_> {
         Ok(())
     }
 
-    /// Three numbers of vertices, less than `count`, for each triangle.
+    /// The three indices of each triangle, each less than `count`.
     fn indices(
         &self,
         triangles: Triangles,
@@ -252,7 +253,7 @@ impl PlacedPrimitive<'_> {
         Ok((0..whole).map(|k| triangles.corners(k).map(|at| vertices[at])).collect())
     }
 
-    /// The number of indices. Errors: an accessor that cannot have any.
+    /// The number of indices. Errors: an accessor that cannot hold indices.
     fn check_indices(&self, number: usize) -> Result<usize, String> {
         let accessors = &self.data.document.accessors;
         let accessor = accessors.get(number);
@@ -271,11 +272,11 @@ impl PlacedPrimitive<'_> {
         Ok(usize::try_from(accessor.count).unwrap_or(usize::MAX))
     }
 
-    /// The vertices that the indices number, less than `count`.
+    /// The vertices that the indices refer to, each less than `count`.
     fn vertices(&self, number: usize, count: usize) -> Result<Vec<u32>, String> {
         let component = self.data.document.accessors[number].component_type;
         let indices = self.data.integers::<1>(number)?.into_flattened();
-        // The largest value of a type restarts strips; it numbers no vertex.
+        // The largest value of a type restarts strips, so it is not an index.
         let restart = u32::MAX >> (32 - 8 * component.size());
         match indices.iter().position(|&index| index as usize >= count || index == restart) {
             None => Ok(indices),
@@ -287,16 +288,16 @@ impl PlacedPrimitive<'_> {
     }
 }
 
-/// What attributes are of.
+/// The owner of attributes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     Vertices,
-    /// Of a morph target.
+    /// A morph target.
     Moves,
 }
 
 impl Triangles {
-    /// The number of triangles that so many vertices make.
+    /// The number of triangles that this many vertices form.
     const fn count(self, vertices: usize) -> usize {
         match self {
             Self::List => vertices / 3,
@@ -304,8 +305,8 @@ impl Triangles {
         }
     }
 
-    /// The places of a triangle's corners among the vertices. Every second triangle of a strip is
-    /// turned round.
+    /// The positions of a triangle's corners among the vertices. Every second triangle of a strip
+    /// is reversed.
     const fn corners(self, triangle: usize) -> [usize; 3] {
         let k = triangle;
         match self {
@@ -316,14 +317,14 @@ impl Triangles {
     }
 }
 
-/// Whether `count` more fit beside `already`.
+/// Checks that `count` more elements fit in addition to `already`.
 fn room(already: usize, count: usize, most: usize) -> Result<(), String> {
     let fits = already.checked_add(count).is_some_and(|sum| sum <= most);
     fits.then_some(())
         .ok_or_else(|| format!("the scene has more than {most} vertices or triangles"))
 }
 
-/// Section 3.7.2.1: the names that there are. Those of an application begin with an underscore.
+/// Whether a name is known (section 3.7.2.1). Names of applications begin with an underscore.
 fn is_semantic(name: &str) -> bool {
     let numbered = ["TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"];
     let set = numbered.iter().find_map(|start| name.strip_prefix(start));

@@ -1,7 +1,7 @@
 //! The nodes of a scene, each with its transform to the scene.
 //!
-//! glTF 2.0 Specification, section 3.5.2: nodes form strict trees. A node has at most one parent,
-//! so no node is visited twice and the walk ends.
+//! The source is the glTF 2.0 Specification, section 3.5.2: nodes form strict trees. A node has at
+//! most one parent, so no node is visited twice and the walk ends.
 
 use super::document::{Document, Node, broken};
 use glam::{Mat4, Quat, Vec3};
@@ -9,16 +9,15 @@ use glam::{Mat4, Quat, Vec3};
 /// The nodes of a document.
 #[derive(Debug)]
 pub(super) struct Nodes {
-    /// The transform of each node to the scene.
+    /// The transform of each node to scene coordinates.
     pub(super) transforms: Vec<Mat4>,
-    /// The nodes that are seen, parents before children.
+    /// The visible nodes, parents before children.
     pub(super) seen: Vec<usize>,
 }
 
 impl Nodes {
-    /// The nodes of the default scene, or of the first one, or all where there are no scenes.
-    /// Errors: a scene or a node that is out of range, a node with two parents, a transform that is
-    /// none.
+    /// The nodes of the default scene, or of the first one, or all nodes if there are no scenes.
+    /// Errors: a scene or node that is out of range; a node with two parents; an invalid transform.
     pub(super) fn of(document: &Document) -> Result<Self, String> {
         let parents = parents(document)?;
         let all_roots = || (0..parents.len()).filter(|&node| parents[node].is_none()).collect();
@@ -46,7 +45,7 @@ impl Nodes {
     }
 }
 
-/// The roots of the scene that is shown; `None` where there are no scenes.
+/// The roots of the scene that is shown; `None` if there are no scenes.
 fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Option<Vec<usize>>, String> {
     let scenes = document.scenes.as_deref().unwrap_or_default();
     let number = document.scene.unwrap_or(0);
@@ -122,7 +121,7 @@ fn transform(node: &Node) -> Result<Mat4, (&'static str, String)> {
     finite("scale", &scale)?;
     let Some(matrix) = node.matrix else {
         let rotation = Quat::from_array(rotation);
-        // Exporters round quaternions, at the coarsest to signed bytes.
+        // Exporters round quaternions, at worst to signed bytes.
         if (rotation.length_squared() - 1.0).abs() > 0.02 {
             return Err(("rotation", "it is not a unit quaternion".to_owned()));
         }
