@@ -4,7 +4,8 @@
 
 use std::collections::BTreeSet;
 use tess_core::{
-    Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder, Tessellation,
+    Config, Domain, OutputPrimitive, Partitioning, PatchFactors, Side, SplitOrder, Step,
+    StitchKind, Tessellation,
 };
 use tess_verify::check::{Strength, check_device};
 use tess_verify::cover::{Coverage, Exclusions};
@@ -137,6 +138,68 @@ fn level_1_sees_a_wrong_transition_of_one_split_order() {
                         );
                     }
                 }
+            }
+        }
+    }
+}
+
+/// The model's answer with two triangles wrong on each transition of these outer and inside points:
+/// the first two that advance along different rows come in the other order, as if the outer row's
+/// half had its point at another position. `None` if nothing of the case is wrong.
+fn stitched_wrongly(case: &Case, (outer, inside): (u32, u32)) -> Option<Tessellation> {
+    let Config { output, split, .. } = case.config;
+    let is_clockwise = output == OutputPrimitive::TriangleCw;
+    if !is_clockwise && output != OutputPrimitive::TriangleCcw {
+        return None;
+    }
+    let mut answer = case.patch().tessellate();
+    let mut is_wrong = false;
+    case.patch().stitches(|stitch| {
+        let points = (stitch.outer_points, stitch.inner_points + 2);
+        if !matches!(stitch.kind, StitchKind::Transition { .. }) || points != (outer, inside) {
+            return;
+        }
+        let mut steps = Vec::new();
+        stitch.steps(split, |step| steps.push(step));
+        let differ = |pair: &&[Step]| pair[0].advances != pair[1].advances;
+        let Some(&[first, second]) = steps.windows(2).find(differ) else { return };
+        let early = Step { advances: second.advances, begins: second.begins, ..first };
+        let late = match second.advances {
+            Side::Outer => Step { outer: first.outer + 1, ..first },
+            Side::Inner => Step { inner: first.inner + 1, ..first },
+        };
+        for (right, wrong) in [(first, early), (second, late)] {
+            let [right, mut wrong] =
+                [right, wrong].map(|step| step.triangle(&stitch.outer, &stitch.inner));
+            if !is_clockwise {
+                wrong.swap(1, 2);
+            }
+            let is_it =
+                |triangle: &&mut [u32; 3]| right.iter().all(|index| triangle.contains(index));
+            let place = answer.indices.as_chunks_mut::<3>().0.iter_mut().find(is_it);
+            *place.expect("a triangle of the stitch") = wrong;
+        }
+        is_wrong = true;
+    });
+    is_wrong.then_some(answer)
+}
+
+/// The same halves, stitched wrongly in ruler order by two triangles: 2 * half points if the number
+/// of segments is odd, one more if it is even.
+#[test]
+fn level_1_sees_halves_that_are_stitched_wrongly() {
+    for outer in [19, 23, 27, 31].into_iter().flat_map(|half| [2 * half, 2 * half + 1]) {
+        for domain in [None, Some(Domain::Triangle), Some(Domain::Quad)] {
+            for output in [None, Some(OutputPrimitive::TriangleCw)] {
+                let level = Selection::level(GenLevel::One, 1);
+                let selection =
+                    Selection { split: Some(SplitOrder::Ruler), domain, output, ..level };
+                let answers = selection
+                    .cases()
+                    .filter_map(|case| stitched_wrongly(&case, (outer, 65)).map(|it| (case, it)));
+                let found = check_device(answers, Strength::default());
+                assert!(found.mismatches > 0, "{outer} points: {}", options(&selection));
+                assert_eq!(found.mismatches, found.cases, "{outer} points: each is wrong");
             }
         }
     }
