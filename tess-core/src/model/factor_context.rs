@@ -17,7 +17,8 @@ pub struct FactorContext {
     pub fraction: u32,
     /// Points on a half edge, without the midpoint of an even edge, in 1..=32.
     pub half_points: u32,
-    /// The position on the half edge whose point is being split off its predecessor.
+    /// The position on the half edge that is splitting: later positions are one lower in the
+    /// coarser subdivision. `half_points + 1` if no position splits.
     pub split: u32,
     /// Points on the whole edge, both ends included, in 2..=65.
     pub points: u32,
@@ -77,7 +78,7 @@ const fn clamp_to_range(factor: FixedFactor, parity: Parity) -> FixedFactor {
     })
 }
 
-/// The position that splits on the way from `floor_points` to `ceil_points`, in 0..=33.
+/// The position that splits between `floor_points` and `ceil_points`, in 0..=33.
 const fn split_position(
     floor_points: u32,
     ceil_points: u32,
