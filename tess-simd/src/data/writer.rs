@@ -198,7 +198,7 @@ fn write_cut<S: Copy, T>(room: &mut [T], source: &[S], element: impl Fn(S) -> T)
     }
 }
 
-/// Writes the last blocks of a slice that ends within a block.
+/// The last blocks of a slice that ends within one.
 #[cfg(target_arch = "x86_64")]
 #[cold]
 #[inline(never)]
