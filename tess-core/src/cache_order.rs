@@ -1,16 +1,16 @@
 //! The vertex-cache order: the same triangles, in an order in which a vertex is used again soon.
 //!
-//! The specification walks around a patch ring by ring, so nearly every vertex is used twice with a
-//! whole ring in between: a GPU that keeps the last 32 shaded vertices shades it twice. This order
-//! cuts the rings across into columns and walks each column from the outer edge inwards. No
-//! specification asks for it; it serves renderers. `Patch::tessellate_in` and `tess-simd` write it,
-//! and `tess-gpu`'s shaders invert the formulas below.
+//! The specification walks around a patch ring by ring, so nearly every vertex is used twice, a
+//! whole ring apart: a GPU that keeps the last 32 shaded vertices shades it twice. This order cuts
+//! the rings across into columns and walks each column from the outer edge inwards. It is not part
+//! of any specification; it serves renderers. `Patch::tessellate_in` and `tess-simd` write it, and
+//! `tess-gpu`'s shaders invert the formulas below.
 //!
 //! # The data
 //!
 //! Each outer edge owns a *sector*: its transition and the stitches of the rings further in. Cells
-//! are counted along the edge from the patch's corner, [`COLUMN`] to a column. Ring `k` begins `k`
-//! cells in.
+//! are counted along the edge from the patch's corner; a column is [`COLUMN`] cells. Ring `k`
+//! begins `k` cells from the corner.
 //!
 //! ```text
 //!            column 0        column 1
@@ -20,15 +20,16 @@
 //!   ring 3         \ 0 . 1 /               2 triangles
 //! ```
 //!
-//! The numbers are the steps of each stitch. A column's part of a stitch is a run of steps, so the
-//! whole order is a list of ranges of the specification's triangle numbers ([`CacheOrder::runs`]),
-//! and the place of a triangle is a sum of borders in closed form (`CacheOrder::position`).
+//! The numbers are the steps of each stitch. A column cuts a run of steps out of each stitch, so
+//! the whole order is a list of ranges of the specification's triangle numbers
+//! ([`CacheOrder::runs`]), and the place of a triangle is a sum of borders in closed form
+//! (`CacheOrder::position`).
 //!
 //! # One patch
 //!
-//! A quad whose factors are all 6 has 7 points on each edge, hence the sectors above. In the
-//! specification's order ring 1 has the triangles 0 to 39, ten an edge; ring 2 has 40 to 63, ring 3
-//! has 64 to 71. The first edge's runs:
+//! A quad whose factors are all 6 has 7 points on each edge; the picture above shows one of its
+//! sectors. In the specification's order, triangles 0 to 39 belong to ring 1, ten per edge, 40 to
+//! 63 to ring 2, and 64 to 71 to ring 3. The first edge's runs:
 //!
 //! ```
 //! use tess_core::cache_order::CacheOrder;
@@ -46,17 +47,16 @@
 //! - Every triangle up to the innermost ring is in exactly one run: borders grow with the column,
 //!   begin at 0 and end at the stitch's size. Otherwise triangles would be lost or drawn twice.
 //! - `position` is the inverse of the list of runs. Backends use one or the other.
-//! - What is inside the innermost ring comes last and keeps its numbers, which callers do not look
-//!   up.
-//! - Points keep their numbers, so points of both orders are the same.
+//! - Triangles inside the innermost ring come last and keep their numbers. `runs` leaves them out.
+//! - Points keep their numbers, so both orders have the same points.
 //!
 //! # Why not simpler
 //!
-//! Strips from one side of the patch to the other need no sectors. At factor 64 an NVIDIA H200
-//! draws 1.61 thousand million triangles a second of them at best, 1.63 of columns of four and 1.50
-//! of the specification's order; at factor 8 it draws 1.58, 1.71 and 1.49. Columns of other widths
-//! lose up to 15 %. A cache of 32 vertices misses 0.64 to 0.67 times a triangle with columns of
-//! four, and 0.9 to 1.0 times with the specification's order.
+//! Strips from one side of the patch to the other need no sectors. On an NVIDIA H200 they draw at
+//! best 1.61 billion triangles per second at factor 64; columns of four draw 1.63 billion and the
+//! specification's order 1.50. At factor 8 the three draw 1.58, 1.71 and 1.49 billion. Columns of
+//! other widths lose up to 15 %. A cache of 32 vertices misses 0.64 to 0.67 times per triangle with
+//! columns of four, and 0.9 to 1.0 times with the specification's order.
 
 use crate::closed_form::locate::origin::PrimitiveOrigin;
 use crate::model::factors::ProcessedPatch;
@@ -87,11 +87,11 @@ struct Sector {
 }
 
 impl<const EDGES: usize> CacheOrder<EDGES> {
-    /// The order of a patch with these points along each outer edge, and along each inside axis:
-    /// u and v of a quad, the one of a triangle twice.
+    /// The order of a patch, from its points along each outer edge and along the inside axes: u and
+    /// v of a quad; a triangle gives its one inside count twice.
     ///
-    /// Total: outer edges have 2 to 65 points, inside axes 3 to 65. Any other number counts as the
-    /// nearest.
+    /// Total: outer edges have 2 to 65 points, inside axes 3 to 65. A count outside its range is
+    /// clamped to it.
     #[must_use]
     pub fn new(outer: [u32; EDGES], inside: [u32; 2]) -> Self {
         let outer = outer.map(|points| points.clamp(2, 65));
@@ -116,8 +116,9 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
         before + self.sectors[edge].position(ring, step)
     }
 
-    /// Sends all triangles up to the innermost ring to `emit`, in this order, as ranges of their
-    /// numbers in the specification's order. No range is empty.
+    /// Sends the triangles of all stitches to `emit`, in this order, as ranges of their numbers in
+    /// the specification's order. No range is empty. Triangles inside the innermost ring follow in
+    /// the specification's order and are not sent.
     pub fn runs(&self, mut emit: impl FnMut(Range<u32>)) {
         for (edge, sector) in self.sectors.iter().enumerate() {
             let mut first = [0; MAX_RINGS];
@@ -129,7 +130,7 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
                     let begin = sector.border(ring, column);
                     let end = sector.border(ring, column + 1);
                     if begin == end {
-                        break; // the rings further in have nothing in this column either
+                        break; // rings further in have no triangles in this column either
                     }
                     emit(first + begin..first + end);
                 }
@@ -137,7 +138,7 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
         }
     }
 
-    /// The number in the specification's order of a stitch's first triangle.
+    /// The number of a stitch's first triangle in the specification's order.
     fn first_of_stitch(&self, ring: u32, edge: usize) -> u32 {
         let earlier = |sector: &Sector| sector.transition + sector.borders(ring, sector.columns());
         let earlier: u32 = if ring == 1 { 0 } else { self.sectors.iter().map(earlier).sum() };
@@ -162,8 +163,9 @@ impl Sector {
     /// The first step of a stitch that belongs to `column` or to a later one.
     ///
     /// Cells are counted from the patch's corner in steps of the inside axis, and the inner row of
-    /// ring `k` begins `k` of them in. A ring stitch has two triangles per cell after its first
-    /// one; a transition has as many as its outer edge asks for, and is cut in proportion.
+    /// ring `k` begins `k` cells from the corner. A ring stitch has two triangles per cell after
+    /// its first triangle. The number of a transition's triangles depends on its outer edge, so it
+    /// is cut in proportion.
     fn border(&self, ring: u32, column: u32) -> u32 {
         let regular = (2 * COLUMN * column + 1).saturating_sub(2 * ring);
         if ring > 1 {
@@ -172,8 +174,8 @@ impl Sector {
         (regular * self.transition / (2 * self.along - 4)).min(self.transition)
     }
 
-    /// The sum of [`Self::border`] over the rings `2..end`: of `2 COLUMN column + 1 - 2 ring` while
-    /// that is positive and within the stitch, then of whole stitches.
+    /// The sum of [`Self::border`] over the rings `2..end`. A ring adds `2 COLUMN column + 1 - 2
+    /// ring` where that is positive and at most the stitch's size, else 0 or the whole stitch.
     fn borders(&self, end: u32, column: u32) -> u32 {
         let (first, whole) = (2 * COLUMN * column + 1, 2 * self.along);
         let half = (whole + 1).saturating_sub(first) / 2;

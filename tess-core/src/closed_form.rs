@@ -1,7 +1,7 @@
-//! The same output by formula, without walking: how much there is, and any element from its number.
+//! The same output by formula, without walking: its size, and any element from its number.
 //!
-//! Backends size buffers and make elements in parallel by these. Tests compare them with `model` on
-//! every topology.
+//! Backends use these formulas to size buffers and to make elements in parallel. Tests compare them
+//! with `model` on every topology.
 
 pub(crate) mod counts;
 pub(crate) mod locate;

@@ -1,8 +1,8 @@
-//! The one thing that can go wrong: a buffer that is too small.
+//! The only error of this crate: a buffer that is too small.
 
 use core::fmt;
 
-/// Which of a caller's two buffers an error speaks of.
+/// One of the caller's two buffers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Buffer {
     /// The domain points.
@@ -11,10 +11,10 @@ pub enum Buffer {
     Indices,
 }
 
-/// A buffer of the caller is too small; nothing was written.
+/// The caller's buffer is too small; nothing was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BufferTooSmallError {
-    /// The buffer.
+    /// The buffer that is too small.
     pub buffer: Buffer,
     /// Elements that the output needs.
     pub needed: usize,

@@ -11,7 +11,7 @@ mod model;
 mod patch;
 pub mod prepare;
 
-// What a patch is made of and gives.
+// The input and the output of a patch.
 pub use closed_form::counts::{Counts, MAX_INDICES, MAX_POINTS};
 pub use closed_form::locate::origin::{PointOrigin, PrimitiveOrigin};
 pub use error::{Buffer, BufferTooSmallError};
@@ -23,7 +23,7 @@ pub use model::sink::{Counter, Sink};
 pub use model::state::{Config, Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
 pub use patch::{Order, Patch};
 
-// The stages on the way, and the types of their numbers.
+// The stages between them, and the types of their numbers.
 pub use model::factor_context::FactorContext;
 pub use model::factors::{ProcessedFactor, ProcessedPatch};
 pub use model::fixed_point::FixedFactor;
@@ -50,7 +50,7 @@ pub mod fixed_point {
     };
 }
 
-/// The values on the way to a location (spec section 5).
+/// The intermediate values of a location (spec section 5).
 pub mod place {
     pub use crate::model::place::{Blend, Placement, placement};
 }

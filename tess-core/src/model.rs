@@ -1,8 +1,8 @@
-//! The specification's stages, one after another, and nothing else: start here.
+//! The specification's stages in sequence, and nothing else: start here.
 //!
-//! Floats end in `factors`. Counts and random access are in `closed_form`, another order of
-//! triangles in `cache_order`, and HLSL's factor preparation in `prepare`. Read in this order; each
-//! line has its sections of the specification.
+//! No stage after `factors` uses floats. Counts and random access are in `closed_form`, another
+//! order of triangles in `cache_order`, and HLSL's factor preparation in `prepare`. Read in this
+//! order; each line names its sections of the specification.
 //!
 //! ```text
 //! raw factors -> factors -> factor_context -> place -> points   -> sink
@@ -11,7 +11,7 @@
 //!
 //! 1. `state`, `patch_factors`: the input. `output`, `sink`: the output.
 //! 2. `factors`, on `d3d_float` and `fixed_point`: cull, clamp, round, convert (sections 1 to 3).
-//! 3. `factor_context`, on `reciprocal`: six numbers for each factor (section 4).
+//! 3. `factor_context`, on `reciprocal`: six numbers from each factor (section 4).
 //! 4. `place`: a point along one dimension (section 5). `points`: in two (section 6).
 //! 5. `row`, `stitch` on `ruler`, `connect`: the primitives (sections 7 and 8).
 

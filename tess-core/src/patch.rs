@@ -1,4 +1,4 @@
-//! One patch: the model's front door.
+//! One patch: the entry point of the model.
 
 use crate::cache_order;
 use crate::closed_form::counts::{Counts, counts};
@@ -21,15 +21,15 @@ pub enum Order {
     /// The specification's order (sections 7 and 8).
     #[default]
     Specification,
-    /// The same triangles, ordered for a vertex cache ([`cache_order`]). Points keep their order
-    /// and numbers; lines and points are written in the specification's order.
+    /// The same triangles, ordered for a vertex cache ([`cache_order`]). Domain points keep their
+    /// order and numbers. Line and point primitives keep the specification's order.
     VertexCache,
 }
 
 /// A patch whose factors have been processed, ready to be tessellated or probed.
 ///
-/// Every input is valid: any bit pattern of any factor gives a patch, maybe a culled one,
-/// which has no points and no primitives.
+/// Every input is valid: any bit pattern of any factor gives a patch. A culled patch has no points
+/// and no primitives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Patch {
     config: Config,
@@ -70,7 +70,7 @@ impl Patch {
     }
 
     /// Sends the stitches of a triangle or quad patch to `emit`, in order: the two rows of each,
-    /// and the rule of its steps. A minimum patch and an isoline patch have none.
+    /// and the rule of its steps. Minimum, culled and isoline patches have none.
     pub fn stitches(&self, emit: impl FnMut(Stitch)) {
         if let ProcessedPatch::Regular(factors) = &self.processed {
             connect::stitches(factors, emit);
@@ -105,7 +105,7 @@ impl Patch {
         out
     }
 
-    /// The whole patch in vectors, its triangles in this order.
+    /// The whole patch in vectors, with its triangles in this order.
     #[cfg(feature = "alloc")]
     #[must_use]
     pub fn tessellate_in(&self, order: Order) -> crate::Tessellation {

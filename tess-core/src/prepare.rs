@@ -1,12 +1,12 @@
 //! Factor preparation: HLSL's `Process...TessFactors` functions (spec section 9).
 //!
-//! The form is that of Direct3D 11 (Shader Model 5, compiler FXC). DXC (Shader Model 6) generates
-//! another one, which no public document defines and this crate does not have; section 9 lists the
-//! differences.
+//! This is Direct3D 11's form (Shader Model 5, compiler FXC). DXC (Shader Model 6) generates
+//! another form, which no public document defines and which this crate does not have; section 9
+//! lists the differences.
 //!
-//! Optional. It turns the outer factors and inside scales that a hull shader asks for into
-//! *unrounded* factors, which are reported back to the shader, and *rounded* ones, which are
-//! tessellated. All arithmetic is binary32, rounded to nearest even, never fused.
+//! This stage is optional. It turns the outer factors and inside scales that a hull shader asks for
+//! into *unrounded* factors, which are reported back to the shader, and *rounded* factors, which
+//! are tessellated. All arithmetic is binary32, rounded to nearest even, never fused.
 #![expect(
     clippy::float_arithmetic,
     reason = "the one stage that the specification defines in floats"
@@ -16,14 +16,14 @@ use crate::model::d3d_float::{ceil, clamp, is_culled, next_power_of_two};
 use crate::model::patch_factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
 use crate::model::state::{Domain, Partitioning};
 
-/// How several outer factors become one inside factor.
+/// The operation that makes one inside factor from several outer factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reduction {
     /// The smallest.
     Min,
     /// The largest.
     Max,
-    /// The sum, left to right, divided by the number.
+    /// The sum, left to right, divided by the number of factors.
     Average,
 }
 
@@ -36,12 +36,11 @@ pub enum QuadAxes {
     Two,
 }
 
-/// Factors of one patch as a hull shader hands them over: outer factors, and scales for the inside
-/// factors, which are yet to be computed. A scale outside `0..=1` counts as the nearest end, NaN as
-/// 0.
+/// The factors of one patch as a hull shader hands them over: outer factors, and scales from which
+/// the inside factors are computed. A scale is clamped to `0..=1`; NaN counts as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Request {
-    /// Density and detail, as they are.
+    /// Density and detail; an isoline patch has no scales.
     Isoline(IsolineFactors),
     /// A triangle patch.
     Triangle {
@@ -62,8 +61,8 @@ pub enum Request {
 }
 
 impl Request {
-    /// The request of a record that keeps the scales in the places of the inside factors, as C
-    /// structures and vector files do. The axes matter only for a quad.
+    /// The request from a record that stores the scales in place of the inside factors, as C
+    /// structures and vector files do. `axes` matters only for a quad.
     #[must_use]
     pub const fn from_record(record: PatchFactors, axes: QuadAxes) -> Self {
         match record {
@@ -183,8 +182,9 @@ fn prepare_quad(
     }
 }
 
-/// Under `fractional_odd`, an axis below 3 and below the other grows to the other, or to 3.
-/// Rounding leaves fractional factors alone, so this holds for the rounded factors too.
+/// Under `fractional_odd`, an axis that is below 3 and below the other axis grows to the smaller of
+/// 3 and the other. Rounding does not change fractional factors, so this holds for the rounded
+/// factors too.
 fn widen_narrower_axis(partitioning: Partitioning, u: f32, v: f32) -> (f32, f32) {
     let widened = |this: f32, other: f32| {
         let narrower = this < 3.0 && this < other;
@@ -195,7 +195,7 @@ fn widen_narrower_axis(partitioning: Partitioning, u: f32, v: f32) -> (f32, f32)
 
 /// The unrounded inside factor from cleaned outer factors, none of them NaN, and a scale.
 fn inside(partitioning: Partitioning, reduction: Reduction, outer: &[f32], scale: f32) -> f32 {
-    // Infinity times zero is NaN, which the clamp takes to the low end.
+    // Infinity times zero is NaN, which is clamped to the low end.
     let scaled = clamp(reduce(reduction, outer) * clean_scale(scale), partitioning.range());
     if partitioning != Partitioning::FractionalOdd || scaled >= 3.0 {
         return scaled;
@@ -225,7 +225,7 @@ fn clean(factor: f32) -> f32 {
     if factor < 1.0 { 1.0 } else { factor }
 }
 
-/// Scales are at least 0, which NaN counts as, and at most 1.
+/// Clamps a scale to `0..=1`; NaN gives 0.
 fn clean_scale(scale: f32) -> f32 {
     clamp(scale, (0.0, 1.0))
 }
@@ -234,7 +234,7 @@ fn round_outer(partitioning: Partitioning, factor: f32) -> f32 {
     clamp(round_up(partitioning, factor), partitioning.range())
 }
 
-/// Rounds a factor of at least 1 up to the next that the partitioning has.
+/// Rounds a factor of at least 1 up to the next one that the partitioning allows.
 fn round_up(partitioning: Partitioning, factor: f32) -> f32 {
     match partitioning {
         Partitioning::Integer => ceil(factor),

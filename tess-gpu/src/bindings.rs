@@ -14,20 +14,21 @@ pub enum Resource {
     /// Two words for each factor ([`crate::layout::pack_context`]). Each portion has the contexts
     /// of the first factor of all its patches, then of the second factor, and so on.
     Contexts,
-    /// Where the output of patches, blocks and sections begins: [`crate::Plan::offset_entries`].
+    /// The offsets of the output of patches, blocks and sections: [`crate::Plan::offset_entries`].
     Offsets,
     /// A [`crate::layout::Status`], then a [`crate::layout::Range`] for each portion.
     Status,
-    /// For each tile of the output the number of the patch that it begins with.
+    /// For each tile of the output, the number of the patch that it begins with.
     Tiles,
     /// A [`crate::layout::DrawIndexed`], then the sizes of indirect dispatches. Needs the usage
     /// `INDIRECT`.
     Arguments,
-    /// The output of distinct small topologies (`shared/catalogue.wgsl`). All zeros before the
+    /// The output of distinct small topologies (`shared/catalogue.wgsl`). Must be zeros before the
     /// first run.
     Catalogue,
-    /// For each group the number of its first patch, ascending and at most the batch's number of
-    /// patches. A group ends where the next one begins, the last one at the end of the batch.
+    /// For each group, the number of its first patch, in ascending order and at most the number of
+    /// patches of the batch. A group ends where the next one begins, the last one at the end of the
+    /// batch.
     Groups,
     /// A [`crate::layout::DrawIndexed`] for each group. Needs the usage `INDIRECT`.
     Draws,
@@ -60,9 +61,9 @@ impl Resource {
 /// A stage's access to a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Access {
-    /// Reads it.
+    /// The stage reads the buffer.
     Read,
-    /// Reads and writes it.
+    /// The stage reads and writes the buffer.
     ReadWrite,
 }
 

@@ -3,8 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use tess_core::{DomainPoint, FactorContext, Parity, PatchFactors};
 
-/// One portion of a batch and one window of its output, as [`crate::Plan::jobs`] writes it and
-/// `Job` in `layout/setup.wgsl` reads it.
+/// A portion of a batch and a window of its output. [`crate::Plan::jobs`] writes it, and the
+/// shaders read it as `Job` of `layout/setup.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Job {
@@ -16,18 +16,18 @@ pub struct Job {
     pub portion: u32,
     /// Distance between the contexts of one factor and those of the next, in entries.
     pub stride: u32,
-    /// First entry of the offsets that belongs to a block of patches.
+    /// The first entry in the offsets of a block of patches.
     pub blocks_at: u32,
-    /// First entry of the offsets that holds the topology which all patches of a block have, 0 if
-    /// they differ.
+    /// The first entry in the offsets of a block's common topology, which is 0 if its patches
+    /// differ.
     pub alike_at: u32,
-    /// First entry of the offsets that belongs to a section of blocks.
+    /// The first entry in the offsets of a section of blocks.
     pub sections_at: u32,
-    /// First entry of the table of tiles that belongs to the primitives.
+    /// The first entry of the primitives in the table of tiles.
     pub primitive_tiles_at: u32,
-    /// First tile of the window that is bound.
+    /// First tile of the bound window.
     pub window_first: u32,
-    /// Tiles of the window that is bound.
+    /// Tiles of the bound window.
     pub window_tiles: u32,
     /// Portions of the batch.
     pub portions: u32,
@@ -35,23 +35,24 @@ pub struct Job {
     pub point_capacity: u32,
     /// Primitives that the batch has room for.
     pub primitive_capacity: u32,
-    /// Windows of the points.
+    /// Number of windows of the points.
     pub point_windows: u32,
-    /// Windows of the primitives.
+    /// Number of windows of the primitives.
     pub primitive_windows: u32,
     /// Tiles of a window of the points.
     pub point_window_tiles: u32,
     /// Tiles of a window of the primitives.
     pub primitive_window_tiles: u32,
-    /// The most workgroups in a row of a dispatch: its size along x if it has more than one row.
+    /// The most workgroups in a row of a dispatch: the size along x of a dispatch of several rows.
     pub max_workgroups: u32,
     /// A tile has 2^`tile_bits` elements.
     pub tile_bits: u32,
-    /// 1 if topologies are entered into the catalogue, 0 if not.
+    /// 1 if topologies are entered into the catalogue, otherwise 0.
     pub has_catalogue: u32,
 }
 
-/// The needs of a batch and whether they fit: the first 32 bytes of [`crate::Resource::Status`].
+/// The room that a batch needs, and whether it fits: the first 32 bytes of
+/// [`crate::Resource::Status`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Status {
@@ -88,15 +89,15 @@ impl Status {
         self.overflow & 2 != 0
     }
 
-    /// Whether everything fitted and was written.
+    /// Whether everything fits and was written.
     #[must_use]
     pub const fn fits(&self) -> bool {
         self.overflow == 0
     }
 }
 
-/// Where the output of a portion lies within that of the batch. The ranges of all portions follow
-/// the [`Status`].
+/// The place of a portion's output within the batch's output. The ranges of all portions follow the
+/// [`Status`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Range {
@@ -126,21 +127,21 @@ pub struct DrawIndexed {
     pub first_instance: u32,
 }
 
-/// The key of a patch's connectivity: its state and the points along its edges (spec
-/// section 12.8; the bits are in `layout/topology.wgsl`).
+/// The key of a patch's connectivity: its state and the points along its edges. See spec section
+/// 12.8, and `layout/topology.wgsl` for the bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Topology(pub [u32; 2]);
 
 impl Topology {
-    /// 0 if the patch is culled, 1 for a minimum patch, 2 for any other.
+    /// 0 if the patch is culled, 1 if it is a minimum patch, otherwise 2.
     #[must_use]
     pub const fn state(self) -> u32 {
         self.0[0] >> 28
     }
 
-    /// Points along outer edge `edge` (0..=3): 2..=65. An isoline patch has two, for its density
-    /// and its detail.
+    /// Points along outer edge `edge` (0..=3): 2..=65. An isoline patch has two such counts, for
+    /// its density and its detail.
     #[must_use]
     pub const fn outer_points(self, edge: u32) -> u32 {
         self.0[0] >> (7 * edge) & 127
@@ -173,15 +174,15 @@ impl PackedPoint {
         DomainPoint::from_bits(low & 0x1_FFFF, (low >> 17) | (high & 3) << 15)
     }
 
-    /// The number of its patch, below 2^30.
+    /// The number of the point's patch, below 2^30.
     #[must_use]
     pub const fn patch(self) -> u32 {
         self.0[1] >> 2
     }
 }
 
-/// A factor context (spec section 4) in two words, as the shaders have it. `points` is left out: it
-/// follows from the others.
+/// A factor context (spec section 4) in the shaders' form of two words. `points` is left out,
+/// because it follows from the other numbers.
 #[must_use]
 pub const fn pack_context(context: &FactorContext) -> [u32; 2] {
     let low = context.inv_floor
@@ -208,8 +209,8 @@ pub const fn unpack_context([low, high]: [u32; 2]) -> FactorContext {
     }
 }
 
-/// The words of raw factors as the shaders read them: the bits of each factor in the
-/// specification's order (section 1), patch after patch.
+/// The raw factors as the words that shaders read: the bits of each factor in the specification's
+/// order (section 1), patch by patch.
 #[must_use]
 pub fn factor_words(patches: &[PatchFactors]) -> Vec<u32> {
     patches.iter().flat_map(PatchFactors::iter).map(f32::to_bits).collect()

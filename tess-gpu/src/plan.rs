@@ -1,25 +1,27 @@
-//! How one batch is cut up: sizes of buffers and dispatches as pure functions of the number of
-//! patches, the room for output and the limits. A host asks a [`Plan`] and computes nothing itself.
+//! The plan of a batch: the sizes of its buffers and its dispatches, as pure functions of the
+//! number of patches, the room for output and the limits. A host asks a [`Plan`] and computes
+//! nothing itself.
 //!
 //! ```text
-//! patches   |<-- portion 0 -->|<-- portion 1 -->|<-- portion 2 ->|    at most 2^24 patches each: what one
-//!             section section   section section                      binding takes of the largest buffer per patch
+//! patches   |<-- portion 0 -->|<-- portion 1 -->|<-- portion 2 ->|    at most 2^24 patches, and their contexts
+//!             section section   section section                      fit one binding
 //!              block block ...                                       65536 and 256 patches, for the prefix sums
 //!
-//! output    |<---- window 0 ---->|<---- window 1 ---->|<- 2 ->|       what one binding takes of points or of indices
+//! output    |<---- window 0 ---->|<---- window 1 ---->|<- 2 ->|       points or indices that fit one binding
 //!             tile tile tile ...                                     2048 elements, one workgroup
 //! ```
 //!
-//! Portions and windows do not end together, so each portion is expanded in every window; a
-//! dispatch whose portion has nothing in its window runs no workgroup. A job (`plan/jobs.rs`) tells
-//! a dispatch its portion and window:
+//! Portions and windows do not end at the same places, so each portion is expanded in every window.
+//! A dispatch whose portion has no output in its window runs no workgroup. A job (`plan/jobs.rs`)
+//! tells a dispatch its portion and window:
 //!
 //! ```text
 //! jobs of portion 0: whole | points in window 0, 1 ... | primitives in window 0, 1 ... | jobs of portion 1: ...
 //! ```
 //!
-//! The buffer of offsets has a region for each portion. An entry is two words, points and
-//! primitives; a patch's output begins at the sum of its own entry, its block's and its section's:
+//! The buffer of offsets has a region for each portion. An entry is two words: points and
+//! primitives. A patch's output begins at the sum of three entries: its own, its block's and its
+//! section's.
 //!
 //! ```text
 //! entry   0 ..             blocks_at ..    alike_at ..                 sections_at ..
@@ -30,17 +32,17 @@
 //! ```
 //!
 //! Invariants:
-//! - A binding begins at a multiple of [`ALIGNMENT`], lies within its buffer and keeps to the
-//!   limits. The tiles, the arguments and the catalogue are bound whole: `room.rs` says which
-//!   limits suffice for them.
+//! - A binding begins at a multiple of [`ALIGNMENT`], is within its buffer and keeps to the limits.
+//!   The tiles, the arguments and the catalogue are bound whole; see [`Limits`] for the limits that
+//!   suffice for them.
 //! - A portion is a whole number of sections, or the whole batch.
-//! - Every portion is counted before any is expanded. Otherwise output that does not fit would be
+//! - All portions are counted before any is expanded. Otherwise output that does not fit would be
 //!   written in part.
 //! - `shared/finish.wgsl` numbers the sizes of indirect dispatches as `job_number` does.
 //!
-//! A short batch has one portion, one window and narrow tiles, so two dispatches do everything
-//! (`entry_points/short_batch.wgsl`). The simpler form, one binding per buffer, would stop at 2.8
-//! million quads with WebGPU's default limits, as the example of [`Plan`] shows.
+//! A short batch has one portion, one window and narrow tiles, so that two dispatches do everything
+//! (`entry_points/short_batch.wgsl`). The simpler form, one binding per buffer, would be limited to
+//! 2.8 million quads with WebGPU's default limits, as the example of [`Plan`] shows.
 
 use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
@@ -57,10 +59,10 @@ mod jobs;
 
 pub use dispatches::{Dispatch, Workgroups};
 
-/// A batch, cut up so that no binding and no dispatch exceeds the limits.
+/// A batch, divided so that no binding and no dispatch exceeds the limits.
 ///
-/// [`Plan::buffer_size`] and [`Plan::jobs`] say which buffers a host makes for it, and
-/// [`Plan::dispatches`] what it runs.
+/// [`Plan::buffer_size`] has the sizes of the buffers that a host makes, [`Plan::jobs`] the
+/// contents of one of them, and [`Plan::dispatches`] the dispatches that it runs.
 ///
 /// Ten million quads with fractional factors have 48 bytes of contexts each, of which WebGPU's
 /// default limits bind 128 MiB at once. That is 2796202 patches, or 42 whole sections of 65536:
@@ -95,39 +97,41 @@ pub struct Plan {
     written: Written,
 }
 
-/// Which output a batch writes. Shaders that need the rest compute it ([`crate::Pull`]).
+/// The output that a batch writes. Shaders that need the rest compute it ([`crate::Pull`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Written {
     /// Points and indices.
     #[default]
     Everything,
-    /// Indices alone.
+    /// Only indices.
     Indices,
-    /// Neither: the batch leaves draw arguments, and for each tile the patch that it begins with.
+    /// Neither: the batch only makes draw arguments and, for each tile, the patch that it begins
+    /// with.
     Arguments,
 }
 
 impl Plan {
-    /// Cuts up a batch of `patches` patches with room for `capacity`. Of the points, no more count
-    /// as room than the indices that are written can name: 65536 with [`IndexType::U16`] and
+    /// Plans a batch of `patches` patches with room for `capacity`. The room for points is limited
+    /// to the points that the written indices can name: 65536 with [`IndexType::U16`] and
     /// [`Numbering::PerBatch`].
     #[must_use]
     pub fn new(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
         Self::cut(Written::Everything, setup, patches, capacity, limits, true)
     }
 
-    /// The same batch in the stages of a long one, whatever its size, so that a host needs one
-    /// path.
+    /// [`Plan::new`], but in the stages of a long batch whatever its size, so that a host needs
+    /// only one path.
     #[must_use]
     pub fn in_long_stages(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
         Self::cut(Written::Everything, setup, patches, capacity, limits, false)
     }
 
-    /// A batch that writes only some of its output, in the stages of a long one. `capacity` bounds
-    /// what is drawn, and takes 4 bytes for each tile even of what is not written.
+    /// Plans a batch that writes only some of its output, in the stages of a long batch. `capacity`
+    /// limits the output that is drawn. Each of its tiles takes 4 bytes, even if the output is not
+    /// written.
     ///
-    /// Its vertex shader binds the buffers of one portion, so make no more than
-    /// [`Plan::portion_patches`] patches of it.
+    /// The vertex shader binds the buffers of one portion, so the batch must have at most
+    /// [`Plan::portion_patches`] patches.
     #[must_use]
     pub fn writing(
         written: Written,
@@ -191,16 +195,18 @@ impl Plan {
         self.groups
     }
 
-    /// Whether the batch is short: it has at most 1024 patches and little room for output, and runs
-    /// two dispatches. One workgroup does everything in front of the expansion, which is one
-    /// dispatch. False for [`Plan::in_long_stages`] and [`Plan::writing`].
+    /// Whether the batch is short: it has at most 1024 patches and little room for output. Then two
+    /// dispatches write all output: in the first, one workgroup does everything that precedes the
+    /// expansion; the second is the expansion. False for [`Plan::in_long_stages`] and
+    /// [`Plan::writing`].
     #[must_use]
     pub const fn is_short(&self) -> bool {
         self.is_short
     }
 
-    /// Whether the batch has a catalogue of topologies: 16384 patches or more whose output is
-    /// triangles. The catalogue takes a fixed time, which pays for such batches.
+    /// Whether the batch has a catalogue of topologies: it has at least 16384 patches, its
+    /// primitives are triangles, and it writes indices. The catalogue takes a fixed time, which is
+    /// worth it for such batches.
     #[must_use]
     pub const fn has_catalogue(&self) -> bool {
         self.setup.has_triangles()
@@ -226,13 +232,13 @@ impl Plan {
         self.portion_patches
     }
 
-    /// How many portions there are; 0 for no patches.
+    /// The number of portions; 0 if there are no patches.
     #[must_use]
     pub const fn portions(&self) -> u32 {
         self.patches.div_ceil(self.portion_patches)
     }
 
-    /// How many windows the points have.
+    /// The number of windows of the points; 0 if points are not written.
     #[must_use]
     pub const fn point_windows(&self) -> u32 {
         if !matches!(self.written, Written::Everything) {
@@ -241,7 +247,7 @@ impl Plan {
         self.capacity.points.div_ceil(self.tile()).div_ceil(self.point_window_tiles)
     }
 
-    /// How many windows the primitives have.
+    /// The number of windows of the primitives; 0 if indices are not written.
     #[must_use]
     pub const fn primitive_windows(&self) -> u32 {
         if matches!(self.written, Written::Arguments) {
@@ -250,9 +256,9 @@ impl Plan {
         self.capacity.primitives.div_ceil(self.tile()).div_ceil(self.primitive_window_tiles)
     }
 
-    /// The bytes that the buffer of a resource must have for this batch. For the caller's own
-    /// buffers (factors, points, indices) it is the bytes that are used. A host rounds 0 up to what
-    /// its interface demands.
+    /// The size in bytes that the buffer of a resource needs for this batch. For the caller's own
+    /// buffers (factors, points, indices) it is the number of bytes in use. A host rounds 0 up to
+    /// the smallest size that its interface allows.
     #[must_use]
     pub fn buffer_size(&self, resource: Resource) -> u64 {
         let portions = self.portions().max(1);
@@ -266,7 +272,7 @@ impl Plan {
             Resource::Status => size::<Status>() + size::<Range>() * u64::from(portions),
             Resource::Tiles => 4 * u64::from(self.tile_entries()),
             Resource::Arguments => self.arguments_at(self.job_count()),
-            // Without a catalogue nothing reads it, but it is bound.
+            // It is bound even if the batch has no catalogue and nothing reads it.
             Resource::Catalogue if self.has_catalogue() => 4 * u64::from(CATALOGUE_WORDS),
             Resource::Catalogue => ALIGNMENT,
             Resource::Groups => size::<u32>() * u64::from(self.groups),
@@ -281,8 +287,9 @@ impl Plan {
         }
     }
 
-    /// The entries of the buffer of offsets whose sum is where a patch's output begins: its own,
-    /// its block's and its section's. Each is a number of points and one of primitives.
+    /// The three entries of the buffer of offsets whose sum is the beginning of a patch's output:
+    /// the patch's, its block's and its section's. Each entry is a number of points and one of
+    /// primitives.
     #[must_use]
     pub fn offset_entries(&self, patch: u32) -> [u64; 3] {
         let (portion, in_portion) = (patch / self.portion_patches, patch % self.portion_patches);
@@ -295,8 +302,8 @@ impl Plan {
         .map(|entry| first + u64::from(entry))
     }
 
-    /// The entries of the buffer of offsets that say whether the patches of `patch`'s block are
-    /// alike: the topology of all of them, or 0.
+    /// The entry of the buffer of offsets with the common topology of the patches in `patch`'s
+    /// block; it is 0 if they differ.
     #[must_use]
     pub fn alike_entry(&self, patch: u32) -> u64 {
         let (portion, in_portion) = (patch / self.portion_patches, patch % self.portion_patches);
@@ -308,22 +315,22 @@ impl Plan {
         (self.patches - portion * self.portion_patches).min(self.portion_patches)
     }
 
-    /// Where in a portion's offsets those of the blocks begin, behind one for each patch.
+    /// The first entry of the blocks in a portion's offsets, after one entry for each patch.
     const fn blocks_at(&self) -> u32 {
         self.portion_patches
     }
 
-    /// Where in a portion's offsets the blocks' common topologies begin.
+    /// The first entry of the blocks' common topologies in a portion's offsets.
     const fn alike_at(&self) -> u32 {
         self.blocks_at() + self.portion_patches / BLOCK
     }
 
-    /// Where in a portion's offsets those of the sections begin.
+    /// The first entry of the sections in a portion's offsets.
     const fn sections_at(&self) -> u32 {
         self.alike_at() + self.portion_patches / BLOCK
     }
 
-    /// Where in the table of tiles those of the primitives begin.
+    /// The first entry of the primitives in the table of tiles.
     const fn primitive_tiles_at(&self) -> u32 {
         self.capacity.points.div_ceil(self.tile()) + 2
     }
@@ -350,7 +357,8 @@ impl Plan {
         region(portion, size::<Topology>() * u64::from(self.portion_patches))
     }
 
-    /// The bytes of a portion's contexts: all of the first factor, then all of the second ...
+    /// The bytes of a portion's contexts: all of the first factor, then all of the second, and so
+    /// on.
     fn contexts(&self, portion: u32) -> Span {
         region(portion, 8 * u64::from(self.setup.factors()) * u64::from(self.portion_patches))
     }
@@ -381,7 +389,7 @@ impl Plan {
         Span { offset: first * u64::from(each), size }
     }
 
-    /// Where in the arguments the size of the indirect dispatch with job `job` is.
+    /// The offset in the arguments of the size of the indirect dispatch with job `job`.
     fn arguments_at(&self, job: u32) -> u64 {
         4 * u64::from(DISPATCHES_AT) + 12 * u64::from(job)
     }
@@ -401,7 +409,7 @@ const fn most_points(setup: Setup, written: Written) -> u32 {
     }
 }
 
-/// See [`Plan::is_short`]; the output also has to be bound at once.
+/// See [`Plan::is_short`]. The caller checks that the output fits one binding.
 fn is_short(patches: u32, capacity: Capacity) -> bool {
     let has_output = capacity.points > 0 && capacity.primitives > 0;
     (1..=SHORT_PATCHES).contains(&patches)
@@ -416,7 +424,7 @@ fn narrow_tile_bits(capacity: Capacity) -> u32 {
     tile.ilog2().clamp(LEAST_TILE_BITS, TILE_BITS)
 }
 
-/// The bytes of a portion in a buffer that has `size` for each.
+/// The bytes of a portion in a buffer that has `size` bytes for each portion.
 fn region(portion: u32, size: u64) -> Span {
     Span { offset: u64::from(portion) * size.next_multiple_of(ALIGNMENT), size }
 }

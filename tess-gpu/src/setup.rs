@@ -4,7 +4,7 @@ use crate::{sizes, tables};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_core::{Order, cache_order};
 
-/// How domain points are stored, in 8 bytes either way.
+/// The format of domain points: 8 bytes each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PointFormat {
     /// A little-endian 64-bit number: u as a 16.16 number in bits 0..=16, v in bits 17..=33, the
@@ -15,7 +15,7 @@ pub enum PointFormat {
     F32,
 }
 
-/// Which point has index 0.
+/// The point that has index 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Numbering {
     /// The first point of the batch: one draw with the index buffer draws all patches.
@@ -28,13 +28,13 @@ pub enum Numbering {
 /// Width of the indices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum IndexType {
-    /// 16 bits: enough for any one patch ([`Numbering::PerPatch`]), and for a batch of up to 65536
-    /// points. A larger batch with [`Numbering::PerBatch`] does not fit, whatever room a
+    /// 16 bits: enough for any single patch ([`Numbering::PerPatch`]), and for a batch of up to
+    /// 65536 points. A larger batch with [`Numbering::PerBatch`] does not fit, however much room a
     /// [`crate::Plan`] is given.
     ///
     /// The index 65535 restarts primitives in WebGL 2, in WebGPU with strips, and in other
-    /// interfaces where primitive restart is on. Give the plan room for at most
-    /// [`IndexType::points_without_restart`] points there.
+    /// interfaces if primitive restart is on. There, give the plan room for at most
+    /// [`IndexType::points_without_restart`] points.
     U16,
     /// 32 bits.
     #[default]
@@ -51,8 +51,8 @@ impl IndexType {
         }
     }
 
-    /// The points that [`Numbering::PerBatch`] numbers without the largest index, which restarts
-    /// primitives: 65 535, or 2^32 - 1.
+    /// The number of points that [`Numbering::PerBatch`] can number without the largest index,
+    /// which restarts primitives: 65 535, or 2^32 - 1.
     #[must_use]
     pub const fn points_without_restart(self) -> u32 {
         match self {
@@ -62,13 +62,13 @@ impl IndexType {
     }
 }
 
-/// Whether neighbouring patches of one topology are expanded once and copied.
+/// Whether neighbouring patches with the same topology are expanded once and copied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Copies {
-    /// One patch is expanded and copied.
+    /// One such patch is expanded and copied.
     #[default]
     WhereAlike,
-    /// Each patch is expanded alone: for measuring what unlike neighbours cost.
+    /// Each patch is expanded separately. For measuring the cost of neighbours that differ.
     Never,
 }
 
@@ -82,19 +82,19 @@ pub struct Setup {
     pub config: Config,
     /// Format of the points.
     pub point_format: PointFormat,
-    /// Which point has index 0.
+    /// The point that has index 0.
     pub numbering: Numbering,
     /// Width of the indices.
     pub index_type: IndexType,
-    /// Whether neighbours of one topology are copied. The output is the same either way.
+    /// Whether neighbours with the same topology are copied. The output is the same either way.
     pub copies: Copies,
     /// Order of the triangles of a patch.
     pub order: Order,
 }
 
 impl Setup {
-    /// Packed points, and 32-bit indices that count from the first point of the batch; triangles in
-    /// the specification's order.
+    /// A setup with packed points, and with 32-bit indices that count from the first point of the
+    /// batch. Triangles are in the specification's order.
     #[must_use]
     pub const fn new(domain: Domain, config: Config) -> Self {
         let (point_format, numbering) = (PointFormat::Packed, Numbering::PerBatch);
@@ -103,15 +103,15 @@ impl Setup {
         Self { domain, config, point_format, numbering, index_type, copies, order }
     }
 
-    /// How many factors a patch has. Each is a binary32 in the buffer of factors, in the order of
-    /// the specification (section 1), patch after patch without gaps.
+    /// The number of factors of a patch. Each is a binary32 in the buffer of factors, in the order
+    /// of the specification (section 1), patch by patch without gaps.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "6 at most")]
     pub const fn factors(&self) -> u32 {
         self.domain.factors() as u32
     }
 
-    /// How many indices a primitive has: 1, 2 or 3.
+    /// The number of indices of a primitive: 1, 2 or 3.
     #[must_use]
     pub const fn indices_per_primitive(&self) -> u32 {
         self.config.output.indices_per_primitive(self.domain)
@@ -135,7 +135,8 @@ impl Setup {
         self.indices_per_primitive() == 3
     }
 
-    /// The constants in front of every shader: what `layout/setup.wgsl` does not declare itself.
+    /// The constants that every shader begins with: those that `layout/setup.wgsl` does not declare
+    /// itself.
     pub(crate) fn prelude(&self) -> String {
         let Config { partitioning, output, split } = self.config;
         let setup = [

@@ -28,8 +28,9 @@ pub enum Stage {
     Factors,
     /// Sums the offsets of blocks within sections of 256 blocks.
     Scan,
-    /// Sums the offsets of sections in the output, and what the batch needs so far. After the last
-    /// portion it decides whether the output fits and writes draw arguments and dispatch sizes.
+    /// Sums the offsets of sections in the output, and the needs of the batch so far. After the
+    /// last portion it decides whether the output fits, and writes draw arguments and dispatch
+    /// sizes.
     Totals,
     /// Expands each distinct small topology once, into the catalogue.
     List,
@@ -37,11 +38,11 @@ pub enum Stage {
     Partition,
     /// Writes the draw arguments of each group of patches.
     Groups,
-    /// Writes the points, a tile for each workgroup.
+    /// Writes the points, one tile per workgroup.
     ExpandPoints,
-    /// Writes the indices, a tile for each workgroup.
+    /// Writes the indices, one tile per workgroup.
     ExpandPrimitives,
-    /// Writes both outputs of a short batch, a narrow tile for each workgroup.
+    /// Writes the points and indices of a short batch, one narrow tile per workgroup.
     ExpandShort,
 }
 
@@ -75,7 +76,7 @@ const EXPAND_SHORT: [Binding; 9] = [
     Binding(Resource::Points, Access::ReadWrite),
 ];
 
-/// [`FRONT`] and `more`, `ALL` together.
+/// [`FRONT`] followed by `more`: `ALL` bindings.
 const fn front<const MORE: usize, const ALL: usize>(more: [Binding; MORE]) -> [Binding; ALL] {
     let mut all = [FRONT[0]; ALL];
     all.split_at_mut(FRONT.len()).0.copy_from_slice(&FRONT);
@@ -84,7 +85,8 @@ const fn front<const MORE: usize, const ALL: usize>(more: [Binding; MORE]) -> [B
 }
 
 impl Stage {
-    /// Every stage. A short batch runs the first and the last, any other those between, in this
+    /// Every stage. A short batch runs the first and the last, any other batch those between them;
+    /// either also runs [`Stage::Groups`] if it has groups. [`crate::Plan::dispatches`] has the
     /// order.
     pub const ALL: [Self; 10] = [
         Self::Short,
@@ -99,7 +101,7 @@ impl Stage {
         Self::ExpandShort,
     ];
 
-    /// The name of its entry point.
+    /// The name of the stage's entry point.
     #[must_use]
     pub const fn entry_point(self) -> &'static str {
         match self {
@@ -116,7 +118,7 @@ impl Stage {
         }
     }
 
-    /// Its bindings, all in group 0, in order from binding 0.
+    /// The stage's bindings, all in group 0, in order from binding 0.
     #[must_use]
     pub const fn bindings(self) -> &'static [Binding] {
         use Access::{Read, ReadWrite};
@@ -175,7 +177,7 @@ impl Stage {
         }
     }
 
-    /// Its WGSL, a whole module.
+    /// The stage's WGSL, a whole module.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
         let (file, expansion) = match self {
@@ -206,15 +208,15 @@ impl Stage {
         let lists = matches!(self, Self::Factors) && setup.has_triangles();
         let (indices, listing) = (files::indices(setup), files::listing(lists));
         let choices = [place, contexts, indices, listing, catalogue, elements];
-        // A narrow tile has fewer elements than the patch that would be made for copying.
+        // A narrow tile has fewer elements than a patch that would be expanded for copying.
         let copies = if matches!(self, Self::ExpandShort) { Copies::Never } else { setup.copies };
         Setup { copies, ..setup }.prelude()
             + &own.unwrap_or_default()
             + &files::joined(&[file], &choices)
     }
 
-    /// The setup to make this stage's pipeline for. Everything that the stage does not depend on is
-    /// set to one value, so that several setups share a pipeline.
+    /// The setup for this stage's pipeline. Settings that the stage does not depend on have a fixed
+    /// value, so that several setups share a pipeline.
     #[must_use]
     pub fn relevant(self, setup: Setup) -> Setup {
         let plain = Setup {
@@ -251,7 +253,7 @@ impl Stage {
     }
 }
 
-/// Points lie evenly or not.
+/// Keeps only whether points are evenly spaced (integer factors) or not.
 fn placed_as(setup: Setup, mut own: Setup) -> Setup {
     if !setup.has_integer_factors() {
         own.config.partitioning = Partitioning::FractionalOdd;
@@ -259,7 +261,8 @@ fn placed_as(setup: Setup, mut own: Setup) -> Setup {
     own
 }
 
-/// Once factors are processed, partitioning and split order are in contexts and tables.
+/// Fixes partitioning and split order. After factor processing, they are part of the contexts and
+/// tables.
 fn any_factors(mut setup: Setup) -> Setup {
     setup.config.partitioning = Partitioning::Integer;
     setup.config.split = SplitOrder::Ruler;

@@ -59,7 +59,7 @@ pub struct Module {
     pub name: &'static str,
     /// The text.
     pub source: &'static str,
-    /// The names of all modules that it cannot do without.
+    /// The names of all modules that it needs.
     pub needs: &'static [&'static str],
 }
 
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
     use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-    /// The names of a module's functions, if it is valid.
+    /// The names of a module's functions; an error if the module is not valid.
     fn functions(text: &str) -> Result<Vec<String>, String> {
         let module = naga::front::wgsl::parse_str(text).map_err(|e| e.emit_to_string(text))?;
         let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
@@ -101,7 +101,7 @@ mod tests {
         MODULES.iter().find(|module| module.name == name).expect("a module that is needed is there")
     }
 
-    /// Every module is valid with those that it needs, and not without any of them.
+    /// Every module is valid with the modules that it needs, and invalid without any one of them.
     #[test]
     fn modules_are_valid_with_what_they_need() {
         for Module { name, source, needs } in MODULES {
@@ -117,7 +117,7 @@ mod tests {
         }
     }
 
-    /// The first column of the rows of a table in [`README`], whose head begins with this word.
+    /// The first two cells of the rows of the table in [`README`] whose head begins with this word.
     fn rows(head: &str) -> Vec<[&'static str; 2]> {
         let (_, table) = README.split_once(&format!("| {head} |")).expect("the table");
         let lines = table.lines().skip(2).take_while(|line| line.starts_with('|'));
@@ -152,7 +152,7 @@ mod tests {
         assert_eq!(first.join("\n"), HELPERS, "in the order of the table");
     }
 
-    /// A parameter of the table that a function does not have misleads whoever calls it.
+    /// The table has the parameters that the functions have.
     #[test]
     fn the_table_has_the_parameters() {
         for [cell, _] in rows("function") {
@@ -175,7 +175,8 @@ mod tests {
         }
     }
 
-    /// Users may declare any name without the prefix, and the modules beside them.
+    /// The stage's helpers have the prefix `tess_`, so that users may declare any other name. Other
+    /// modules do not have it.
     #[test]
     fn helpers_have_the_prefix() {
         let names = functions(HELPERS).unwrap_or_else(|error| panic!("{error}"));

@@ -1,4 +1,4 @@
-//! Inputs, outputs and the arrays between: no layer's work, used by all of them.
+//! Inputs, outputs and the arrays between them, used by all layers.
 
 pub(crate) mod batch;
 pub(crate) mod chunk;

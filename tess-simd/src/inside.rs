@@ -1,5 +1,5 @@
-//! The unit tests, with the files that they are of: the library would compile every kernel at every
-//! CPU level once more, which takes a minute.
+//! The unit tests, compiled with only the modules that have some: the whole library would compile
+//! every kernel at every CPU level once more, which takes a minute.
 
 #![allow(
     unused,

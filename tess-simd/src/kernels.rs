@@ -1,6 +1,6 @@
 //! The kernels: functions over many patches, compiled once for each CPU level.
 //!
-//! The layer `levels` calls them; they call the stages. Every function from here down is
+//! The layer `levels` calls them; they call the stages. Functions in this layer and below are
 //! `#[inline(always)]`, because only inlined code gets the instructions of a level's function.
 
 pub(crate) mod emit;

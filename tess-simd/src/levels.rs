@@ -62,8 +62,8 @@ at_each_level! {
 }
 
 at_each_level! {
-    /// [`kernels::emit::emit`] at a level: points of compact patches by permutes where the level
-    /// has them, otherwise by look-up.
+    /// [`kernels::emit::emit`] at a level. Points of compact patches are made by permutes if the
+    /// level has them, otherwise by look-up.
     fn emit<W: PointWriter, I: IndexFormat>(
         settings: &Settings,
         packets: Packets<'_>,
@@ -93,7 +93,7 @@ with_avx512! {
         caches: &mut Caches,
         _: &mut Lookup,
     ) -> Offsets {
-        // A closure has the instructions of the function around it; a method of a trait cannot.
+        // A closure gets the instructions of the enclosing function; a trait method cannot.
         let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut W| {
             permute::emit(patch, codes, out);
         };
@@ -162,7 +162,7 @@ mod taps {
     }
 }
 
-/// Kernels on their own.
+/// The kernel taps.
 #[cfg(all(feature = "taps", feature = "apart"))]
 pub(crate) use alone::{compact_points, of_indices, of_numbers, of_patches, of_points};
 
@@ -192,7 +192,7 @@ mod alone {
     }
 
     at_each_level! {
-        /// Points of compact patches as [`super::emit`] makes them.
+        /// Points of compact patches, made as in [`super::emit`].
         fn compact_points(work: &TapInput, made: &mut TapOutput) = kernel_taps::compact_by_lookup,
             avx512 = kernel_taps::compact_by_permutes;
     }

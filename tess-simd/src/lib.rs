@@ -3,7 +3,8 @@
 
 extern crate alloc;
 
-// Layers: interface, threads, levels, kernels, stages, data, cpu. Each uses only those after it.
+// The layers: interface, threads, levels, kernels, stages, data, cpu. Each uses only the later
+// ones.
 mod cpu;
 mod data;
 mod interface;

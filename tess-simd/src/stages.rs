@@ -1,5 +1,5 @@
-//! The stages of one patch, under the core's names, for one packet of patches or for one patch of
-//! it.
+//! The stages of a patch, named as in the core. They run over a packet of patches, or over one
+//! patch of a packet.
 
 pub(crate) mod connect;
 pub(crate) mod counts;

@@ -1,6 +1,6 @@
-//! Who counts and writes: the threads of a pool, or only the calling thread.
+//! The threads that count and write: those of a pool, or only the calling thread.
 //!
-//! Both define [`Workspaces`], which is kept from batch to batch.
+//! Each variant defines [`Workspaces`], which is kept from batch to batch.
 
 #[cfg(not(feature = "rayon"))]
 mod one;

@@ -14,7 +14,7 @@ pub(crate) const CONFIG: Config =
 pub(crate) const QUAD: QuadFactors =
     QuadFactors { u0: 3.0, v0: 4.5, u1: 5.0, v1: 6.0, inside_u: 4.0, inside_v: 7.0 };
 
-/// The packet that has the patch in lane 0 and is culled elsewhere.
+/// The packet that has the patch in lane 0; the other lanes are culled.
 pub(crate) fn packet() -> Packet {
     let mut raw: Column<f32> = [[0.0; LANES]; MAX_FACTORS];
     for (number, factor) in PatchFactors::Quad(QUAD).iter().enumerate() {

@@ -1,13 +1,13 @@
-//! Bounds on how far a patch bends away from the triangles that replace it.
+//! Bounds on the distance between a patch and the triangles that replace it.
 //!
-//! If a triangle's corners lie on a surface and its domain triangle has extents a in u and b in v,
-//! no point of it is further from the surface's point with the same domain coordinates than
-//! (a^2 Muu + 2 a b Muv + b^2 Mvv) / 8, where M are the largest lengths of the second derivatives
-//! (D. Filip, R. Magedson, R. Markot, *Surface algorithms using bounds on derivatives*, Computer
-//! Aided Geometric Design 3(4), 1986). As 2ab <= a^2 + b^2, it is enough that
-//! a^2 (Muu + Muv) and b^2 (Mvv + Muv) are each at most 4 tolerance: the two axes part.
-//! The derivatives are bounded by their control points. For rational patches the control points'
-//! positions are taken as a polynomial patch's, so the result is an estimate there.
+//! Consider a triangle whose corners are on a surface and whose domain triangle has extents a in u
+//! and b in v. No point of it is further from the surface's point with the same domain coordinates
+//! than (a^2 Muu + 2 a b Muv + b^2 Mvv) / 8, where M are the largest lengths of the second
+//! derivatives (D. Filip, R. Magedson, R. Markot, *Surface algorithms using bounds on derivatives*,
+//! Computer Aided Geometric Design 3(4), 1986). Because 2ab <= a^2 + b^2, it is enough that a^2
+//! (Muu + Muv) and b^2 (Mvv + Muv) are each at most 4 tolerance, which separates the two axes. The
+//! derivatives are bounded by their control points. The control points' positions of a rational
+//! patch are treated as those of a polynomial one, so its bounds are only estimates.
 
 use crate::bezier::BezierPatch;
 use crate::patch::Surface;
@@ -24,13 +24,13 @@ pub struct Bend {
     pub v: f32,
 }
 
-/// The triangles of a tessellated quad extend over at most one segment of the coarsest factor,
-/// as long as factors are powers of two. (With others, up to five: the stitch between two rows
-/// advances in ruler order, which then runs ahead of the positions.)
+/// The largest extent of a tessellated quad's triangles, in segments of the coarsest factor. It is
+/// one segment if factors are powers of two. (With other factors it is up to five: the stitch
+/// between two rows advances in ruler order, which then runs ahead of the positions.)
 const QUAD_EXTENT: f32 = 1.0;
 
-/// The same for triangles, whose inside rings are shifted by a third of a segment; exactly 4/3
-/// but for the rounding of their points.
+/// The same for triangle patches, whose inside rings are shifted by a third of a segment: 4/3, and
+/// a little more for the rounding of points.
 const TRIANGLE_EXTENT: f32 = 1.334;
 
 impl Bend {
@@ -49,8 +49,8 @@ impl Bend {
         }
     }
 
-    /// The bound along the running coordinate of edge `edge` of a patch with these sides; on a
-    /// triangle the larger of both.
+    /// The bound along the running coordinate of edge `edge` of a patch with these sides; for a
+    /// triangle, the larger of the two bounds.
     #[must_use]
     pub fn along(&self, sides: &Sides<()>, edge: usize) -> f32 {
         match (sides, edge) {

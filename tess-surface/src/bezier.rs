@@ -10,8 +10,8 @@ use glam::{Vec3, Vec4};
 
 /// A bicubic patch over the unit square: `points[row][column]`, rows along v, columns along u.
 ///
-/// Points are homogeneous, (w x, w y, w z, w) with w > 0; a polynomial patch has w = 1
-/// throughout and is evaluated without rounding differences to a rational one.
+/// Points are homogeneous, (w x, w y, w z, w) with w > 0. A polynomial patch has w = 1 everywhere;
+/// it evaluates to the same bits as a rational patch with these weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BezierPatch {
     /// The control points.
@@ -29,7 +29,7 @@ struct Jet {
     vv: Vec4,
 }
 
-/// The control points of a patch in the form that they are evaluated in.
+/// The control points of a patch, in the form that evaluation uses.
 #[derive(Debug)]
 pub(crate) enum Net {
     Polynomial([[Vec3; 4]; 4]),
@@ -93,7 +93,7 @@ impl BezierPatch {
         }
     }
 
-    /// The control points in the form that they are evaluated in.
+    /// The control points, in the form that evaluation uses.
     pub(crate) fn net(&self) -> Net {
         if self.is_polynomial() {
             Net::Polynomial(self.points.map(|row| row.map(Vec4::truncate)))
@@ -108,26 +108,26 @@ impl BezierPatch {
         weights.fold(0, |others, weight| others | (weight ^ 1.0f32.to_bits())) == 0
     }
 
-    /// The unit normal, on the side from which u to v turns counter-clockwise.
+    /// The unit normal, on the side from which the turn from u to v is counter-clockwise.
     ///
-    /// Where the partial derivatives do not span a plane, as at a corner onto which a whole edge
-    /// is collapsed, it is the limit of the normals on the way from inside the patch.
+    /// Where the partial derivatives do not span a plane, for example at an edge that is collapsed
+    /// to a point, it is the limit of the normals along a way from inside the patch.
     #[must_use]
     pub fn normal(&self, u: f32, v: f32) -> Vec3 {
         let tangents = self.frame(u, v).tangents;
         tangents.normal().or_else(|| self.limit_normal(u, v)).unwrap_or(Vec3::Z)
     }
 
-    /// The first term of the normal's expansion along a way inwards that does not vanish.
+    /// The first term of the normal's expansion along an inward direction that does not vanish.
     ///
-    /// With N = Su x Sv = 0 at (u, v), N there is to first order the way's
-    /// a (Suu x Sv + Su x Suv) + b (Suv x Sv + Su x Svv), (a, b) pointing into the patch.
+    /// If N = Su x Sv is 0 at (u, v), the first-order term along (a, b), which points into the
+    /// patch, is a (Suu x Sv + Su x Suv) + b (Suv x Sv + Su x Svv).
     pub(crate) fn limit_normal(&self, u: f32, v: f32) -> Option<Vec3> {
         let jet = self.jet(u, v);
         let inwards = |x: f32| if x < 0.5 { 1.0 } else { -1.0 };
         let first_order = jet.normal_derivative(inwards(u), inwards(v));
         crate::math::unit(first_order).or_else(|| {
-            // Flatter still: the normal a little further inside.
+            // That vanishes too: take the normal a little further inside.
             let nearer = |x: f32| x + (0.5 - x) / 64.0;
             self.frame(nearer(u), nearer(v)).tangents.normal()
         })
@@ -146,7 +146,7 @@ impl BezierPatch {
 }
 
 impl Jet {
-    /// The derivative of Su x Sv along (a, b), by the quotient rule where weights vary.
+    /// The derivative of Su x Sv along (a, b), by the quotient rule because weights may vary.
     fn normal_derivative(&self, a: f32, b: f32) -> Vec3 {
         let position = project(self.s);
         let du = quotient(self.u, self.s, position);

@@ -1,14 +1,14 @@
 //! Vertices on edges and corners, eight at a time.
 //!
-//! A point on an edge must be computed from the edge alone, or else two patches that share it round
-//! differently and a crack opens; so [`SurfacePatch::boundary`] replaces what the formulas of the
-//! inside gave there. `Formulas::evaluate` calls it once for each eight points, after the inside;
-//! `SurfacePatch::sample` has the same rules for one point, with branches.
+//! A point on an edge must be computed from only the edge. Otherwise two patches that share it
+//! round differently and a crack opens. [`SurfacePatch::boundary`] therefore replaces the results
+//! of the formulas of the inside there. `Formulas::evaluate` calls it once per eight points, after
+//! the inside; `SurfacePatch::sample` has the same rules for one point, with branches.
 //!
 //! # The data
 //!
-//! A block has eight lanes, a point in each, and all eight are computed alike. `on_edges` has a
-//! word for each lane, with a bit for each edge that the point is on:
+//! A block has eight lanes with a point in each, and all eight go through the same operations.
+//! `on_edges` has a word for each lane, with a bit for each edge that the point is on:
 //!
 //! ```text
 //!   bit            3        2        1        0
@@ -20,7 +20,7 @@
 //!
 //! # One block
 //!
-//! A flat quad with corners (0,0,0), (4,0,0), (4,4,2), (0,4,0), at eight points. The edge u = 1
+//! A bilinear quad with corners (0,0,0), (4,0,0), (4,4,2), (0,4,0), at eight points. The edge u = 1
 //! runs from (4,0,0) to (4,4,2), which is also its canonical direction, so a lane's parameter on it
 //! is v.
 //!
@@ -36,8 +36,7 @@
 //!   position   2,2,.5    0,1,0     4,1,.5    2,0,0     4,4,2     2,4,1     4,3,1.5   1,2,.25
 //! ```
 //!
-//! Pass 2 computes all eight lanes at t = v, then keeps lanes 2 and 6 by a select. This is the same
-//! block:
+//! Pass 2 computes all eight lanes at t = v, then selects lanes 2 and 6. The same block in code:
 //!
 //! ```
 //! use tess_surface::glam::Vec3;
@@ -55,25 +54,27 @@
 //!
 //! # What must hold
 //!
-//! - A lane's result depends on its own point alone: never on the other lanes, nor on which lane it
-//!   is. Otherwise a block of another length would give other bits (`tests/surfaces/samples.rs`
+//! - A lane's result depends only on its own point, not on the other lanes or on the lane's number.
+//!   Otherwise a block of another length would give other bits (`tests/surfaces/samples.rs`
 //!   compares blocks of 1, 3, 8 and 13 points).
 //! - On an edge the only inputs are the edge's control points in canonical direction, and the
-//!   parameter in that direction. Anything of the patch itself, and both sides would differ.
-//! - The parameter of the other direction, 1 - t, is exact: domain points are multiples of 2^-16.
-//! - At t = 0 and t = 1 the position is the end control point itself, not what the formula rounds
-//!   to: corners belong to more edges than one.
-//! - Zeros are positive in the results, as equal positions must have equal bits.
-//! - What runs in lanes has no branch that a lane decides, and is `#[inline(always)]` from the
-//!   level's function down to here. Otherwise the compiler makes no vectors, or only those of the
-//!   baseline.
+//!   parameter in that direction. If anything of the patch itself were used, the two sides would
+//!   differ.
+//! - The parameter of the other direction, 1 - t, is exact, because domain points are multiples of
+//!   2^-16.
+//! - At t = 0 and t = 1 the position is the end control point itself, not the rounded result of the
+//!   formula, because a corner belongs to more than one edge.
+//! - Zeros are positive in the results, because equal positions must have equal bits.
+//! - Code that runs in lanes has no branch that depends on a lane, and is `#[inline(always)]` from
+//!   the level's function down to here. Otherwise the compiler makes no vectors, or only those of
+//!   the baseline.
 //!
 //! # The simpler form
 //!
-//! Point by point, as `SurfacePatch::sample`: then the inside ran in lanes and every point of an
-//! edge alone. At factor 8, where 32 of 81 points are on the boundary, that took 27 ns a vertex on
-//! bicubic patches and 29 on PN triangles; with edges in lanes it takes 17 and 12
-//! (docs/experiments.md, "Evaluation in lanes"). Corners are still one by one: a patch has three or
+//! Only the inside in lanes, and the points of edges one by one, as in `SurfacePatch::sample`. At
+//! factor 8, where 32 of 81 points are on the boundary, that took 27 ns per vertex on bicubic
+//! patches and 29 on PN triangles; with edges in lanes it takes 17 and 12 (docs/experiments.md,
+//! "Evaluation in lanes"). Corners are still computed one by one, because a patch has only three or
 //! four.
 
 use crate::curve::{Curve, Direction, Edge};
@@ -89,7 +90,7 @@ trait Along {
     fn position(&self, t: f32) -> Vec3;
 }
 
-/// The ends.
+/// The ends of a line.
 impl Along for [Vec3; 2] {
     #[inline(always)]
     fn position(&self, t: f32) -> Vec3 {
@@ -117,14 +118,14 @@ impl Along for [Homogeneous; 4] {
     }
 }
 
-/// `start` up to t = 0, `end` from t = 1 on.
+/// `start` for t <= 0, `end` for t >= 1, otherwise `between`.
 #[inline(always)]
 fn at_ends(t: f32, start: Vec3, between: Vec3, end: Vec3) -> Vec3 {
     let inner = select(t >= 1.0, end, between);
     select(t <= 0.0, start, inner)
 }
 
-/// The edges that the lanes' points are on: a bit for each.
+/// The edges that each lane's point is on, a bit for each edge.
 #[inline(always)]
 fn edges_of<T>(sides: &Sides<T>, u: &Lanes, v: &Lanes) -> Lanes<u32> {
     let mut edges = [0; LANES];
@@ -149,13 +150,13 @@ pub(crate) const fn running<T>(sides: &Sides<T>, edge: usize, vertices: &Vertice
 }
 
 impl Vertices {
-    /// Whether a lane's point is on an edge, without its ends.
+    /// Whether a lane's point is on an edge, but not at its ends.
     #[inline(always)]
     pub(crate) const fn is_on(&self, edge: usize, lane: usize) -> bool {
         self.on_edges[lane] == 1 << edge
     }
 
-    /// Whether any lane's point is on an edge, without its ends.
+    /// Whether any lane's point is on an edge, but not at its ends.
     #[inline(always)]
     pub(crate) fn any_on(&self, edge: usize) -> bool {
         self.on_edges.contains(&(1 << edge))
@@ -169,7 +170,8 @@ impl Vertices {
 }
 
 impl SurfacePatch {
-    /// Replaces what points on edges and corners have from those alone.
+    /// Replaces the values of points on edges and corners by values that depend only on the edge or
+    /// the corner.
     #[inline(always)]
     pub(crate) fn boundary(&self, vertices: &mut Vertices) {
         vertices.on_edges = edges_of(self.edges(), &vertices.u, &vertices.v);
@@ -191,7 +193,7 @@ impl SurfacePatch {
         }
     }
 
-    /// Texture coordinates on an edge.
+    /// Sets the texture coordinates of points on an edge.
     #[inline(always)]
     fn edge_texcoords(
         &self,
@@ -210,7 +212,8 @@ impl SurfacePatch {
         }
     }
 
-    /// Normals on an edge, of surfaces where they follow from it.
+    /// Sets the normals of points on an edge, for surfaces whose normals there depend only on the
+    /// edge.
     #[inline(always)]
     fn edge_normals(&self, vertices: &mut Vertices, edge: usize, direction: Direction, t: &Lanes) {
         let along = match self.surface() {
@@ -227,7 +230,7 @@ impl SurfacePatch {
         }
     }
 
-    /// The vertex of a lane that is on a corner.
+    /// Sets the vertex of a lane whose point is on a corner.
     fn corner_vertex(&self, lane: usize, vertices: &mut Vertices) {
         let (u, v) = (vertices.u[lane], vertices.v[lane]);
         let place = self.place(u, v);
@@ -242,7 +245,7 @@ impl SurfacePatch {
     }
 }
 
-/// Positions on an edge.
+/// Sets the positions of points on an edge.
 #[inline(always)]
 fn curve_positions(vertices: &mut Vertices, number: usize, edge: &Edge, t: &Lanes) {
     let is_one = |point: &Vec4| point.w.to_bits() == 1.0f32.to_bits();
@@ -257,7 +260,7 @@ fn curve_positions(vertices: &mut Vertices, number: usize, edge: &Edge, t: &Lane
     }
 }
 
-/// Positions on a curve.
+/// Sets the positions of points on a curve.
 #[inline(always)]
 fn along(
     vertices: &mut Vertices,

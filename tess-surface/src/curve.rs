@@ -5,7 +5,7 @@ use glam::{Vec3, Vec4};
 
 /// A boundary of a patch: a straight line or a cubic Bezier curve, rational or not.
 ///
-/// A polynomial point has weight 1, and stays at weight 1 under every operation here.
+/// A point of a polynomial curve has weight 1, and keeps it under every operation here.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Curve {
     /// The line from the first point to the second.
@@ -30,7 +30,7 @@ impl Curve {
         }
     }
 
-    /// The point at `t` in 0..=1; the ends are the end control points exactly.
+    /// The point at `t` in 0..=1. At the ends it is exactly the end control point.
     #[must_use]
     pub fn position(&self, t: f32) -> Vec3 {
         let point = match *self {
@@ -54,7 +54,7 @@ impl Curve {
         }
     }
 
-    /// The position of all control points, if they have one and the same.
+    /// The common position of all control points; `None` if they differ.
     #[must_use]
     pub fn collapsed_to(&self) -> Option<Vec3> {
         let points = match *self {
@@ -92,14 +92,14 @@ pub enum Direction {
     Along,
     /// The patch runs against the canonical direction.
     Against,
-    /// The curve is the same both ways, so there is no canonical direction.
+    /// The curve is the same in both directions, so there is no canonical direction.
     Symmetric,
 }
 
 impl Direction {
-    /// The canonical parameter of the patch's own parameter `t`, exactly for multiples of 2^-24.
+    /// The canonical parameter for the patch's own parameter `t`. Exact for multiples of 2^-24.
     ///
-    /// A symmetric curve is folded in its middle.
+    /// A symmetric curve is folded at its middle.
     #[must_use]
     #[inline(always)]
     pub fn canonical(self, t: f32) -> f32 {
@@ -113,8 +113,8 @@ impl Direction {
 
 /// A boundary curve of a patch in canonical direction, which is the same from both sides.
 ///
-/// The direction follows from the control points alone. So patches that know nothing of each other,
-/// but have equal control points forwards or backwards, evaluate to equal bits.
+/// The direction depends only on the control points. Patches that know nothing of each other, but
+/// have equal control points forwards or backwards, therefore evaluate to equal bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
     /// The curve in canonical direction.

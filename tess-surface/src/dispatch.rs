@@ -18,14 +18,14 @@ at_each_level! {
 }
 
 impl SurfacePatch {
-    /// The vertices at these domain points: the bits of [`SurfacePatch::sample`] at each, several
-    /// times as fast. Vertices or points that the other slice has no partner for are left alone.
+    /// The vertices at these domain points: the same bits as [`SurfacePatch::sample`] at each, but
+    /// several times as fast. If one slice is longer, the rest of it is ignored.
     pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
         plain(Level::detect(), self, points, samples);
     }
 
-    /// [`SurfacePatch::samples`] with the instructions of a CPU level, which gives the same bits as
-    /// every other.
+    /// [`SurfacePatch::samples`] with the instructions of a CPU level. All levels give the same
+    /// bits.
     ///
     /// # Errors
     /// [`LevelUnavailableError`] if this machine cannot run the level.
@@ -42,7 +42,8 @@ impl SurfacePatch {
 }
 
 impl DisplacedPatch<'_> {
-    /// The displaced vertex at the domain point (u, v), in 0..=1 as a tessellator outputs it.
+    /// The displaced vertex at the domain point (u, v), each coordinate in 0..=1 as a tessellator
+    /// outputs it.
     #[must_use]
     pub fn sample(&self, point: [f32; 2]) -> Sample {
         let mut sample = [Sample::default()];
@@ -50,15 +51,14 @@ impl DisplacedPatch<'_> {
         sample[0]
     }
 
-    /// The displaced vertices at these domain points: the bits of [`DisplacedPatch::sample`] at
-    /// each, several times as fast. Vertices or points that the other slice has no partner for are
-    /// left alone.
+    /// The displaced vertices at these domain points: the same bits as [`DisplacedPatch::sample`]
+    /// at each, but several times as fast. If one slice is longer, the rest of it is ignored.
     pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
         of_displaced(Level::detect(), self, points, samples);
     }
 
-    /// [`DisplacedPatch::samples`] with the instructions of a CPU level, which gives the same bits
-    /// as every other.
+    /// [`DisplacedPatch::samples`] with the instructions of a CPU level. All levels give the same
+    /// bits.
     ///
     /// # Errors
     /// [`LevelUnavailableError`] if this machine cannot run the level.

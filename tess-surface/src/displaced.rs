@@ -1,11 +1,11 @@
 //! Displacement along the normal by a height image.
 //!
 //! Neighbours may disagree about the normal and, on a seam of the image, about the texture
-//! coordinates. So a shared edge has the mean of both sides' normals as its direction, and the
-//! texture coordinates of one side; a corner has one direction and one pair of coordinates for
-//! all patches of a sheet (`sheets.rs`) that meet there (as in I. Castaño, *Tessellation of
-//! Displaced Subdivision Surfaces in DX11*, Gamefest 2008). Shading follows J. F. Blinn,
-//! *Simulation of Wrinkled Surfaces*, SIGGRAPH 1978.
+//! coordinates. A shared edge therefore takes the mean of both sides' normals as its direction, and
+//! the texture coordinates of one side. A corner has one direction and one pair of coordinates for
+//! all patches of a sheet (`sheets.rs`) that meet there. This follows I. Castaño, *Tessellation of
+//! Displaced Subdivision Surfaces in DX11*, Gamefest 2008. Shading follows J. F. Blinn, *Simulation
+//! of Wrinkled Surfaces*, SIGGRAPH 1978.
 
 use crate::boundary::running;
 use crate::curve::{Direction, Edge};
@@ -31,7 +31,7 @@ struct Anchor {
 }
 
 impl Anchor {
-    /// The anchor at `t` on the way to another one.
+    /// The anchor at `t` between this one and `end`.
     fn towards(self, end: Self, t: f32) -> Self {
         let direction = self.direction + (end.direction - self.direction) * t;
         let texcoord = self.texcoord + (end.texcoord - self.texcoord) * t;
@@ -43,7 +43,7 @@ impl Anchor {
 #[derive(Clone, Debug, PartialEq)]
 struct Anchors {
     anchors: Vec<Anchor>,
-    /// The anchor of each corner, four numbers per patch.
+    /// The number of each corner's anchor, four per patch.
     of_corner: Vec<u32>,
 }
 
@@ -56,7 +56,7 @@ impl Anchors {
             let patch = model.patch(number);
             let samples = corner_coordinates(patch.edges()).map(|at| patch.sample(at));
             let samples = samples.as_slice();
-            // The fourth corner of a triangle is its first one again, and is not used.
+            // The fourth corner of a triangle repeats the first and is not used.
             for corner in 0..4 {
                 let sample = samples.get(corner).unwrap_or(&samples[0]);
                 positions.push(sample.position);
@@ -79,8 +79,8 @@ impl Anchors {
     }
 }
 
-/// At the first corner of each anchor, the sum of its corners' normals and its own texture
-/// coordinates.
+/// For the first corner of each anchor, the sum of the normals of the anchor's corners, and this
+/// corner's texture coordinates.
 fn sums(corners: &[Option<Sample>], of_corner: &[u32]) -> Vec<Anchor> {
     let none = Anchor { direction: Vec3::ZERO, texcoord: Vec2::ZERO };
     let mut anchors = vec![none; corners.len()];
@@ -94,7 +94,7 @@ fn sums(corners: &[Option<Sample>], of_corner: &[u32]) -> Vec<Anchor> {
     anchors
 }
 
-/// Gives each sheet its own anchor where sheets with different normals meet at a corner. Returns
+/// Gives each sheet its own anchor at corners where sheets with different normals meet. Returns
 /// whether there is such a corner.
 fn separate_sheets(
     model: &Model,
@@ -134,8 +134,8 @@ pub struct DisplacedModel<'a> {
 }
 
 impl<'a> DisplacedModel<'a> {
-    /// Finds the directions and texture coordinates that patches share at their corners, which
-    /// evaluates every patch there.
+    /// Finds the directions and texture coordinates that patches share at their corners. This
+    /// evaluates every patch at its corners.
     #[must_use]
     pub fn new(model: &'a Model, displacement: &'a Displacement) -> Self {
         Self { model, displacement, anchors: Anchors::of(model) }
@@ -169,7 +169,7 @@ impl<'a> DisplacedModel<'a> {
     }
 }
 
-/// A patch with its displacement and with what it shares with its neighbours.
+/// A patch with its displacement, and the data that it shares with its neighbours.
 #[derive(Clone, Debug)]
 pub struct DisplacedPatch<'a> {
     displacement: &'a Displacement,
@@ -183,9 +183,9 @@ struct Side {
     corner: Anchor,
     /// The patch beyond the edge, and the edge's number there.
     beyond: Option<(SurfacePatch, usize)>,
-    /// Whether the edge has no single other side, so that only its ends say where it moves.
+    /// Whether the edge has no single other side; then its displacement depends only on its ends.
     is_seam: bool,
-    /// Whether the edge has this patch's texture coordinates, not those of the patch beyond.
+    /// Whether the edge takes this patch's texture coordinates, not those of the patch beyond.
     leads: bool,
 }
 
@@ -260,7 +260,7 @@ impl DisplacedPatch<'_> {
         for lane in (0..LANES).filter(|&lane| vertices.is_on(edge, lane)) {
             let t = direction.canonical(own[lane]);
             let anchor = match direction {
-                // Collapsed, or without a canonical direction: the whole edge has one anchor.
+                // The edge is collapsed or has no canonical direction: all of it has one anchor.
                 Direction::Symmetric => start,
                 Direction::Along => start.towards(end, t),
                 Direction::Against => end.towards(start, t),
@@ -330,15 +330,15 @@ impl Anchors8 {
     }
 }
 
-/// 2^-45, which brings the fourth powers of tangents of 2^32 to 2^58 into range.
+/// 2^-45: with this unit, fourth powers of tangents of 2^32 to 2^58 are in range.
 const SMALLER: f32 = 1.0 / 35_184_372_088_832.0;
 
 /// The normal over heights with these slopes along u and v: Blinn's N' = N + hu (n x Sv) + hv (Su x
 /// n), with N = Su x Sv taken along the shading normal.
 #[inline(always)]
 fn wrinkled_normal(normal: Vec3, Tangents { du, dv }: Tangents, [hu, hv]: [f32; 2]) -> Vec3 {
-    // The area is a square root of fourth powers. Where these overflow, so does it, and the
-    // whole is computed in smaller units of length.
+    // The area is a square root of fourth powers. If these overflow, the area does, and everything
+    // is computed in smaller numbers.
     let units = if length(du.cross(dv)) < f32::INFINITY { 1.0 } else { SMALLER };
     let (du, dv, hu, hv) = (du * units, dv * units, hu * units, hv * units);
     let area = length(du.cross(dv));

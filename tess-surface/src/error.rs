@@ -1,4 +1,4 @@
-//! Why a mesh or a patch is refused.
+//! The reasons to refuse a mesh, a patch or a height image.
 
 use tess_core::Domain;
 use thiserror::Error;
@@ -7,15 +7,15 @@ use thiserror::Error;
 ///
 /// Lengths, bounds of derivatives and normals are square roots of sums of squares of differences of
 /// coordinates. The largest such differences are the tangents of curved quads, up to 32 times as
-/// large as the corners' coordinates, so that the sums stay below 1e36; binary32 ends at 3.4e38.
-/// Beyond that, positions would be infinite or NaN.
+/// large as the corners' coordinates. Within this limit the sums stay below 1e36; binary32 ends at
+/// 3.4e38, and larger sums would make results infinite or NaN.
 pub const MAX_COORDINATE: f32 = 1e16;
 
-/// Fault of one face or patch.
+/// A fault of one face or patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum FaceError {
-    /// An index points beyond its list.
+    /// An index is past the end of its list.
     #[error("a {what} index is out of range: there are {count}")]
     OutOfRange {
         /// The name of the list's elements.
@@ -23,22 +23,22 @@ pub enum FaceError {
         /// The number of elements in the list.
         count: usize,
     },
-    /// The normals or texture coordinates are not one for each corner.
+    /// The number of normals or texture coordinates is not the number of corners.
     #[error("a face of {corners} corners has {found} {what} indices")]
     WrongCount {
         /// The name of the elements.
         what: &'static str,
-        /// How many the face has.
+        /// The number that the face has.
         found: usize,
         /// The number of its corners.
         corners: usize,
     },
-    /// A position or texture coordinate is NaN or infinite, or a normal has no direction. The
-    /// string names which.
+    /// A position, texture coordinate or control point is NaN or infinite, or a normal has no
+    /// direction. The string says which of them.
     #[error("a {0} is {zero}NaN or infinite", zero = if *.0 == "normal" { "zero, " } else { "" })]
     NotFinite(&'static str),
     /// A position, texture coordinate or control point has a coordinate beyond [`MAX_COORDINATE`].
-    /// The string names which.
+    /// The string says which of them.
     #[error(
         "a {0} is too large to be evaluated: coordinates must lie within {MAX_COORDINATE:e} of 0"
     )]
@@ -46,7 +46,7 @@ pub enum FaceError {
     /// Two neighbouring corners have the same position.
     #[error("two neighbouring corners are in the same place")]
     RepeatedCorner,
-    /// All corners or control points lie on one line.
+    /// All corners or control points are on one line.
     #[error("it has zero area")]
     NoArea,
     /// A weight is not greater than zero.
@@ -54,7 +54,7 @@ pub enum FaceError {
     Weight,
 }
 
-/// Why a mesh cannot be tessellated.
+/// The reason why a mesh or a list of patches cannot be made into a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MeshError {
@@ -67,7 +67,7 @@ pub enum MeshError {
         /// The number of faces.
         faces: usize,
     },
-    /// One face, the first such, is at fault.
+    /// A face has a fault; this is the first such face.
     #[error("face {face}: {fault}")]
     Face {
         /// Its number, from 0.
@@ -77,7 +77,7 @@ pub enum MeshError {
     },
 }
 
-/// A value for each corner was given for another domain than the surface's.
+/// Values for the corners of another domain than the surface's were given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("the values belong to a {found:?} patch, but the surface is a {expected:?}")]
 pub struct WrongDomainError {
@@ -87,7 +87,7 @@ pub struct WrongDomainError {
     pub expected: Domain,
 }
 
-/// Why there is no such height image, or no such displacement by it.
+/// The reason why a height image, or a displacement by it, is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HeightError {
@@ -96,7 +96,7 @@ pub enum HeightError {
         "there are {texels} texels for an image of {width} x {height}; give one for each place, and at least one"
     )]
     WrongLength {
-        /// How many texels there are.
+        /// The number of texels.
         texels: usize,
         /// The width of the image.
         width: usize,

@@ -1,22 +1,22 @@
 //! Tessellation factors by rule, each a function of the edge.
 //!
-//! A rule gets what both patches of an edge share, and gives the same bits whichever patch asks. So
-//! neighbours have the same factor, and no crack opens. Inside factors open no crack whatever they
-//! are.
+//! A rule depends only on data that both patches of an edge share, and gives the same bits for
+//! either patch. Neighbours therefore have the same factor, and no crack opens. Inside factors
+//! cannot open cracks.
 //!
-//! As WGSL, tess-gpu's `surfaces::FACTORS` has the functions for straight edges, and
-//! `surfaces::BEZIER_FACTORS` the rules of [`FactorRule`] for cubic ones.
+//! In WGSL, tess-gpu's `surfaces::FACTORS` has the functions for straight edges, and
+//! `surfaces::BEZIER_FACTORS` the rules of [`FactorRule`] for cubic edges.
 //!
 //! # Insides
 //!
-//! Rules that look at edges only give an inside factor the *mean* of the edges: on a quad of the
-//! two that run the same way, on a triangle of all three. The Direct3D 11 samples do so, and HLSL's
-//! `ProcessQuadTessFactorsAvg`. Opposite edges differ because one is nearer to the eye, and the
-//! middle of the patch is between them, so its segments get about the length that the rule asks
-//! for. The larger of the edges would make them too short, up to half.
+//! Rules that depend only on edges give an inside factor the *mean* of the edges: of the two edges
+//! that run the same way on a quad, of all three on a triangle. So do the Direct3D 11 samples and
+//! HLSL's `ProcessQuadTessFactorsAvg`. Opposite edges differ because one is nearer to the eye. The
+//! middle of the patch is between them, so with the mean its segments have about the length that
+//! the rule asks for. With the larger factor they would be too short, down to half of that.
 //!
-//! [`FactorRule::Flatness`] takes the *larger* instead: its bound holds for powers of two, and a
-//! mean is none.
+//! [`FactorRule::Flatness`] takes the *larger* factor instead: its bound holds for powers of two,
+//! and a mean is in general not one.
 
 use crate::bend::Bend;
 use crate::curve::Curve;
@@ -29,7 +29,7 @@ use crate::topology::HalfEdge;
 use glam::Vec3;
 use tess_core::{Partitioning, PatchFactors, QuadFactors, TriangleFactors};
 
-/// How many segments an edge gets.
+/// A rule for the number of segments of an edge.
 ///
 /// Every number is valid. A rule's result is clamped to 1..=64, and NaN becomes 1, so that a rule
 /// never culls a patch.
@@ -45,17 +45,17 @@ pub enum FactorRule {
         /// The factor at distance 1.
         scale: f32,
     },
-    /// Segments of about `segment` pixels. The edge is seen as the sphere around its middle whose
-    /// diameter is its length; a sphere looks the same from all sides, so edges that point away
-    /// from the eye keep their segments (I. Cantlay, *DirectX 11 Terrain Tessellation*,
-    /// NVIDIA 2011).
+    /// Segments of about `segment` pixels. The edge is measured as the sphere around its middle
+    /// whose diameter is its length. A sphere looks the same from all sides, so edges that point
+    /// away from the eye keep their segments (I. Cantlay, *DirectX 11 Terrain Tessellation*, NVIDIA
+    /// 2011).
     ScreenSize {
         /// The position of the eye.
         eye: Vec3,
-        /// The pixels that a length of 1 covers at distance 1, across the view: for a picture of
-        /// height h pixels and field of view f, h / (2 tan(f / 2)).
+        /// The number of pixels that a length of 1 covers at distance 1, across the view: h / (2
+        /// tan(f / 2)) for a picture of height h pixels and a field of view f.
         pixels_per_unit: f32,
-        /// The wanted length of a segment, in pixels.
+        /// The desired length of a segment, in pixels.
         segment: f32,
     },
     /// The number of segments that keeps every point of a triangle within `tolerance` of the
@@ -69,7 +69,7 @@ pub enum FactorRule {
     },
 }
 
-/// The range of factors of all partitionings together.
+/// The range of factors over all partitionings.
 const RANGE: (f32, f32) = (1.0, 64.0);
 
 /// The factor clamped to 1..=64; 1 for NaN.
@@ -91,8 +91,8 @@ pub fn root_quotient(dividend: f32, divisor: f32) -> f32 {
     within(dividend, divisor, RANGE.1 * RANGE.1, sqrt)
 }
 
-/// A function of a quotient, which is computed only between 1 and `most`, a power of two: WGSL
-/// leaves the result of a division that overflows to the device.
+/// A function of a quotient, which is computed only between 1 and `most`, a power of two, because
+/// WGSL does not define the result of a division that overflows.
 fn within(dividend: f32, divisor: f32, most: f32, function: impl Fn(f32) -> f32) -> f32 {
     if dividend > divisor && divisor >= 0.0 {
         let is_most = dividend * (1.0 / most) >= divisor;
@@ -117,8 +117,8 @@ pub fn edge_by_length(ends: [Vec3; 2], pixels_per_unit: f32, segment: f32) -> f3
     quotient(ends[0].distance(ends[1]) * pixels_per_unit, segment)
 }
 
-/// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative
-/// or NaN, still does if `most` is positive.
+/// A factor of at most `most`, like HLSL's `maxtessfactor`. A factor that culls (0, negative or
+/// NaN) still culls if `most` is positive.
 #[must_use]
 pub const fn at_most(factor: f32, most: f32) -> f32 {
     if factor > most { most } else { factor }
@@ -141,22 +141,22 @@ pub fn edge_by_curvature(ends: [PnCorner; 2], tolerance: f32) -> f32 {
     root_quotient(0.75 * edge_bend(ends), tolerance)
 }
 
-/// A factor that keeps triangles within `tolerance` of a surface whose [`Bend`] along the edge is
-/// at most `bend`, as
-/// [`FactorRule::Flatness`]: a power of two.
+/// A factor, a power of two, that keeps triangles within `tolerance` of a surface whose [`Bend`]
+/// along the edge is at most `bend`, as [`FactorRule::Flatness`].
 #[must_use]
 pub fn edge_by_flatness(bend: f32, tolerance: f32) -> f32 {
     next_power_of_two(root_quotient(bend, 4.0 * tolerance))
 }
 
-/// The factors of an edge beside two edges of half its length, from the factor that a rule has for
-/// the whole edge: of the whole, a power of two in 2..=64, and of each half, half as much. The
-/// whole never gets less than the rule's.
+/// The factors of an edge next to two edges of half its length, from the factor that a rule gives
+/// the whole edge. The whole edge gets a power of two in 2..=64, at least the rule's factor; each
+/// half gets half of it.
 ///
-/// With these the domain points of the whole edge are those of both halves, under
-/// [`Partitioning::Integer`] and [`Partitioning::Pow2`]. With other factors, such as 6 beside 3 and
-/// 3, they differ by up to 9.5/65536 of the edge: the tessellator rounds every location to 1/65536,
-/// and the rounded halves are not the whole's. Neighbours must compute both from the whole edge.
+/// With these factors, the whole edge and its halves have the same domain points under
+/// [`Partitioning::Integer`] and [`Partitioning::Pow2`]. With other factors, such as 6 next to 3
+/// and 3, the points differ by up to 9.5/65536 of the edge: the tessellator rounds every location
+/// to 1/65536, and rounding differs between the halves and the whole. Neighbours must compute both
+/// factors from the whole edge.
 #[must_use]
 pub fn edge_beside_halves(factor: f32) -> [f32; 2] {
     let whole = next_power_of_two(clamp_factor(factor)).max(2.0);
@@ -170,13 +170,13 @@ pub fn inside_quad([u0, v0, u1, v1]: [f32; 4]) -> [f32; 2] {
     [0.5 * (v0 + v1), 0.5 * (u0 + u1)]
 }
 
-/// The inside factor of a triangle: the mean of its edges, exact where they are equal.
+/// The inside factor of a triangle: the mean of its edges, exact if they are equal.
 #[must_use]
 pub fn inside_triangle([u0, v0, w0]: [f32; 3]) -> f32 {
     u0 + ((v0 - u0) + (w0 - u0)) / 3.0
 }
 
-/// The same bits whichever end comes first.
+/// The middle of an edge, with the same bits whichever end comes first.
 fn middle([a, b]: [Vec3; 2]) -> Vec3 {
     (a + b) * 0.5
 }
@@ -197,12 +197,12 @@ impl FactorRule {
         }
     }
 
-    /// The factors of patch `number` of a model, prepared for `partitioning` as a hull shader does:
-    /// under `pow2` they are rounded up to powers of two, inside factors after their mean was
-    /// taken.
+    /// The factors of patch `number` of a model, prepared for `partitioning` as by a hull shader:
+    /// under `pow2` they are rounded up to powers of two, inside factors after taking their mean.
     ///
-    /// Inside factors are the means of the edges' ([`inside_quad`], [`inside_triangle`]). Under
-    /// [`FactorRule::Flatness`] they are the largest of what the edges have and the inside needs.
+    /// Inside factors are the means of the edges' factors ([`inside_quad`], [`inside_triangle`]).
+    /// Under [`FactorRule::Flatness`] they are the largest of the edges' factors and the factor
+    /// that the inside needs.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -230,7 +230,7 @@ impl FactorRule {
         self.prepare(outer, bend, partitioning)
     }
 
-    /// The bend of a patch, which only one rule looks at.
+    /// The bend of a patch, or zero for rules that do not use it.
     fn bend(&self, patch: &SurfacePatch) -> Bend {
         if matches!(self, Self::Flatness { .. }) { Bend::of(patch.surface()) } else { Bend::ZERO }
     }
@@ -248,8 +248,8 @@ impl FactorRule {
             Partitioning::Pow2 => next_power_of_two(factor),
             _ => factor,
         };
-        // The larger of these edges and what a bend needs, if the rule is about bends; or else
-        // their mean.
+        // Under the flatness rule the largest of these edges and the bend's own factor, otherwise
+        // the mean.
         let inside = |bend: f32, edges: &[f32], mean: f32| match *self {
             Self::Flatness { tolerance } => {
                 edges.iter().copied().fold(edge_by_flatness(bend, tolerance), f32::max)

@@ -1,7 +1,7 @@
-//! The formulas of a surface's inside in the form that loops over lanes evaluate.
+//! The formulas of a surface's inside, in the form that loops over lanes evaluate.
 //!
-//! They are methods of types, not closures: what is compiled for a CPU level is what is inlined
-//! into the level's function, and only functions can be inlined always.
+//! They are methods of types and not closures, because only code that is inlined into a CPU level's
+//! function is compiled for the level, and only functions can be marked as always inlined.
 
 use crate::bezier::Net;
 use crate::frame::{Frame, Frames, Tangents};
@@ -39,7 +39,7 @@ impl Frames for PnTriangle {
     }
 }
 
-/// The unit normal where the surface has one, without branches.
+/// A formula of the unit normal and whether it exists, without branches.
 trait Normals {
     fn normal(&self, tangents: &Tangents, u: f32, v: f32) -> (Vec3, bool);
 }
@@ -87,7 +87,7 @@ impl<'a> Formulas<'a> {
         Self { patch, net }
     }
 
-    /// Values at the points of `vertices` by the formulas of the inside.
+    /// Sets the values at the points of `vertices` by the formulas of the inside.
     #[inline(always)]
     pub(crate) fn inside(&self, vertices: &mut Vertices) {
         match (self.patch.surface(), &self.net) {
@@ -109,8 +109,8 @@ impl<'a> Formulas<'a> {
         }
     }
 
-    /// The vertices at these points: what is inside by the formulas of the inside, the rest by
-    /// those of edges and corners.
+    /// Sets the vertices at these points: points inside by the formulas of the inside, the others
+    /// by those of edges and corners.
     #[inline(always)]
     pub(crate) fn evaluate(&self, vertices: &mut Vertices) {
         self.inside(vertices);
@@ -144,7 +144,7 @@ impl Vertices {
 }
 
 impl SurfacePatch {
-    /// The normals that the formulas do not give.
+    /// Sets the normals that the formulas do not give.
     fn other_normals(&self, vertices: &mut Vertices) {
         for lane in 0..LANES {
             if vertices.has_normal[lane] == 0 {

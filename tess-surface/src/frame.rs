@@ -8,7 +8,7 @@ use glam::Vec3;
 pub struct Tangents {
     /// The derivative by u.
     pub du: Vec3,
-    /// The derivative by v (on triangles at constant u, so that w shrinks).
+    /// The derivative by v. On triangles u is constant, so w decreases.
     pub dv: Vec3,
 }
 
@@ -27,7 +27,7 @@ pub struct Frame {
 }
 
 impl Tangents {
-    /// The unit vector of du x dv; `None` where one of them is zero or they are parallel to within
+    /// The unit vector of du x dv; `None` if one of them is zero or they are parallel to within
     /// 2^-15.
     #[must_use]
     pub fn normal(&self) -> Option<Vec3> {

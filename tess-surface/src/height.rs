@@ -1,4 +1,4 @@
-//! Height images, and heights in the units of a model.
+//! Height images, and their use as displacements in the units of a model.
 
 use crate::error::{HeightError, MAX_COORDINATE};
 use crate::lanes::{LANES, Lanes, Lanes2};
@@ -6,7 +6,7 @@ use crate::math::{floor, is_in_range, round};
 use alloc::vec::Vec;
 use glam::Vec2;
 
-/// A grey image of heights over the plane of texture coordinates, whose unit square it fills.
+/// A grey image of heights that fills the unit square of texture coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightMap {
     width: usize,
@@ -15,15 +15,15 @@ pub struct HeightMap {
     address: Address,
 }
 
-/// Heights beyond the image, by the names that samplers have.
+/// The continuation of the heights beyond the image, named as in samplers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Address {
-    /// The image again.
+    /// The image repeats.
     #[default]
     Repeat,
-    /// The outermost texels, for ever.
+    /// The outermost texels continue without end.
     Clamp,
-    /// The image again, every second time reversed, so that copies meet at equal heights.
+    /// The image repeats, every second time reversed, so that copies meet at equal heights.
     Mirror,
 }
 
@@ -46,7 +46,7 @@ impl HeightMap {
         Ok(Self { width, height, texels, address: Address::Repeat })
     }
 
-    /// The same image with something else beyond it.
+    /// The same image with another continuation.
     #[must_use]
     pub fn with_address(self, address: Address) -> Self {
         Self { address, ..self }
@@ -67,9 +67,8 @@ impl HeightMap {
 
     /// The height at a place that is counted from the top: (0, 0) is the upper left corner of the
     /// image, (1, 1) the lower right one. The place is rounded to 1/256 of a texel, the precision
-    /// of samplers, as `tess_sample` of tess-gpu's `surfaces::HEIGHT` does, which clamps. Beyond a
-    /// clamped image every place has a height, infinity too; an image that repeats or is mirrored
-    /// has none at infinity: NaN.
+    /// of samplers, as in `tess_sample` of tess-gpu's `surfaces::HEIGHT`, which clamps. At infinity
+    /// a clamped image still has a height; an image that repeats or is mirrored gives NaN.
     #[must_use]
     pub fn height_at(&self, place: Vec2) -> f32 {
         self.at(place, |texels| round(texels * 256.0) / 256.0).0
@@ -99,7 +98,7 @@ impl HeightMap {
         }
     }
 
-    /// [`HeightMap::samples`] in the cells that a way to continue the image has for coordinates.
+    /// [`HeightMap::samples`], where `cell` finds the cell of a coordinate for one continuation.
     #[inline(always)]
     fn in_cells(&self, texcoords: &Lanes2, cell: impl Fn(f32, usize) -> Cell) -> (Lanes, Lanes2) {
         let (mut columns, mut rows) = ([Cell::default(); LANES], [Cell::default(); LANES]);
@@ -125,7 +124,7 @@ impl HeightMap {
         (heights, slopes)
     }
 
-    /// The texels at the corners of a cell: of its upper row, then of its lower row.
+    /// The texels at the corners of a cell: those of the upper row, then those of the lower row.
     #[inline(always)]
     fn corners(&self, columns: &Cell, rows: &Cell) -> [f32; 4] {
         let [left, right] = columns.texels.map(|column| column as usize);
@@ -144,10 +143,10 @@ impl HeightMap {
 #[derive(Clone, Copy, Default)]
 struct Cell {
     texels: [u32; 2],
-    /// The way from the first texel to the second one, 0 to 1.
+    /// The fraction of the way from the first texel to the second, 0 to 1.
     part: f32,
-    /// The derivative of the place in the image by the coordinate: 1, or -1 where the image is
-    /// reversed.
+    /// The derivative of the place in the image by the coordinate: 1, or -1 if the image is
+    /// reversed here.
     way: f32,
 }
 
@@ -182,7 +181,7 @@ fn repeated(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cel
     let scaled = precision((coordinate - floor(coordinate)) * texels(size) - 0.5);
     let before = floor(scaled);
     let last = size as i32 - 1;
-    // `before` is -1 on the first half texel, which wraps to the last one.
+    // `before` is -1 on the first half texel, which wraps to the last texel.
     let texel = if before < 0.0 { last } else { (before as i32).min(last) };
     let after = if texel == last { 0 } else { texel + 1 };
     Cell { texels: [texel as u32, after as u32], part: scaled - before, way: 1.0 }
@@ -197,8 +196,8 @@ fn repeated(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cel
     reason = "casts of floats saturate, and images are far smaller than 2^24"
 )]
 fn clamped(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cell {
-    // Within a texel of the image, so that the fraction is a number; further out both texels are
-    // the same.
+    // Limited to one texel around the image, so that the fraction is a number. Further out both
+    // texels are the same.
     let scaled = precision(coordinate * texels(size) - 0.5).max(-1.0).min(texels(size));
     let before = floor(scaled);
     // Casts turn NaN and numbers below 0 to 0.
@@ -206,10 +205,11 @@ fn clamped(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cell
     Cell { texels: [texel(before), texel(before + 1.0)], part: scaled - before, way: 1.0 }
 }
 
-/// The cell of a coordinate in an image that is mirrored: that of the coordinate folded to 0..=1.
+/// The cell of a coordinate in an image that is mirrored: the cell of the coordinate folded to
+/// 0..=1.
 #[inline(always)]
 fn mirrored(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> Cell {
-    // 0 to 2, exactly: halves of binary numbers have the same digits.
+    // 0 to 2, and exact, because halving a binary number keeps its digits.
     let in_pair = coordinate - 2.0 * floor(0.5 * coordinate);
     let is_reversed = in_pair > 1.0;
     let folded = if is_reversed { 2.0 - in_pair } else { in_pair };

@@ -1,9 +1,9 @@
 //! Several points side by side.
 //!
-//! A formula is written once, for one point, as a branch-free function of numbers. A loop over
-//! lanes that calls it becomes vectors of whatever width the CPU level has. Every lane has the bits
-//! that one point has: both run the same additions, multiplications, divisions and square roots,
-//! each correctly rounded, and nothing fuses two of them.
+//! A formula is written once, for one point, as a branch-free function of numbers. The compiler
+//! turns a loop over lanes that calls it into vectors of the CPU level's width. Every lane has the
+//! same bits as a single point: both run the same additions, multiplications, divisions and square
+//! roots, each correctly rounded, and no two are fused.
 
 use crate::patch::Sample;
 use glam::{Vec2, Vec3};
@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3};
 /// Points that are evaluated side by side.
 pub(crate) const LANES: usize = 8;
 
-/// A domain point of the inside, for lanes that have none.
+/// A domain point inside the patch, for lanes that have no point.
 pub(crate) const INSIDE: [f32; 2] = [0.5, 0.25];
 
 /// A number for each of the points.
@@ -62,7 +62,7 @@ impl Lanes2 {
     }
 }
 
-/// Eight vertices, and the tangents of the inside there.
+/// Eight vertices, and the tangents by the formulas of the inside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertices {
     pub(crate) u: Lanes,
@@ -71,15 +71,15 @@ pub(crate) struct Vertices {
     pub(crate) du: Lanes3,
     pub(crate) dv: Lanes3,
     pub(crate) normal: Lanes3,
-    /// Not zero where the normal's formula gives one.
+    /// Not 0 if the normal's formula gives a normal.
     pub(crate) has_normal: Lanes<u32>,
     pub(crate) texcoord: Lanes2,
-    /// The edges that the point is on: a bit for each.
+    /// The edges that the point is on, a bit for each edge.
     pub(crate) on_edges: Lanes<u32>,
 }
 
 impl Vertices {
-    /// No vertices yet, at up to eight domain points; lanes without a point have one of the inside.
+    /// Vertices to be computed at up to eight domain points. Lanes without a point get [`INSIDE`].
     #[inline(always)]
     pub(crate) fn at(points: &[[f32; 2]]) -> Self {
         let (mut u, mut v) = ([INSIDE[0]; LANES], [INSIDE[1]; LANES]);
@@ -99,7 +99,7 @@ impl Vertices {
         }
     }
 
-    /// Hands the vertices of as many lanes to `samples`.
+    /// Copies the vertices of the first lanes to `samples`.
     #[inline(always)]
     pub(crate) fn store(&self, samples: &mut [Sample]) {
         for (lane, sample) in samples.iter_mut().enumerate().take(LANES) {

@@ -1,10 +1,10 @@
-//! Small vector operations, with every rounding spelled out.
+//! Small vector operations with defined rounding.
 
 use crate::error::MAX_COORDINATE;
 use core::ops::{Add, Mul, Sub};
 use glam::{Vec3, Vec4};
 
-/// The point that a homogeneous point stands for; exact for weight 1.
+/// The point that a homogeneous point represents; exact for weight 1.
 #[inline(always)]
 pub(crate) fn project(point: Vec4) -> Vec3 {
     point.truncate() / point.w
@@ -16,7 +16,7 @@ pub(crate) fn plain_zero(point: Vec3) -> Vec3 {
     point + Vec3::ZERO
 }
 
-/// Integers that sort as the coordinates do and are equal where those are; -0 counts as 0.
+/// Integers with the order of the coordinates, equal if the coordinates are equal; -0 counts as 0.
 pub(crate) fn order_key(point: Vec4) -> [i32; 4] {
     let total_order = |x: f32| {
         let bits = (x + 0.0).to_bits().cast_signed();
@@ -25,7 +25,7 @@ pub(crate) fn order_key(point: Vec4) -> [i32; 4] {
     (point + Vec4::ZERO).to_array().map(total_order)
 }
 
-/// Whether no coordinate is beyond [`MAX_COORDINATE`]; NaN is.
+/// Whether no coordinate is beyond [`MAX_COORDINATE`]. NaN counts as beyond.
 pub(crate) fn is_in_range(coordinates: &[f32]) -> bool {
     coordinates.iter().all(|coordinate| coordinate.abs() <= MAX_COORDINATE)
 }
@@ -33,24 +33,25 @@ pub(crate) fn is_in_range(coordinates: &[f32]) -> bool {
 /// The square root, correctly rounded.
 #[inline(always)]
 pub(crate) fn sqrt(x: f32) -> f32 {
-    // The standard library's is one instruction, also in vectors.
+    // The standard library's square root is one instruction, also in vectors.
     #[cfg(feature = "std")]
     return x.sqrt();
     #[cfg(not(feature = "std"))]
     libm::sqrtf(x)
 }
 
-/// The nearest integer, the even one of two, as `libm::rintf`, in operations that vectors have.
+/// The nearest integer, ties to even, like `libm::rintf`, but in operations that vectors have.
 #[inline(always)]
 pub(crate) fn round(x: f32) -> f32 {
-    // From 2^23 on every number is an integer; adding it to a smaller one rounds that to an
+    // Numbers of at least 2^23 are integers, so adding 2^23 to a smaller number rounds it to an
     // integer.
     const INTEGERS: f32 = 8_388_608.0;
     let nearest = ((x.abs() + INTEGERS) - INTEGERS).copysign(x);
     if x.abs() < INTEGERS { nearest } else { x }
 }
 
-/// The greatest integer that is not above `x`, as `libm::floorf`, in operations that vectors have.
+/// The greatest integer that is not above `x`, like `libm::floorf`, but in operations that vectors
+/// have.
 #[inline(always)]
 pub(crate) fn floor(x: f32) -> f32 {
     let nearest = round(x);
@@ -73,7 +74,7 @@ pub(crate) fn select(condition: bool, one: Vec3, other: Vec3) -> Vec3 {
     )
 }
 
-/// The unit vector of `v`; `None` where the length is zero, overflows or is NaN.
+/// The unit vector of `v`; `None` if `v` is zero, infinite or NaN.
 pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
     existing(unit_or_not(v))
 }
@@ -86,15 +87,15 @@ pub(crate) fn existing((v, exists): (Vec3, bool)) -> Option<Vec3> {
 /// The unit vector of `v`, and whether there is one, without a branch.
 #[inline(always)]
 pub(crate) fn unit_or_not(v: Vec3) -> (Vec3, bool) {
-    // Scaled first, so that neither tiny nor huge vectors are lost in the squares.
+    // Scaled first, so that the squares of tiny and huge vectors do not underflow or overflow.
     let largest = v.x.abs().max(v.y.abs().max(v.z.abs()));
     let scaled = v / largest;
     let reciprocal = 1.0 / sqrt(scaled.dot(scaled));
     (scaled * reciprocal, is_positive(largest) & is_positive(reciprocal))
 }
 
-/// The unit vector of du x dv, and whether there is one, without a branch: not where one of them is
-/// zero or they are parallel to within 2^-15.
+/// The unit vector of du x dv, and whether there is one, without a branch. There is none if one of
+/// the two is zero or they are parallel to within 2^-15.
 #[inline(always)]
 pub(crate) fn normal_or_not(du: Vec3, dv: Vec3) -> (Vec3, bool) {
     const PARALLEL: f32 = 1.0 / (1u32 << 30) as f32;
@@ -119,7 +120,7 @@ pub(crate) trait Vector:
 
 impl<V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f32, Output = V>> Vector for V {}
 
-/// `a + (b - a) t`: exact at `t = 0`, and where `a` equals `b`.
+/// `a + (b - a) t`: exact at `t = 0`, and if `a` equals `b`.
 #[inline(always)]
 pub(crate) fn lerp<V: Vector>(a: V, b: V, t: f32) -> V {
     a + (b - a) * t
@@ -127,19 +128,20 @@ pub(crate) fn lerp<V: Vector>(a: V, b: V, t: f32) -> V {
 
 /// Point and derivative of a cubic at `t`, by repeated linear interpolation.
 ///
-/// Equal control points give that very point, as `a + (a - a) t` is `a`.
+/// If all control points are equal, the result is that point exactly, because `a + (a - a) t` is
+/// `a`.
 #[inline(always)]
 pub(crate) fn de_casteljau<V: Vector>([a, b, c, d]: [V; 4], t: f32) -> (V, V) {
     let (ab, bc, cd) = (lerp(a, b, t), lerp(b, c, t), lerp(c, d, t));
     let (abc, bcd) = (lerp(ab, bc, t), lerp(bc, cd, t));
-    // The derivative from differences of control points, which keeps its relative precision
+    // The derivative is made from differences of control points, which keeps its relative precision
     // where the curve nearly stands still.
     let derivative = lerp(lerp(b - a, c - b, t), lerp(c - b, d - c, t), t) * 3.0;
     (lerp(abc, bcd, t), derivative)
 }
 
-/// A homogeneous point, (w x, w y, w z) and w, as four separate numbers: [`Vec4`] fills a register
-/// of the processor, so loops over lanes could not be vectorized.
+/// A homogeneous point, (w x, w y, w z) and w, as four separate numbers. A [`Vec4`] would fill a
+/// register of the processor, and loops over lanes could not be vectorized.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Homogeneous {
     pub(crate) xyz: Vec3,

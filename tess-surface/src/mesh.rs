@@ -1,4 +1,4 @@
-//! Triangles and quads with indices, as a model file holds them.
+//! Triangles and quads with indices, as in a model file.
 
 use crate::error::{FaceError, MeshError};
 use crate::math::{is_in_range, unit};
@@ -6,24 +6,24 @@ use crate::sides::{Sides, edge_corners};
 use alloc::vec::Vec;
 use glam::{DVec3, Vec2, Vec3};
 
-/// One face: its corners in counter-clockwise order, seen from outside.
+/// One face, with its corners in counter-clockwise order as seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Face {
     /// The corners' indices into [`PolygonMesh::positions`].
     pub positions: Sides<u32>,
-    /// The corners' indices into [`PolygonMesh::normals`]; without them the corners get smooth
+    /// The corners' indices into [`PolygonMesh::normals`]. With `None`, the corners get smooth
     /// normals.
     pub normals: Option<Sides<u32>>,
-    /// The corners' indices into [`PolygonMesh::texcoords`]; without them the corners get those of
-    /// the unit square.
+    /// The corners' indices into [`PolygonMesh::texcoords`]. With `None`, the corners' texture
+    /// coordinates are their domain coordinates.
     pub texcoords: Option<Sides<u32>>,
 }
 
 /// Faces over shared positions, normals and texture coordinates.
 ///
-/// A face may be there twice, with its corners in both orders, once for each side: the two are
-/// different sheets. Smooth normals are made for each sheet alone: from faces that are neighbours,
-/// run the same way round, and do not lie on each other.
+/// A mesh may have a face twice, with its corners in both orders, once for each side; the two
+/// belong to different sheets. Smooth normals are made for each sheet separately, from faces that
+/// are neighbours, run the same way round, and are not folded onto each other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolygonMesh {
     /// Positions, in the model's units, each coordinate within [`MAX_COORDINATE`] of 0.
@@ -42,7 +42,8 @@ impl PolygonMesh {
     /// Checks every face. Positions and normals that no face uses may be anything.
     ///
     /// # Errors
-    /// The first face with a [`FaceError`]; a mesh with no face or with 2^30.
+    /// [`MeshError::Face`] for the first face with a [`FaceError`]; [`MeshError::Empty`] or
+    /// [`MeshError::TooMany`] for a mesh with no face or with 2^30 or more.
     pub fn check(&self) -> Result<(), MeshError> {
         crate::topology::check_count(self.faces.len())?;
         for (number, face) in self.faces.iter().enumerate() {
@@ -51,17 +52,18 @@ impl PolygonMesh {
         Ok(())
     }
 
-    /// Scales every normal to unit length. One of no direction, which no face may use, becomes 0.
+    /// Scales every normal to unit length. A normal without a direction, which no face may use,
+    /// becomes 0.
     pub fn normalize(&mut self) {
         for normal in &mut self.normals {
             *normal = unit(*normal).unwrap_or(Vec3::ZERO);
         }
     }
 
-    /// Checks one face, of this mesh or made for it.
+    /// Checks one face, which may be part of this mesh or made for it.
     ///
     /// # Errors
-    /// Its first [`FaceError`].
+    /// The face's first [`FaceError`].
     pub fn check_face(&self, face: &Face) -> Result<(), FaceError> {
         let corners = face.positions.as_slice().len();
         let positions = gather(&self.positions, face.positions, corners, "position")?;
@@ -93,8 +95,8 @@ impl PolygonMesh {
         face.positions.map(|position| self.positions[position as usize])
     }
 
-    /// The unit normal of the plane through a face's corners, as nearly as there is one; zero for
-    /// none.
+    /// The unit normal of the plane through a face's corners, or of the nearest plane; zero if
+    /// there is none.
     pub(crate) fn face_normal(&self, face: &Face) -> Vec3 {
         let [a, b] = diagonals(&self.corners(face));
         a.cross(b).normalize_or_zero().as_vec3()
@@ -126,15 +128,15 @@ fn gather<T: Copy>(
     Ok(indices.map(|index| values[index as usize]))
 }
 
-/// Refuses two neighbouring corners with one position, and an area that vanishes against the
-/// product of the diagonals.
+/// Refuses two neighbouring corners with the same position, and an area that vanishes compared with
+/// the product of the diagonals.
 fn check_area(corners: &Sides<Vec3>) -> Result<(), FaceError> {
     let points = corners.as_slice();
     if edge_corners(corners).iter().any(|&[a, b]| points[a] == points[b]) {
         return Err(FaceError::RepeatedCorner);
     }
     let [a, b] = diagonals(corners);
-    // 2^-22: below it, the rounding of binary32 coordinates decides about the area.
+    // 2^-22. Below it, the area is no more than the rounding of binary32 coordinates.
     const LEAST_SINE: f64 = 1.0 / 4_194_304.0;
     if a.cross(b).length() <= LEAST_SINE * a.length() * b.length() {
         return Err(FaceError::NoArea);
@@ -142,7 +144,8 @@ fn check_area(corners: &Sides<Vec3>) -> Result<(), FaceError> {
     Ok(())
 }
 
-/// Two vectors whose cross product is along the normal: of a quad the diagonals.
+/// Two vectors whose cross product is along the normal: the diagonals of a quad, two edges of a
+/// triangle.
 fn diagonals(corners: &Sides<Vec3>) -> [DVec3; 2] {
     match corners {
         Sides::Triangle([a, b, c]) => [[a, b], [a, c]],

@@ -13,7 +13,7 @@ use crate::topology::{HalfEdge, HalfEdges, Topology, check_count, hash, weld};
 use alloc::vec::Vec;
 use glam::Vec3;
 
-/// How the faces of a polygon mesh become surfaces.
+/// The kind of surface that the faces of a polygon mesh become.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Style {
@@ -24,7 +24,7 @@ pub enum Style {
 }
 
 /// Patches with adjacency, numbered from 0 in the order of the faces or Bezier patches that the
-/// model was made of. Methods that take a number panic beyond the last patch, as slices do.
+/// model was made from. Methods that take a number panic if there is no such patch, as slices do.
 #[derive(Clone, Debug)]
 pub struct Model {
     source: ModelSource,
@@ -38,13 +38,13 @@ enum ModelSource {
 }
 
 impl Model {
-    /// Makes a model of a polygon mesh. Normals are scaled to unit length, and faces without
-    /// normals get smooth ones, each from the faces of the same sheet ([`PolygonMesh`]). Faces are
-    /// neighbours where the positions of their corners have equal coordinates, whatever their
-    /// indices.
+    /// Makes a model from a polygon mesh. Normals are scaled to unit length. With
+    /// [`Style::PointNormal`], faces without normals get smooth ones from the faces of the same
+    /// sheet ([`PolygonMesh`]). Faces are neighbours if the corners of an edge have equal
+    /// coordinates, whatever their indices.
     ///
     /// # Errors
-    /// Faults that [`PolygonMesh::check`] finds.
+    /// Those of [`PolygonMesh::check`].
     pub fn polygons(mut mesh: PolygonMesh, style: Style) -> Result<Self, MeshError> {
         mesh.check()?;
         mesh.normalize();
@@ -62,13 +62,14 @@ impl Model {
         Ok(Self { source: ModelSource::Polygons { mesh, vertices, normals, style }, topology })
     }
 
-    /// Makes a model of bicubic patches. Patches are neighbours where their boundary control points
-    /// are equal.
+    /// Makes a model from bicubic patches. Patches are neighbours if the control points of a
+    /// boundary are equal.
     ///
     /// # Errors
-    /// The first patch with a control point that is not finite or too large to be evaluated
-    /// ([`FaceError::TooLarge`]), with a weight that is not greater than zero, or with no area; no
-    /// patch, or 2^30. A boundary collapsed to a point is no error, and no edge.
+    /// [`MeshError::Face`] for the first patch with a control point that is not finite or too large
+    /// to be evaluated ([`FaceError::TooLarge`]), with a weight that is not greater than zero, or
+    /// without area; [`MeshError::Empty`] or [`MeshError::TooMany`] for no patch or for 2^30 or
+    /// more. A boundary that is collapsed to a point is not an error, but has no neighbours.
     pub fn bezier(patches: Vec<BezierPatch>) -> Result<Self, MeshError> {
         check_count(patches.len())?;
         let mut hashes = Vec::with_capacity(patches.len() * 4);
@@ -96,26 +97,26 @@ impl Model {
         }
     }
 
-    /// The other side of an edge; `None` on the border of the model, on seams, for collapsed edges
-    /// and for edges that do not exist.
+    /// The other side of an edge; `None` for edges on the border of the model, on seams, collapsed
+    /// edges and edges that do not exist.
     #[must_use]
     pub fn twin(&self, half: HalfEdge) -> Option<HalfEdge> {
         self.topology.twin(half)
     }
 
-    /// One side of each edge with more than two patches that are neighbours in pairs, as where two
-    /// cubes touch along an edge; in ascending order.
+    /// One side of each edge whose more than two patches are neighbours in pairs, for example where
+    /// two cubes touch along an edge; in ascending order.
     ///
-    /// An equal number of patches runs each way along such an edge, and each is the neighbour of
-    /// one that runs the other way. So the surfaces that touch there have no cracks, but they may
-    /// be divided differently.
+    /// The same number of patches runs each way along such an edge, and each is the neighbour of
+    /// one that runs the other way. The surfaces that touch there have no cracks, but the pairs may
+    /// not be the intended ones.
     #[must_use]
     pub fn crowded_edges(&self) -> &[HalfEdge] {
         &self.topology.crowded
     }
 
-    /// All sides of each edge with more than two patches that have no single neighbour, as where a
-    /// fin stands on a surface; each in ascending order.
+    /// All sides of each edge whose more than two patches have no single neighbour, for example
+    /// where a fin meets a surface; each in ascending order.
     ///
     /// The patches there keep their own normals. They share the edge's curve and factor, so no
     /// crack opens.
@@ -124,8 +125,8 @@ impl Model {
         &self.topology.seams
     }
 
-    /// The mesh that the model was made of, if it was; faces where several sheets meet may have got
-    /// normals.
+    /// The mesh, if the model was made from one. Faces at which several sheets meet may have been
+    /// given normals.
     #[must_use]
     pub const fn mesh(&self) -> Option<&PolygonMesh> {
         match &self.source {
@@ -138,7 +139,7 @@ impl Model {
         &self.topology
     }
 
-    /// The shape of patch `number`, triangle or quad, without its surface.
+    /// Whether patch `number` is a triangle or a quad, without its surface.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -175,8 +176,9 @@ impl Model {
         }
     }
 
-    /// The (least, greatest) corner of a box around all control points, which holds the surface of
-    /// planes, quads and Bezier patches; point-normal surfaces bulge out of it.
+    /// The (least, greatest) corner of a box around all face corners, or around all control points
+    /// of Bezier patches. It contains flat, bilinear and Bezier surfaces; point-normal surfaces
+    /// bulge out of it.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -193,7 +195,7 @@ impl Model {
         }
     }
 
-    /// The point-normal surface of a face, its edges shared with the neighbours'.
+    /// The point-normal surface of a face, with edges that its neighbours share.
     fn point_normal(&self, number: usize) -> Surface {
         let corners = self.pn_corners(number);
         let ends = edge_corners(&corners);
@@ -212,7 +214,7 @@ impl Model {
         }
     }
 
-    /// The means of the inner control points that all sides of an edge ask for.
+    /// The means of the inner control points that the sides of an edge would have on their own.
     fn shared_edge_points(&self, half: HalfEdge, start: PnCorner, end: PnCorner) -> [Vec3; 2] {
         let own = edge_points(start, end);
         if let Some(twin) = self.twin(half) {
@@ -231,7 +233,8 @@ impl Model {
         sum.map(|points| points / count)
     }
 
-    /// The inner control points that a side of an edge asks for, in the direction from `start`.
+    /// The inner control points that a side of an edge would have on its own, in the direction from
+    /// `start`.
     fn edge_points_beyond(&self, half: HalfEdge, start: PnCorner) -> [Vec3; 2] {
         let corners = self.pn_corners(half.patch);
         let [a, b] = edge_corners(&corners)[half.edge].map(|corner| corners.as_slice()[corner]);
@@ -253,10 +256,10 @@ impl Model {
     }
 }
 
-/// The edges of a mesh whose coinciding positions are known.
+/// The edges of a mesh, with its coinciding positions identified.
 pub(crate) struct MeshEdges<'a> {
     pub(crate) mesh: &'a PolygonMesh,
-    /// The position that each one coincides with.
+    /// For each position, the number of the first position with the same coordinates.
     pub(crate) vertices: &'a [u32],
 }
 
@@ -268,7 +271,7 @@ impl MeshEdges<'_> {
         ends.map(|corner| self.vertices[corners.as_slice()[corner] as usize])
     }
 
-    /// A number for each half-edge that is equal for sides of one edge only, and its slot.
+    /// A number for each half-edge, which is equal only for sides of the same edge, and its slot.
     fn hashes(&self) -> Vec<(u64, u32)> {
         let edges = self.mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
             (0..face.positions.as_slice().len()).map(move |edge| HalfEdge { patch, edge })
@@ -331,7 +334,7 @@ fn check_patch(patch: &BezierPatch) -> Result<(), FaceError> {
         return Err(FaceError::Weight);
     }
     let positions = points.iter().map(|&point| crate::math::project(point));
-    // Tangents are the positions' differences, times a quotient of weights.
+    // Tangents are differences of positions, times a quotient of weights.
     let weights = points.iter().map(|point| point.w);
     let (least, greatest) = weights.fold((f32::MAX, 0.0f32), |(l, g), w| (l.min(w), g.max(w)));
     let evaluable = positions.clone().all(|p| is_in_range((p * (greatest / least)).as_ref()));

@@ -1,8 +1,8 @@
-//! Evaluating one patch so that neighbours agree to the bit.
+//! Evaluation of one patch, so that neighbours agree to the bit.
 //!
-//! A point inside is a function of the patch. A point on an edge is a function of the edge alone,
-//! in the edge's canonical direction ([`Edge`]), and a point on a corner is a function of the
-//! corner alone. So two patches that share an edge give the same bits along it.
+//! A point inside is a function of the patch. A point on an edge is a function of only the edge, in
+//! the edge's canonical direction ([`Edge`]), and a point on a corner is a function of only the
+//! corner. Two patches that share an edge therefore give the same bits along it.
 
 use crate::bezier::BezierPatch;
 use crate::curve::{Curve, Direction, Edge};
@@ -35,7 +35,7 @@ pub enum Surface {
 pub struct Sample {
     /// Position, in the model's units.
     pub position: Vec3,
-    /// Unit normal; (0, 0, 1) where the surface has none.
+    /// Unit normal; (0, 0, 1) if the surface has no normal there.
     pub normal: Vec3,
     /// Texture coordinates, (0, 0) at the lower left of the image.
     pub texcoord: Vec2,
@@ -50,10 +50,10 @@ pub struct SurfacePatch {
 }
 
 impl SurfacePatch {
-    /// Makes a patch of a surface. Its texture coordinates are its domain coordinates.
+    /// Makes a patch from a surface. Its texture coordinates are its domain coordinates.
     ///
-    /// Control points are not checked here, as [`Model`](crate::Model) does: coordinates beyond
-    /// [`MAX_COORDINATE`](crate::MAX_COORDINATE) may overflow in what is evaluated.
+    /// Unlike [`Model`](crate::Model), this does not check control points: with coordinates beyond
+    /// [`MAX_COORDINATE`](crate::MAX_COORDINATE), evaluation may overflow.
     #[must_use]
     pub fn new(surface: Surface) -> Self {
         let edges = boundary(&surface).map(Edge::new);
@@ -64,7 +64,7 @@ impl SurfacePatch {
     /// The same patch with these texture coordinates at its corners.
     ///
     /// # Errors
-    /// [`WrongDomainError`] if there are three for a quad or four for a triangle.
+    /// [`WrongDomainError`] if they are three for a quad or four for a triangle.
     pub fn with_texcoords(self, texcoords: Sides<Vec2>) -> Result<Self, WrongDomainError> {
         let (found, expected) = (texcoords.domain(), self.domain());
         if found == expected {
@@ -98,13 +98,13 @@ impl SurfacePatch {
         &self.texcoords
     }
 
-    /// The corner, the edge or the inside that the domain point (u, v) belongs to.
+    /// The corner, edge or inside that the domain point (u, v) belongs to.
     #[must_use]
     pub fn place(&self, u: f32, v: f32) -> Place {
         Place::of(&self.edges, u, v)
     }
 
-    /// The vertex at the domain point (u, v), in 0..=1 as a tessellator outputs it.
+    /// The vertex at the domain point (u, v), each coordinate in 0..=1 as a tessellator outputs it.
     #[must_use]
     pub fn sample(&self, [u, v]: [f32; 2]) -> Sample {
         let place = self.place(u, v);
@@ -116,21 +116,21 @@ impl SurfacePatch {
         }
     }
 
-    /// The position of [`SurfacePatch::sample`] alone.
+    /// Only the position of [`SurfacePatch::sample`].
     #[must_use]
     pub fn position(&self, [u, v]: [f32; 2]) -> Vec3 {
         let place = self.place(u, v);
         self.boundary_position(place).unwrap_or_else(|| self.frame(u, v).position)
     }
 
-    /// The unit normal of [`SurfacePatch::sample`] alone.
+    /// Only the unit normal of [`SurfacePatch::sample`].
     #[must_use]
     pub fn normal(&self, [u, v]: [f32; 2]) -> Vec3 {
         self.normal_in(|| self.frame(u, v).tangents, self.place(u, v), u, v)
     }
 
-    /// Position and tangents by the formula of the inside, also on edges, where neighbours may
-    /// differ.
+    /// Position and tangents by the formula of the inside. This formula is used also on edges,
+    /// where neighbours may then differ.
     #[must_use]
     pub fn frame(&self, u: f32, v: f32) -> Frame {
         let frame = match &self.surface {
@@ -143,7 +143,7 @@ impl SurfacePatch {
         Frame { position: plain_zero(frame.position), ..frame }
     }
 
-    /// The position on the boundary, from the edge or the corner alone; `None` inside.
+    /// The position on the boundary, from only the edge or the corner; `None` inside.
     pub(crate) fn boundary_position(&self, place: Place) -> Option<Vec3> {
         match place {
             Place::Inside => None,

@@ -1,12 +1,12 @@
 //! Point-normal surfaces: curved patches from the corners of a mesh and their normals.
 //!
 //! Triangles: A. Vlachos, J. Peters, C. Boyd, J. L. Mitchell, *Curved PN Triangles*, Symposium on
-//! Interactive 3D Graphics 2001. Quads: the same edge curves and edge normals, as in J. Peters,
-//! *PN quads*, University of Florida 2008; the interior is the bilinearly blended surface of the
-//! boundary (S. A. Coons, MIT MAC-TR-41, 1967), which keeps planar and bilinear quads as they are.
-//! Where the two sides of an edge have different normals (creases), the edge's control points
-//! are the means of both sides', after *Crack-Free Point-Normal Triangles using Adjacent Edge
-//! Normals*, NVIDIA 2010.
+//! Interactive 3D Graphics 2001. Quads: the same edge curves and edge normals, as in J. Peters, *PN
+//! quads*, University of Florida 2008; the interior is the bilinearly blended surface of the
+//! boundary (S. A. Coons, MIT MAC-TR-41, 1967), which reproduces planar and bilinear quads. If the
+//! two sides of an edge have different normals (a crease), the edge's control points are the means
+//! of both sides' points, after *Crack-Free Point-Normal Triangles using Adjacent Edge Normals*,
+//! NVIDIA 2010.
 
 use crate::bezier::BezierPatch;
 use crate::frame::{Frame, Tangents};
@@ -16,14 +16,14 @@ use glam::Vec3;
 /// A corner of a mesh face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PnCorner {
-    /// Its position.
+    /// The corner's position.
     pub position: Vec3,
-    /// Its unit normal.
+    /// The corner's unit normal.
     pub normal: Vec3,
 }
 
-/// The two inner control points of the edge from `a` to `b`: its thirds, moved along each end's
-/// normal into that end's tangent plane.
+/// The two inner control points of the edge from `a` to `b`: the points at its thirds, each moved
+/// along the nearer end's normal into that end's tangent plane.
 #[must_use]
 pub fn edge_points(a: PnCorner, b: PnCorner) -> [Vec3; 2] {
     let inner = |from: PnCorner, to: PnCorner| {
@@ -34,7 +34,7 @@ pub fn edge_points(a: PnCorner, b: PnCorner) -> [Vec3; 2] {
 }
 
 /// A sixth of the largest second derivative of the edge between two corners, in units of their
-/// positions. The same whichever comes first.
+/// positions. The order of the corners does not matter.
 #[must_use]
 pub fn edge_bend([a, b]: [PnCorner; 2]) -> f32 {
     let [near_a, near_b] = edge_points(a, b);
@@ -43,8 +43,9 @@ pub fn edge_bend([a, b]: [PnCorner; 2]) -> f32 {
     length(at_a).max(length(at_b))
 }
 
-/// The middle coefficient of the quadratic normal along the edge from `a` to `b`: the mean of
-/// the end normals, reflected at the plane perpendicular to the edge. The same from both ends.
+/// The middle coefficient of the quadratic normal along the edge from `a` to `b`: the mean of the
+/// end normals, reflected at the plane perpendicular to the edge, of unit length. The order of the
+/// ends does not matter.
 #[must_use]
 pub fn edge_normal(a: PnCorner, b: PnCorner) -> Vec3 {
     let (along, sum) = (b.position - a.position, a.normal + b.normal);
@@ -52,8 +53,8 @@ pub fn edge_normal(a: PnCorner, b: PnCorner) -> Vec3 {
     crate::math::unit(reflected).unwrap_or(Vec3::ZERO)
 }
 
-/// The quadratic normal along an edge, not of unit length: coefficients (first end, middle,
-/// second end) over the monomials, without binomial factors, as the paper has it.
+/// The quadratic normal along an edge, not of unit length. The coefficients (first end, middle,
+/// second end) have no binomial factors, as in the paper.
 #[must_use]
 #[inline(always)]
 pub(crate) fn normal_along(along: [Vec3; 3], t: f32) -> Vec3 {
@@ -76,7 +77,7 @@ pub struct PnTriangle {
 }
 
 impl PnTriangle {
-    /// The triangle with these inner control points of its edges: from [`edge_points`], or the
+    /// The triangle whose edges have these inner control points: those of [`edge_points`], or the
     /// means of both sides' points.
     #[must_use]
     pub fn new(corners: [PnCorner; 3], edges: [[Vec3; 2]; 3]) -> Self {
@@ -102,7 +103,7 @@ impl PnTriangle {
         let b111 = self.center;
         let (uu, vv, ww) = (u * u, v * v, w * w);
         let (uv, uw, vw) = (2.0 * u * v, 2.0 * u * w, 2.0 * v * w);
-        // A third of the derivatives by u, v and w taken as independent.
+        // A third of the derivatives by u, v and w, as if these were independent.
         let by_u = b300 * uu + b120 * vv + b102 * ww + b210 * uv + b201 * uw + b111 * vw;
         let by_v = b210 * uu + b030 * vv + b012 * ww + b120 * uv + b111 * uw + b021 * vw;
         let by_w = b201 * uu + b021 * vv + b003 * ww + b111 * uv + b102 * uw + b012 * vw;
@@ -149,8 +150,8 @@ pub struct PnQuad {
 }
 
 impl PnQuad {
-    /// The quad whose edges u = 0, v = 0, u = 1, v = 1, each along its coordinate, have these
-    /// inner control points: from [`edge_points`], or the means of both sides' points.
+    /// The quad whose edges u = 0, v = 0, u = 1, v = 1, each along its coordinate, have these inner
+    /// control points: those of [`edge_points`], or the means of both sides' points.
     #[must_use]
     pub fn new(corners: [PnCorner; 4], edges: [[Vec3; 2]; 4]) -> Self {
         let [c00, c10, c11, c01] = corners;
@@ -189,8 +190,8 @@ impl PnQuad {
     }
 }
 
-/// The bicubic control net of the bilinearly blended surface of four cubic boundaries: the sum
-/// of the two ruled surfaces less the bilinear one, all three raised to bicubic.
+/// The bicubic control net of the bilinearly blended surface of four cubic boundaries: the sum of
+/// the two ruled surfaces minus the bilinear surface, all three in bicubic form.
 fn coons_net([c00, c10, c11, c01]: [Vec3; 4], edges: [[Vec3; 2]; 4]) -> [[Vec3; 4]; 4] {
     let [[u0a, u0b], [v0a, v0b], [u1a, u1b], [v1a, v1b]] = edges;
     let (left, right) = ([c00, u0a, u0b, c01], [c10, u1a, u1b, c11]);

@@ -1,7 +1,7 @@
 //! The kernel of [`SurfacePatch::samples`]: many vertices of a patch, eight at a time.
 //!
-//! A vertex has the bits that [`SurfacePatch::sample`] gives it: the same formulas run in every
-//! lane, and what belongs to an edge or a corner alone is computed from those alone.
+//! A vertex has the same bits as from [`SurfacePatch::sample`]: the same formulas run in every
+//! lane, and vertices on an edge or a corner are computed from only that edge or corner.
 
 use crate::formulas::Formulas;
 use crate::lanes::{LANES, Vertices};

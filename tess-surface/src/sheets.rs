@@ -1,9 +1,9 @@
-//! Which corners at one place belong to one sheet.
+//! The grouping of corners at one place into sheets.
 //!
-//! Several sheets may meet at a place: the two sides of a leaf that has a face for each, two cones
-//! tip to tip, a wall that stands on a floor. Their normals have nothing to do with each other, and
-//! their sum may be zero. So the corners at a place are sorted into fans first: corners whose
-//! patches are neighbours there.
+//! Several sheets may meet at a place: the two sides of a leaf that has a face for each side, two
+//! cones tip to tip, a wall on a floor. Their normals are unrelated, and the sum may be zero. The
+//! corners at a place are therefore first grouped into fans: corners whose patches are neighbours
+//! there.
 //!
 //! ```text
 //!         \  A  /                A, B, C are neighbours at the edges that end here: one fan.
@@ -12,8 +12,8 @@
 //!          / \   B
 //! ```
 //!
-//! Most places have one sheet, which shows without any search: every corner's normal is within 90
-//! degrees of their sum. Only the others ([`mixed`]) are sorted.
+//! Most places have one sheet. These are recognised without a search: every corner's normal is
+//! within 90 degrees of the sum. Only the other places ([`mixed`]) are grouped.
 
 use crate::sides::{Sides, edge_corners};
 use crate::topology::HalfEdge;
@@ -25,10 +25,11 @@ pub(crate) fn edges_at(sides: Sides<()>, corner: usize) -> impl Iterator<Item = 
     ends.filter(move |(_, ends)| ends.contains(&corner)).map(|(edge, _)| edge)
 }
 
-/// The number of the first corner of the same fan, for each of the corners at one place.
+/// For each of the corners at one place, the number of the first corner of the same fan.
 ///
 /// Corners are slots ([`HalfEdge::slot`] of the edge with the corner's number), in ascending order.
-/// `beyond` has the half-edges on the other side of an edge whose patches join there.
+/// `beyond` gives the half-edges on the other side of an edge, of patches that belong to the same
+/// fan.
 pub(crate) fn fans<I: Iterator<Item = HalfEdge>>(
     corners: &[u32],
     sides: impl Fn(usize) -> Sides<()>,
@@ -63,8 +64,8 @@ fn unite(firsts: &mut [usize], one: usize, other: usize) {
     firsts[one.max(other)] = one.min(other);
 }
 
-/// The corners at mixed places, place by place, each in ascending order. `corners` has the place
-/// and the slot of each corner; `is_mixed` is asked about places.
+/// The corners at mixed places, in ascending order of the place and then of the slot. `corners` has
+/// the place and the slot of each corner; `is_mixed` is indexed by place.
 pub(crate) fn mixed(
     corners: impl Iterator<Item = (u32, u32)>,
     is_mixed: &[bool],

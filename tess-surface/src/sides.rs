@@ -1,4 +1,4 @@
-//! Corners and edges of the two domains, and which of them a domain point belongs to.
+//! Corners and edges of the two domains, and the one that a domain point belongs to.
 
 use tess_core::Domain;
 
@@ -38,7 +38,7 @@ impl<T> Sides<T> {
         }
     }
 
-    /// The values with `f` applied to each one's number and itself.
+    /// The values with `f` applied to the number of each and the value.
     #[inline]
     pub(crate) fn map_numbered<U>(self, mut f: impl FnMut(usize, T) -> U) -> Sides<U> {
         match self {
@@ -66,7 +66,8 @@ pub const fn edge_corners<T>(sides: &Sides<T>) -> &'static [[usize; 2]] {
     }
 }
 
-/// Whether an edge's running coordinate grows from a corner to the next, not to the one before.
+/// Whether an edge's running coordinate grows from a corner to the next one. Otherwise it grows to
+/// the previous one.
 pub(crate) fn runs_onwards<T>(sides: &Sides<T>, edge: usize) -> bool {
     let [start, end] = edge_corners(sides)[edge];
     end == (start + 1) % sides.as_slice().len()
@@ -81,12 +82,12 @@ pub const fn corner_coordinates<T>(sides: &Sides<T>) -> Sides<[f32; 2]> {
     }
 }
 
-/// The corner, the edge or the inside of a patch.
+/// A corner, an edge or the inside of a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     /// The corner of this number.
     Corner(usize),
-    /// The edge of this number without its ends, at this value in (0, 1) of its running coordinate.
+    /// The edge of this number, except its ends, at this value in (0, 1) of its running coordinate.
     Edge(usize, f32),
     /// The inside of the patch.
     Inside,

@@ -1,10 +1,10 @@
 //! Smooth normals: one for each corner of a sheet, from the faces around it.
 //!
 //! G. Thürmer, C. A. Wüthrich, *Computing Vertex Normals from Polygonal Facets*, Journal of
-//! Graphics Tools 3(1), 1998: the sum of the faces' normals, each weighted by the angle there. The
-//! sum is over the faces of one sheet ([`crate::sheets`]): neighbours that run the same way round
-//! and do not lie on each other. Faces without a common edge, as on both sides of a crack, are
-//! summed too if their normals are within 60 degrees.
+//! Graphics Tools 3(1), 1998: the sum of the faces' normals, each weighted by its angle at the
+//! corner. The sum is over the faces of one sheet ([`crate::sheets`]): neighbours that run the same
+//! way round and are not folded onto each other. Faces without a common edge, such as those on both
+//! sides of a crack, are included if their normals are within 60 degrees.
 
 use crate::math::unit;
 use crate::mesh::{Face, PolygonMesh};
@@ -16,7 +16,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec3};
 
-/// The cosine of the smallest angle between normals at which neighbours lie on each other.
+/// The cosine of the smallest angle between normals at which neighbours are folded onto each other.
 const FOLDED: f32 = -0.9999;
 
 /// The same for neighbours that have their corners in common with each other's neighbours, as both
@@ -27,11 +27,11 @@ const FOLDED_ON_CORNERS: f32 = -0.5;
 /// sheet.
 const ONE_SHEET: f32 = 0.5;
 
-/// Makes smooth normals for the faces that have none. `vertices` maps positions to those that they
-/// coincide with.
+/// Makes smooth normals for the faces that have none. `vertices` has the first position with the
+/// same coordinates for each position.
 ///
-/// Returns a unit normal for each position. A face with a corner where several sheets meet gets
-/// normals of its own in the mesh instead.
+/// Returns a unit normal for each position. A face with a corner where several sheets meet gets its
+/// own normals in the mesh instead.
 pub(crate) fn smooth_normals(
     mesh: &mut PolygonMesh,
     vertices: &[u32],
@@ -41,7 +41,7 @@ pub(crate) fn smooth_normals(
     for (vertex, face, corner) in corners(mesh, vertices) {
         sums[vertex as usize] += angle_weighted(&mesh.corners(face), corner);
     }
-    // Normals that cancel out leave none to choose; such places are mixed.
+    // If the normals cancel out, any direction will do: such places are mixed.
     let normals: Vec<Vec3> = sums.iter().map(|&sum| unit(sum).unwrap_or(Vec3::Z)).collect();
     let mut is_mixed = vec![false; mesh.positions.len()];
     for (vertex, face, corner) in corners(mesh, vertices) {
@@ -163,12 +163,12 @@ fn weighted_normal(mesh: &PolygonMesh, slot: u32) -> Vec3 {
     angle_weighted(&mesh.corners(&mesh.faces[patch]), corner)
 }
 
-/// The unit normal of each corner at a place, from the first corner of each one's fan and their
-/// weighted normals.
+/// The unit normal of each corner at a place. `fans` has the first corner of each corner's fan, and
+/// `own` its weighted normal.
 fn sheet_normals(fans: &[usize], own: &[Vec3]) -> Vec<Vec3> {
     let mut sums = vec![Vec3::ZERO; fans.len()];
     fans.iter().zip(own).for_each(|(&fan, &normal)| sums[fan] += normal);
-    // The sum of each sheet and the fans that it has.
+    // The sum and the fans of each sheet.
     let mut sheets: Vec<(Vec3, Vec<usize>)> = Vec::new();
     for fan in (0..fans.len()).filter(|&fan| fans[fan] == fan) {
         let direction = unit(sums[fan]).unwrap_or(Vec3::ZERO);
@@ -191,7 +191,7 @@ fn sheet_normals(fans: &[usize], own: &[Vec3]) -> Vec<Vec3> {
     (0..fans.len()).map(normal_of).collect()
 }
 
-/// Gives normals of their own to the faces without normals that have a corner in `of_sheets`.
+/// Gives own normals to the faces without normals that have a corner in `of_sheets`.
 fn give_own_normals(
     mesh: &mut PolygonMesh,
     vertices: &[u32],

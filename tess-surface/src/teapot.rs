@@ -1,9 +1,9 @@
 //! The Newell teapot: 32 bicubic patches.
 //!
-//! Martin Newell's figures of 1975 (M. E. Newell, *The Utilization of Procedure Models in Digital
-//! Image Synthesis*, University of Utah; with the height scaled as usual since J. Blinn), with
-//! the bottom that F. C. Crow added (*The Origins of the Teapot*, IEEE Computer Graphics and
-//! Applications 7(1), 1987). z is up; the spout points to +x.
+//! Martin Newell's numbers of 1975 (M. E. Newell, *The Utilization of Procedure Models in Digital
+//! Image Synthesis*, University of Utah), with the height scaled as has been usual since J. Blinn,
+//! and with the bottom that F. C. Crow added (*The Origins of the Teapot*, IEEE Computer Graphics
+//! and Applications 7(1), 1987). z is up; the spout points to +x.
 
 mod data;
 

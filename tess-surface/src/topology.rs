@@ -1,4 +1,4 @@
-//! Finding which edges of a model's patches are the same edge.
+//! The search for edges that several patches of a model share.
 
 use crate::error::MeshError;
 use alloc::vec;
@@ -17,11 +17,14 @@ pub struct HalfEdge {
 /// The other sides of every edge of every patch.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Topology {
-    /// Indexed by slot; `ALONE` for edges of the model's border, seams and collapsed edges.
+    /// The slot of each half-edge's other side, indexed by slot; `ALONE` for edges of the model's
+    /// border, seams and collapsed edges.
     twins: Vec<u32>,
-    /// One side of each edge that has more than two, all of them paired; in the order of slots.
+    /// One side of each edge that has more than two sides, all of them paired; in the order of
+    /// slots.
     pub(crate) crowded: Vec<HalfEdge>,
-    /// All sides of each edge whose more than two sides are not paired; in the order of slots.
+    /// All sides of each edge that has more than two sides, which are not paired; in the order of
+    /// slots.
     pub(crate) seams: Vec<Vec<HalfEdge>>,
     /// The slot of each side of a seam and the seam's number, in the order of slots.
     seam_of_slot: Vec<(u32, u32)>,
@@ -29,10 +32,10 @@ pub(crate) struct Topology {
 
 const ALONE: u32 = u32::MAX;
 
-/// The largest number of patches, so that slots are numbered in 32 bits.
+/// One more than the largest number of patches, so that slots fit 32 bits.
 const MAX_PATCHES: usize = 1 << 30;
 
-/// Refuses no faces, and too many to be numbered.
+/// Checks that there is at least one face, and not too many to be numbered.
 pub(crate) const fn check_count(faces: usize) -> Result<(), MeshError> {
     match faces {
         0 => Err(MeshError::Empty),
@@ -42,7 +45,7 @@ pub(crate) const fn check_count(faces: usize) -> Result<(), MeshError> {
 }
 
 impl HalfEdge {
-    /// Its number among all possible ones: four per patch.
+    /// The number of the half-edge among all possible ones, four per patch.
     #[expect(clippy::cast_possible_truncation, reason = "there are less than 2^30 patches")]
     pub(crate) const fn slot(self) -> u32 {
         (self.patch * 4 + self.edge) as u32
@@ -53,12 +56,13 @@ impl HalfEdge {
     }
 }
 
-/// What [`Topology::pair`] asks about half-edges.
+/// The questions about half-edges that [`Topology::pair`] needs answered.
 pub(crate) trait HalfEdges {
     /// Whether two half-edges with equal hashes are sides of one edge.
     fn same(&self, one: HalfEdge, other: HalfEdge) -> bool;
 
-    /// Which of its two ways the patch runs along the edge, the same for all sides of the edge.
+    /// Whether the patch runs forward along the edge. The forward direction is the same for all
+    /// sides of the edge.
     fn is_forward(&self, half: HalfEdge) -> bool;
 
     /// The patch's unit normal near the edge, or zero.
@@ -66,12 +70,13 @@ pub(crate) trait HalfEdges {
 }
 
 impl Topology {
-    /// Pairs the half-edges that are equal. `hashes` has each one's hash and slot.
+    /// Pairs the half-edges that are equal. `hashes` has the hash and the slot of each.
     ///
-    /// More than two are pairs if as many run one way as the other: sheets that touch, as where two
-    /// cubes stand edge to edge, or the two sides of a sheet that has a face for each (A. Guéziec
-    /// et al., *Cutting and Stitching*, IEEE TVCG 7(2), 2001). Pairs are those that bend the least.
-    /// Where the numbers differ there is no single neighbour, and the edge is a seam.
+    /// More than two sides are paired if as many run one way as the other: sheets that touch, for
+    /// example where two cubes meet at an edge, or the two sides of a sheet that has a face for
+    /// each side (A. Guéziec et al., *Cutting and Stitching*, IEEE TVCG 7(2), 2001). The sides with
+    /// the least bend between them become pairs. If the numbers differ, there is no single
+    /// neighbour and the edge is a seam.
     pub(crate) fn pair(
         patches: usize,
         mut hashes: Vec<(u64, u32)>,
@@ -119,7 +124,7 @@ impl Topology {
                 backward.iter().map(|&other| (normal.dot(edges.normal(other)), one, other)),
             );
         }
-        // Stable, so that slots decide between equals.
+        // A stable sort, so that slots decide between equal bends.
         pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
         for (_, one, other) in pairs {
             if self.twin(one).is_none() && self.twin(other).is_none() {
@@ -149,7 +154,7 @@ impl Topology {
         found.map_or(&[], |at| &self.seams[self.seam_of_slot[at].1 as usize])
     }
 
-    /// The sides of an edge other than this one: the twin, or those of a seam.
+    /// The other sides of an edge: the twin, or the other sides of a seam.
     pub(crate) fn others(&self, half: HalfEdge) -> impl Iterator<Item = HalfEdge> {
         let of_seam = self.seam(half).iter().copied().filter(move |&other| other != half);
         self.twin(half).into_iter().chain(of_seam)
@@ -165,7 +170,7 @@ impl Topology {
     }
 }
 
-/// The number of the first point with the same coordinates, for each point.
+/// For each point, the number of the first point with the same coordinates.
 #[expect(clippy::cast_possible_truncation, reason = "faces index points with 32 bits")]
 pub(crate) fn weld(points: &[Vec3]) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
@@ -198,8 +203,8 @@ fn place(hash: u64, bits: u32) -> usize {
     (mixed >> (u64::BITS - bits.max(1))) as usize & ((1 << bits) - 1)
 }
 
-/// Sorts pairs by what comes first in them, then by the second: into buckets by their high bits,
-/// then bucket by bucket.
+/// Sorts pairs by their first element, then by their second: into buckets by the high bits, then
+/// within each bucket.
 #[expect(clippy::cast_possible_truncation, reason = "there are as many buckets as pairs at most")]
 fn sort(pairs: &mut Vec<(u64, u32)>) {
     let largest = pairs.iter().fold(0, |largest, &(hash, _)| largest.max(hash));
@@ -218,7 +223,7 @@ fn sort(pairs: &mut Vec<(u64, u32)>) {
         sorted[*place] = pair;
         *place += 1;
     }
-    // Every bucket's beginning has become its end.
+    // The beginnings of the buckets have become their ends.
     let mut start = 0;
     for end in ends {
         sorted[start..end].sort_unstable();
@@ -227,7 +232,7 @@ fn sort(pairs: &mut Vec<(u64, u32)>) {
     *pairs = sorted;
 }
 
-/// A hash of a curve's bits. Equality is checked, so collisions only cost time.
+/// A hash of a curve's or point's bits. Equality is checked, so collisions only cost time.
 pub(crate) fn hash(words: impl Iterator<Item = i32>) -> u64 {
     // FNV-1a over words, with a final mix.
     let start = 0xCBF2_9CE4_8422_2325u64;

@@ -42,7 +42,7 @@ pub fn counts(config: Config, patch: &ProcessedPatch) -> Counts {
     Counts { points, primitives, indices: primitives * each }
 }
 
-/// Points, lines that join them, and triangles.
+/// The numbers of points, of lines that join them, and of triangles.
 type Sizes = [u32; 3];
 
 /// The lines of an isoline patch are not joined to each other.
@@ -68,8 +68,8 @@ fn quad(factors: &QuadFactors<ProcessedFactor>) -> Sizes {
     of_disc(boundary, (u - 2) * (v - 2))
 }
 
-/// Euler's formula for a disc: triangles = 2 * points - 2 - boundary. One line joins all points in
-/// order.
+/// Sizes by Euler's formula for a disc: triangles = 2 * points - 2 - boundary. As line output, a
+/// polyline joins all points in order: points - 1 segments.
 const fn of_disc(boundary: u32, interior: u32) -> Sizes {
     let points = boundary + interior;
     [points, points - 1, 2 * points - 2 - boundary]

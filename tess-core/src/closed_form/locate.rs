@@ -1,10 +1,9 @@
 //! The random-access formulation: any point or primitive from only its number, in constant time.
 //!
-//! Parallel hardware and shaders make element `i` without making those before it.
+//! Parallel hardware and shaders make element `i` without the elements before it.
 //! `Patch::locate_point`, `point`, `locate_primitive` and `primitive` call this module, and
-//! `tess-gpu`'s shaders have the same stages. It is written from closed forms, not from the
-//! sequential walks of `model::points` and `model::connect`, and a test compares the two on every
-//! topology.
+//! `tess-gpu`'s shaders have the same stages. It uses closed forms instead of the sequential walks
+//! of `model::points` and `model::connect`; a test compares the two on every topology.
 //!
 //! # The data
 //!
@@ -19,35 +18,35 @@
 //! slot sizes  | n + along - 4 each | 2 (v-4), 2 (u-4), twice     | 4 fewer    | what is left
 //! ```
 //!
-//! The sizes of a ring are an arithmetic progression, so the elements before a ring are a product
-//! (`quad_points_before`, `triangles_before`). A number is located in three steps: outer part or
-//! not; the ring, by a binary search over these products; the slot in the ring, by at most three
-//! subtractions.
+//! The sizes of successive rings are an arithmetic progression, so the number of elements before a
+//! ring is a product (`quad_points_before`, `triangles_before`). A number is located in three
+//! steps: whether it is in the outer part; its ring, by a binary search over these products; its
+//! slot in the ring, by at most three subtractions.
 //!
 //! # One patch
 //!
 //! The quad (3, 4.5, 5, 6; 4, 7), fractional even, has 5, 7, 7, 7 points on its edges, and u = 5, v
 //! = 9. Its outer ring has 4 + 6 + 6 + 6 = 22 points, ring 1 has 6 + 2 + 6 + 2 = 16, the centre row
-//! 5. Point 30 is number 8 of the interior: ring 1, and after the 6 + 2 points of edges 0 and 1,
-//! so the first of edge 2. The transitions have 10, 8, 12 and 8 triangles, ring 2 has 10, 2, 10 and
-//! 2. Triangle 45 is number 7 after the 38 of the transitions: ring 2, edge 0, step 7. The test
-//! `the_worked_patch` has these numbers.
+//! 5. Point 30 is number 8 of the interior. That is ring 1, past the 6 + 2 points of edges 0 and 1:
+//!    the first point of edge 2. The transitions have 10, 8, 12 and 8 triangles, ring 2 has 10, 2,
+//!    10 and 2. Triangle 45 is number 7 after the 38 of the transitions: ring 2, edge 0, step 7.
+//!    The test `the_worked_patch` checks these numbers.
 //!
 //! # What holds
 //!
-//! - The callers have checked that the number is below the patch's count. Beyond it the last slot
-//!   would take what is left, and the origin would be of no element.
+//! - The callers have checked that the number is below the patch's count. A larger number would
+//!   fall into the last slot and give the origin of an element that does not exist.
 //! - The products grow with the ring, and the first is at most the number. The search relies on
 //!   both.
 //! - Nothing overflows: counts are below 2^15, and products of a ring and a count below 2^13.
-//! - Origins are pure values. `point` and `primitive` take any of them, and give `None` for one
-//!   that `locate` never gives for this patch.
+//! - Origins are pure values. `point` and `primitive` return `None` for an origin of another kind
+//!   of patch or output. They rely on `locate` for its ring, edge and step.
 //!
 //! # Why not simpler
 //!
-//! Walking to element `i` takes as many steps as there are elements before it, up to 4225 for a
-//! point. Solving the quadratic for the ring would take a square root, which this crate and WGSL
-//! without floats lack. The search has five steps, as a patch has at most 32 rings.
+//! Walking to element `i` takes as many steps as there are elements before it, up to 4224 for a
+//! point. Solving the quadratic for the ring would take a square root, which neither this crate nor
+//! WGSL without floats has. The search has five steps, because a patch has at most 32 rings.
 
 mod centre_strip;
 pub(crate) mod origin;
@@ -68,8 +67,8 @@ fn last_ring_at_or_before(target: u32, end: u32, first: impl Fn(u32) -> u32) -> 
     ring
 }
 
-/// Splits `target` into the slot it falls into and the place within it, for slots of these sizes;
-/// the last slot takes what is left.
+/// Splits `target` into the slot that it falls into and its place within that slot, for slots of
+/// these sizes. Anything past the other slots falls into the last one.
 fn slot_of<const N: usize>(target: u32, sizes: [u32; N]) -> (u32, u32) {
     let mut slot = 0;
     let mut place = target;

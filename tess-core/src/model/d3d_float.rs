@@ -1,26 +1,26 @@
 //! The few binary32 operations that factors go through before they become integers.
 //!
-//! Comparisons are made on bit patterns, which order as numbers do where they are not negative. A
-//! NaN is not greater than anything. Float comparisons would not do: compilers may turn them into
-//! maximum instructions, and `fmaxnm` of ARM returns a signalling NaN where a comparison takes the
-//! other number.
+//! Comparisons use bit patterns, which have the order of the numbers as long as no number is
+//! negative. A NaN is not greater than anything. Float comparisons would be wrong: compilers may
+//! turn them into maximum instructions, and ARM's `fmaxnm` returns a signalling NaN where a
+//! comparison takes the other number.
 
-/// The bit pattern of infinity. Greater patterns are NaNs or have a sign.
+/// The bit pattern of infinity. Greater patterns are NaNs or have the sign bit set.
 const INFINITY: u32 = f32::INFINITY.to_bits();
 
-/// Whether a patch with these outer factors is culled: one is zero, negative or NaN.
-/// Positive denormals are greater than zero.
+/// Whether a patch with these outer factors is culled, which it is if a factor is zero, negative or
+/// NaN. Positive denormals are greater than zero.
 pub(crate) fn is_culled(mut outer: impl Iterator<Item = f32>) -> bool {
     !outer.all(|factor| is_greater(factor, 0.0))
 }
 
-/// Whether `x > low`, which is not negative.
+/// Whether `x > low`. `low` is not negative.
 pub(crate) fn is_greater(x: f32, low: f32) -> bool {
     let bits = x.to_bits();
     low.to_bits() < bits && bits <= INFINITY
 }
 
-/// Clamps to `low..=high`, both not negative; NaN gives `low`.
+/// Clamps `x` to `low..=high`, neither of which is negative; NaN gives `low`.
 pub(crate) fn clamp(x: f32, (low, high): (f32, f32)) -> f32 {
     let bits = x.to_bits();
     let bits = if bits > INFINITY { 0 } else { bits };
@@ -29,8 +29,8 @@ pub(crate) fn clamp(x: f32, (low, high): (f32, f32)) -> f32 {
 
 /// The ceiling of a number of at least 1, infinity included.
 ///
-/// Adding the mask of the fraction bits carries into the exponent when it must. No overflow: the
-/// carry of the largest number below 2^23 ends at 2^23.
+/// Adding the mask of the fraction bits carries into the exponent where the ceiling is the next
+/// power of two. No overflow: the largest number below 2^23 becomes 2^23.
 pub(crate) fn ceil(x: f32) -> f32 {
     const INTEGERS_ONLY_FROM: f32 = 8_388_608.0; // 2^23
     debug_assert!(x >= 1.0, "rounding follows clamping or cleaning");
@@ -42,8 +42,9 @@ pub(crate) fn ceil(x: f32) -> f32 {
     f32::from_bits((x.to_bits() + fraction_mask) & !fraction_mask)
 }
 
-/// The next power of two at or above a number of at least 1: the mantissa goes, and carries into
-/// the exponent if it was not zero. Above 2^127 that is infinity, which stays as it is.
+/// The smallest power of two that is not below `x`, which is at least 1: adding the mask of the
+/// mantissa carries into the exponent if the mantissa is not zero. Numbers above 2^127 give
+/// infinity, and so does infinity.
 pub(crate) fn next_power_of_two(x: f32) -> f32 {
     const MANTISSA: u32 = 0x007F_FFFF;
     debug_assert!(x >= 1.0, "rounding follows cleaning");

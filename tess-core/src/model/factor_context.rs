@@ -1,4 +1,4 @@
-//! The six numbers that all of point placement uses (spec section 4).
+//! The six numbers that point placement needs of each factor (spec section 4).
 
 use crate::model::fixed_point::{FixedFactor, HALF, ONE, ceil, floor};
 use crate::model::reciprocal::reciprocal;
@@ -15,9 +15,10 @@ pub struct FactorContext {
     pub inv_ceil: u32,
     /// Weight of the finer subdivision, 16 fraction bits, below one.
     pub fraction: u32,
-    /// Points on a half edge, the midpoint of an even edge not counted, in 1..=32.
+    /// Points on a half edge, without the midpoint of an even edge, in 1..=32.
     pub half_points: u32,
-    /// The position on the half edge whose point is being split off its predecessor.
+    /// The position on the half edge that is splitting: later positions are one lower in the
+    /// coarser subdivision. `half_points + 1` if no position splits.
     pub split: u32,
     /// Points on the whole edge, both ends included, in 2..=65.
     pub points: u32,
@@ -26,13 +27,13 @@ pub struct FactorContext {
 impl FactorContext {
     /// The context of a factor: 1..=63 if odd, 1..=64 if even (where 1 acts as 2).
     ///
-    /// Total: a factor outside its range counts as the nearest end. Spec sections 4 and 10.
+    /// Total: a factor outside its range is clamped to it. Spec sections 4 and 10.
     #[must_use]
     #[inline(always)] // as `process_factor`, which it is a part of
     pub const fn new(factor: FixedFactor, parity: Parity, split_order: SplitOrder) -> Self {
         let odd = parity.odd();
         let rounded_half = clamp_to_range(factor, parity).to_bits().div_ceil(2);
-        let shifted = odd == 1 || rounded_half == HALF; // HALF: factor 1 that counts as even
+        let shifted = odd == 1 || rounded_half == HALF; // HALF: an even factor of 1
         let half = if shifted { rounded_half + HALF } else { rounded_half };
         let floor_points = floor(half) >> 16;
         let ceil_points = ceil(half) >> 16;
@@ -54,7 +55,7 @@ impl FactorContext {
     }
 }
 
-/// The length of each of `segments` equal segments, which a factor in range has 1 to 64 of.
+/// The length of each of `segments` equal segments, 16 fraction bits. `segments` is in 1..=64.
 const fn segment_length(segments: u32) -> u32 {
     match reciprocal(segments) {
         Some(length) => length,
@@ -62,7 +63,7 @@ const fn segment_length(segments: u32) -> u32 {
     }
 }
 
-/// The range that factor processing guarantees already; it makes every reciprocal below exist.
+/// Clamps to the range that factor processing already guarantees, so that every reciprocal exists.
 /// Legal even factors are 1 (treated as 2) and 2..=64.
 const fn clamp_to_range(factor: FixedFactor, parity: Parity) -> FixedFactor {
     let lowest = if factor.to_bits() <= ONE { ONE } else { (2 - parity.odd()) << 16 };
@@ -77,7 +78,7 @@ const fn clamp_to_range(factor: FixedFactor, parity: Parity) -> FixedFactor {
     })
 }
 
-/// The position that splits on the way from `floor_points` to `ceil_points`, in 0..=33.
+/// The position that splits between `floor_points` and `ceil_points`, in 0..=33.
 const fn split_position(
     floor_points: u32,
     ceil_points: u32,
@@ -85,7 +86,7 @@ const fn split_position(
     split_order: SplitOrder,
 ) -> u32 {
     if floor_points == ceil_points {
-        return ceil_points + 1; // no position reaches it
+        return ceil_points + 1; // past every position: no point splits
     }
     match (split_order, parity) {
         (SplitOrder::Ruler, Parity::Odd) if floor_points == 1 => 0,
@@ -101,8 +102,8 @@ const fn drop_most_significant_bit(x: u32) -> u32 {
     x & !(1 << (31 - x.leading_zeros()))
 }
 
-/// Points along the edge, from the factor's half rounded up, both ends included. The even factor 1
-/// has the three points of factor 2, its half being rounded up to one.
+/// Points along the edge, both ends included, from half the factor, rounded up. The even factor 1
+/// has the three points of factor 2, because its half is rounded up to one.
 const fn point_count(rounded_half: u32, parity: Parity) -> u32 {
     match parity {
         Parity::Odd => 2 * (ceil(HALF + rounded_half) >> 16),
@@ -114,7 +115,8 @@ const fn point_count(rounded_half: u32, parity: Parity) -> u32 {
 mod tests {
     use super::*;
 
-    /// Factors that factor processing never makes have the context of the nearest that it makes.
+    /// A factor that factor processing never makes has the context of the nearest one that it
+    /// makes.
     #[test]
     fn factors_out_of_range_count_as_the_nearest_end() {
         let context = |bits, parity| {

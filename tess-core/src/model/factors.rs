@@ -30,7 +30,7 @@ pub enum ProcessedPatch {
     Regular(PatchFactors<ProcessedFactor>),
 }
 
-/// Which bounds and which parity rule apply to a factor.
+/// The role of a factor, which determines its bounds and its parity rule.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Role {
     Edge,
@@ -109,8 +109,8 @@ fn process_isoline(config: Config, raw: IsolineFactors) -> ProcessedPatch {
     }))
 }
 
-/// Factors of one role, at least one. Equal neighbours, which most patches have, are processed
-/// once.
+/// Processes the factors of one role, at least one. Neighbours that are equal, as in most patches,
+/// are processed only once.
 fn process_each<const N: usize>(
     config: Config,
     role: Role,
@@ -128,7 +128,7 @@ fn process_each<const N: usize>(
     processed
 }
 
-/// Steps 2 or 5, with this lower bound, then 3, 6 and 7.
+/// Step 2 (outer factors) or 5 (inside factors) with this lower bound, then steps 3, 6 and 7.
 #[inline(always)] // built in place: a copy would stall on store forwarding
 fn process_factor(config: Config, role: Role, low: f32, raw: f32) -> ProcessedFactor {
     let (_, high) = config.partitioning.range();

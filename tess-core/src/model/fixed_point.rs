@@ -13,7 +13,7 @@ pub const TWO_THIRDS: u32 = 0xAAAA;
 
 /// A tessellation factor as an unsigned 15.16 number.
 ///
-/// Any value a binary32 can convert to is representable; after clamping only 1..=64 occurs.
+/// Every binary32 converts to a value of this type; after clamping only 1..=64 occurs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(transparent)]
 pub struct FixedFactor(u32);
@@ -50,7 +50,7 @@ impl FixedFactor {
     pub const fn from_f32(value: f32) -> Self {
         let bits = value.to_bits();
         const INFINITY: u32 = 0x7F80_0000;
-        // As unsigned numbers, NaN and everything with a sign bit lie above positive infinity.
+        // As unsigned numbers, NaNs and all patterns with a sign bit are above positive infinity.
         if bits > INFINITY {
             return Self(0);
         }
@@ -78,29 +78,29 @@ const fn shift_right_nearest_even(value: u32, shift: u32) -> u32 {
     quotient + round_up as u32
 }
 
-/// The integer part, in place: `x & 0x7FFF0000`.
+/// The integer part, still in 16.16: `x & 0x7FFF0000`.
 #[must_use]
 pub const fn floor(x: u32) -> u32 {
     x & 0x7FFF_0000
 }
 
-/// The next integer at or above, in place. No overflow for `x <= 0x7FFF0000`.
+/// The smallest integer that is not below `x`, still in 16.16. No overflow for `x <= 0x7FFF0000`.
 #[must_use]
 pub const fn ceil(x: u32) -> u32 {
     floor(x + 0xFFFF)
 }
 
-/// The binary32 value of a domain coordinate, `bits / 65536`: exact below 256, and coordinates are
-/// at most one. A larger number is rounded toward zero.
+/// The binary32 value of a domain coordinate, `bits / 65536`, built from its bits.
 ///
-/// Built from the bits: a number of at most 24 bits fits a binary32 mantissa.
+/// Exact below 256, because a number of at most 24 bits fits a binary32 mantissa; coordinates are
+/// at most one. Larger numbers are rounded toward zero.
 #[must_use]
 pub const fn coordinate_to_f32(coordinate: U16F16) -> f32 {
     let bits = coordinate.to_bits();
     if bits == 0 {
         return 0.0;
     }
-    let top = 31 - bits.leading_zeros(); // 0..=16 of coordinates
+    let top = 31 - bits.leading_zeros(); // 0..=16 for coordinates
     let mantissa = (bits << bits.leading_zeros() >> 8) & 0x007F_FFFF;
     f32::from_bits(((top + 127 - 16) << 23) | mantissa)
 }
@@ -136,7 +136,7 @@ mod tests {
         }
     }
 
-    /// Against exact arithmetic in binary64, with rounding done by its own rule.
+    /// Compares with exact arithmetic in binary64 and its own rounding.
     #[test]
     #[expect(
         clippy::cast_possible_truncation,

@@ -55,8 +55,8 @@ pub enum PatchFactors<T = f32> {
     Quad(QuadFactors<T>),
 }
 
-/// The conversions between a domain's factors and an array in the specification's order (section
-/// 1): this list of fields is the one definition of that order.
+/// Defines the conversions between a domain's factors and an array in the specification's order
+/// (section 1). The list of fields is the only definition of that order.
 macro_rules! factor_order {
     ($factors:ident, $domain:ident, $count:literal, [$($field:ident),*]) => {
         impl<T> From<[T; $count]> for $factors<T> {
@@ -90,7 +90,7 @@ macro_rules! factor_order {
             /// The names of the fields, in the specification's order.
             pub const NAMES: [&'static str; $count] = [$(stringify!($field)),*];
 
-            /// Every factor the same.
+            /// Factors that all equal `factor`.
             pub const fn uniform(factor: T) -> Self {
                 Self { $($field: factor),* }
             }
@@ -125,7 +125,7 @@ impl Domain {
         }
     }
 
-    /// The names of the factors in the specification's order, as the fields of [`PatchFactors`].
+    /// The names of the factors in the specification's order: the fields of the domain's structure.
     #[must_use]
     pub const fn factor_names(self) -> &'static [&'static str] {
         match self {
@@ -165,7 +165,7 @@ impl<T> PatchFactors<T> {
         }
     }
 
-    /// The factors of a domain, factor `i` of the specification's order from `factor(i)`.
+    /// The factors of a domain: factor `i` in the specification's order is `factor(i)`.
     pub fn from_fn(domain: Domain, factor: impl FnMut(usize) -> T) -> Self {
         use core::array::from_fn;
         match domain {
@@ -186,7 +186,7 @@ impl<T> PatchFactors<T> {
 }
 
 impl<T: Copy> PatchFactors<T> {
-    /// The factors of a domain, every one the same.
+    /// The factors of a domain, all equal to `factor`.
     pub const fn uniform(domain: Domain, factor: T) -> Self {
         match domain {
             Domain::Isoline => Self::Isoline(IsolineFactors::uniform(factor)),
@@ -222,7 +222,8 @@ impl<T: Copy> PatchFactors<T> {
         self.iter().take(self.domain().outer_factors())
     }
 
-    /// The inside factors: one of a triangle, along u and v of a quad, none of an isoline patch.
+    /// The inside factors: one for a triangle, two for a quad (along u, along v), none for an
+    /// isoline patch.
     pub fn inside(&self) -> impl ExactSizeIterator<Item = T> + Clone + use<T> {
         self.iter().skip(self.domain().outer_factors())
     }

@@ -7,8 +7,8 @@ use fixed::types::U16F16;
 /// A location and the values that lead to it, in the order in which hardware computes them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Placement {
-    /// Whether the point lies on the second half of the edge (or in its middle), which mirrors
-    /// the first.
+    /// Whether the point is on the second half of the edge, which mirrors the first, or in the
+    /// middle.
     pub flip: bool,
     /// The position on the half edge, `0..=half_points`.
     pub position: u32,
@@ -17,11 +17,11 @@ pub struct Placement {
     pub blend: Option<Blend>,
     /// The location on the half edge, before mirroring, 16 fraction bits.
     pub half_location: u32,
-    /// The location: `half_location`, or `ONE` less it if `flip`.
+    /// The location: `half_location`, or `ONE - half_location` if `flip`.
     pub location: U16F16,
 }
 
-/// The two places of a point on a half edge that its location lies between.
+/// The two places of a point on a half edge, between which its location is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Blend {
     /// Its place in the coarser subdivision, 16 fraction bits, at most `HALF + 10`.
@@ -47,11 +47,11 @@ impl Blend {
 
     /// The location on the half edge, 16 fraction bits, rounded to nearest.
     ///
-    /// No overflow: both places are at most `HALF + 10`, as reciprocals round up, so the weighted
-    /// sum stays below 2^31 + 2^20 + `HALF`.
+    /// No overflow: both places are at most `HALF + 10`, because reciprocals may be rounded up, so
+    /// the weighted sum stays below 2^31 + 2^20 + `HALF`.
     ///
     /// # Panics
-    /// Where overflow is checked, if a place or the weight exceeds its field's range.
+    /// With overflow checks, may panic if a place or the weight exceeds its field's range.
     #[must_use]
     pub const fn half_location(self) -> u32 {
         let Self { coarse, fine, fraction } = self;
@@ -66,7 +66,7 @@ impl Blend {
 /// ONE`. Spec section 5 (D3D11.3 11.7.13, 11.7.14).
 ///
 /// # Panics
-/// Where overflow is checked, if no factor has this context.
+/// With overflow checks, may panic if no factor has this context.
 #[must_use]
 pub const fn place(context: &FactorContext, p: u32) -> U16F16 {
     placement(context, p).location
@@ -75,7 +75,7 @@ pub const fn place(context: &FactorContext, p: u32) -> U16F16 {
 /// [`place`] with every intermediate value.
 ///
 /// # Panics
-/// As [`place`].
+/// Like [`place`].
 #[must_use]
 pub const fn placement(context: &FactorContext, p: u32) -> Placement {
     let p = if p < context.points { p } else { context.points - 1 };

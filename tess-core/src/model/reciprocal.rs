@@ -1,4 +1,4 @@
-//! Reciprocals of 1..=64, the one table of point placement (spec section 2).
+//! Reciprocals of 1..=64, the only table of point placement (spec section 2).
 
 use crate::model::fixed_point::ONE;
 
@@ -13,8 +13,8 @@ const TABLE: [u32; 64] = {
     table
 };
 
-/// 1/n with 16 fraction bits, rounded half up, for `n` in 1..=64; `None` for any other `n`, of
-/// which the hardware's table has none.
+/// 1/n with 16 fraction bits, rounded half up, for `n` in 1..=64; `None` for any other `n`, which
+/// the hardware's table does not have.
 #[must_use]
 pub const fn reciprocal(n: u32) -> Option<u32> {
     if n >= 1 && n <= 64 { Some(TABLE[n as usize - 1]) } else { None }

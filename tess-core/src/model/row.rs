@@ -6,13 +6,13 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
     first: u32,
-    /// From each entry to the next, modulo 2^32.
+    /// The difference from each entry to the next, modulo 2^32.
     step: u32,
     replaced_at: u32,
     replaced: u32,
 }
 
-/// No row is this long.
+/// An entry that no row has, because no row is this long.
 const NOWHERE: u32 = u32::MAX;
 
 impl Row {

@@ -27,8 +27,8 @@ const POSITIONS: [[u8; 32]; 34] = {
     rows
 };
 
-/// The rank at which position `k` (0..=32) of a half edge receives its point; `None` beyond, where
-/// no half edge has a position.
+/// The rank at which position `k` of a half edge receives its point, for `k` in 0..=32; `None` for
+/// larger `k`, which no half edge has.
 #[must_use]
 pub const fn rank(split: SplitOrder, k: u32) -> Option<u32> {
     if k > 32 {
@@ -40,7 +40,7 @@ pub const fn rank(split: SplitOrder, k: u32) -> Option<u32> {
     })
 }
 
-/// Whether a half edge of `half` points has a point at position `k`, in 1..=32 for any that has.
+/// Whether a half edge of `half` points has a point at position `k`. False if `k` is above 32.
 #[must_use]
 pub const fn has_point(split: SplitOrder, k: u32, half: u32) -> bool {
     k <= 32
@@ -76,7 +76,7 @@ mod tests {
         }
     }
 
-    /// Position 0 aside, the table is a breadth-first walk of a balanced binary tree.
+    /// Apart from positions 0 and 1, the table is a breadth-first walk of a balanced binary tree.
     #[test]
     fn ruler_is_breadth_first_order() {
         let mut expected = [0u32; 33];

@@ -1,4 +1,4 @@
-//! Where the sequential formulation puts its output.
+//! The receivers of the sequential formulation's output.
 
 use crate::model::output::{DomainPoint, Primitive};
 
@@ -45,7 +45,8 @@ impl<'a> Slices<'a> {
     }
 
     fn put<const N: usize>(&mut self, values: [u32; N]) {
-        // The caller checked the room; a lack of it would drop output, and debug builds say so.
+        // The caller checked the size. A slice that is too short would lose output; debug builds
+        // assert.
         let indices = core::mem::take(&mut self.indices);
         if let Some((slot, rest)) = indices.split_first_chunk_mut() {
             *slot = values;

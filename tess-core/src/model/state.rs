@@ -11,7 +11,7 @@ pub enum Domain {
     Quad,
 }
 
-/// How a factor's cuts are spaced along an edge.
+/// The spacing of the cuts that a factor makes along an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Partitioning {
     /// Equal segments, factor rounded up to an integer in 1..=64.
@@ -57,16 +57,16 @@ pub enum SplitOrder {
     /// Bit-reversed order, the standard.
     #[default]
     Ruler,
-    /// From the centre outwards, as the Xbox 360 does (spec section 10).
+    /// From the centre outwards, the order of the Xbox 360 (spec section 10).
     Centre,
 }
 
 /// Whether an edge has an odd or an even number of segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Parity {
-    /// Even number of segments: a point lies exactly in the middle.
+    /// Even number of segments: a point is exactly in the middle.
     Even,
-    /// Odd number of segments: a segment lies across the middle.
+    /// Odd number of segments: a segment crosses the middle.
     Odd,
 }
 

@@ -1,7 +1,7 @@
 //! Stitching two rows with triangles (spec sections 7.2 to 7.4).
 //!
 //! A stitch is a sequence of steps. Each step is one triangle, clockwise, and moves on by one entry
-//! of one of the two rows; it depends only on point counts, never on the entries of the rows.
+//! on one of the two rows. The steps depend only on point counts, never on the entries of the rows.
 
 use crate::model::row::Row;
 use crate::model::ruler::{has_point, positions};
@@ -22,18 +22,18 @@ pub enum Side {
 /// One triangle of a stitch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Step {
-    /// The entry of the outer row that the stitch has come to.
+    /// The entry of the outer row at which the step begins.
     pub outer: u32,
-    /// The entry of the inner row that the stitch has come to.
+    /// The entry of the inner row at which the step begins.
     pub inner: u32,
-    /// The row that the triangle has two vertices on: this entry and the next.
+    /// The row that has two of the triangle's vertices: this entry and the next.
     pub advances: Side,
-    /// The row that the triangle's first vertex lies on.
+    /// The row of the triangle's first vertex.
     pub begins: Side,
 }
 
 impl Step {
-    /// The three vertices, clockwise: the row that each lies on, and its entry there.
+    /// The three vertices, clockwise: the row of each, and its entry there.
     #[inline(always)]
     #[must_use]
     pub const fn vertices(self) -> [(Side, u32); 3] {
@@ -50,7 +50,7 @@ impl Step {
     }
 
     /// The triangle on two rows.
-    #[inline(always)] // as a step's kind is a constant where it is made
+    #[inline(always)] // a step's kind is a constant where it is made
     #[must_use]
     pub const fn triangle(self, outer: &Row, inner: &Row) -> [u32; 3] {
         let [a, b, c] = self.vertices();
@@ -69,7 +69,7 @@ const fn index((outer, inner): (&Row, &Row), (side, entry): (Side, u32)) -> u32 
 /// A stitch of a patch: two rows, and the triangles between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stitch {
-    /// Where it is, and by which rule its steps are made.
+    /// The stitch's place in the patch, and the rule of its steps.
     pub kind: StitchKind,
     /// The row nearer to the patch's edge; row A of a centre strip.
     pub outer: Row,
@@ -81,7 +81,7 @@ pub struct Stitch {
     pub inner_points: u32,
 }
 
-/// Where a stitch is, and by which rule its steps are made.
+/// A stitch's place in the patch, and the rule of its steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StitchKind {
     /// Between an outer edge and ring 1: [`transition`].
@@ -103,8 +103,8 @@ pub enum StitchKind {
 }
 
 impl Stitch {
-    /// The centre triangle of the innermost ring with this first index: its first edge, and the
-    /// corner opposite.
+    /// The centre triangle of an innermost ring with this first index: the ring's first edge, and
+    /// the opposite corner.
     pub(crate) const fn centre_triangle(first: u32) -> Self {
         Self {
             kind: StitchKind::CentreTriangle,
@@ -118,7 +118,7 @@ impl Stitch {
     /// Sends the steps to `to`, in order.
     pub fn steps(&self, split: SplitOrder, to: impl FnMut(Step)) {
         match self.kind {
-            // Ring 1 has two points less than its inside factor.
+            // An edge of ring 1 has two points less than the inside factor's context.
             StitchKind::Transition { .. } => {
                 transition(split, self.outer_points, self.inner_points + 2, to);
             }
@@ -135,8 +135,8 @@ impl Stitch {
     }
 }
 
-/// The innermost ring of a triangle patch whose inside factor is odd, a single triangle: its
-/// vertices, clockwise, from its first index. Spec section 7.4.
+/// The single triangle that is the innermost ring of a triangle patch whose inside factor is odd:
+/// its vertices, clockwise, from its first index. Spec section 7.4.
 #[must_use]
 pub const fn centre_triangle(first: u32) -> [u32; 3] {
     let step = Step { outer: 0, inner: 0, advances: Side::Outer, begins: Side::Outer };
@@ -144,7 +144,7 @@ pub const fn centre_triangle(first: u32) -> [u32; 3] {
     step.triangle(&outer, &inner)
 }
 
-/// How far a stitch has come along its two rows, and where its steps go.
+/// The progress of a stitch along its two rows, and the receiver of its steps.
 struct Walk<F> {
     outer: u32,
     inner: u32,
@@ -171,12 +171,12 @@ impl<F: FnMut(Step)> Walk<F> {
     }
 }
 
-/// The transition between an outer edge and the first interior ring, whose factors are unrelated:
-/// both half edges are walked in split order. Spec section 7.2.
+/// The steps of the transition between an outer edge and the first interior ring. Their factors are
+/// unrelated, so the positions of both half edges are merged. Spec section 7.2.
 ///
-/// `outer_points` and `inside_points` are the `points` of the outer factor's context (2..=65) and
-/// of the inside factor's along the same axis (3..=65), whose ring has two points less. There are
-/// `outer_points + inside_points - 4` steps.
+/// `outer_points` and `inside_points` are the `points` of the contexts of the outer factor (2..=65)
+/// and of the inside factor along the same axis (3..=65); the ring's edge has two points less than
+/// that. There are `outer_points + inside_points - 4` steps.
 pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: impl FnMut(Step)) {
     let outer_half = outer_points.saturating_sub(1) / 2;
     let inner_half = inside_points.saturating_sub(1) / 2;
@@ -184,7 +184,7 @@ pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: 
     if outer_half > 0 {
         walk.advance_outer(Side::Outer);
     }
-    // Where the shorter half edge has a point, the longer has one.
+    // The longer half edge has a point wherever the shorter one has.
     let walked = positions(split, inner_half.max(outer_half));
     for k in walked.iter().copied().map(u32::from) {
         if has_point(split, k, inner_half) {
@@ -214,8 +214,9 @@ pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: 
     }
 }
 
-/// Two neighbouring interior rings: the outer row has two points more than the inner, which has
-/// `inner_points` (1..=61), and the diagonals are mirrored about the middle. Spec section 7.3.
+/// The steps between two neighbouring interior rings, along one edge. The inner row has
+/// `inner_points` points (1..=61), the outer row two more, and the diagonals are mirrored about the
+/// middle. Spec section 7.3.
 ///
 /// There are `2 * inner_points` steps.
 pub fn ring(inner_points: u32, to: impl FnMut(Step)) {
@@ -242,8 +243,8 @@ pub enum Diagonals {
     ForwardExceptMiddle,
 }
 
-/// The strip of quads inside an innermost ring: row A is the outer row, row B the inner one, both
-/// of `quads + 1` points (`quads` in 1..=63). Spec section 7.4.
+/// The steps of the strip of quads inside an innermost ring. Row A is the outer row, row B the
+/// inner one; both have `quads + 1` points (`quads` in 1..=63). Spec section 7.4.
 ///
 /// There are `2 * quads` steps.
 pub fn strip(quads: u32, diagonals: Diagonals, to: impl FnMut(Step)) {

@@ -1,4 +1,4 @@
-//! Dispatches in their order, and the buffers that each binds.
+//! The dispatches in order, and the buffers that each binds.
 
 use super::Plan;
 use super::jobs::JobPart;
@@ -18,7 +18,7 @@ pub struct Dispatch {
     part: JobPart,
 }
 
-/// How many workgroups a dispatch has.
+/// The number of workgroups of a dispatch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Workgroups {
     /// These numbers along x, y and z.
@@ -29,9 +29,10 @@ pub enum Workgroups {
 }
 
 impl Plan {
-    /// Everything that a batch runs, in order. Each dispatch reads what earlier ones wrote.
+    /// All dispatches of a batch, in order. Each dispatch reads the results of earlier ones.
     ///
-    /// All portions are counted before any is expanded, so that nothing is written if not all fits.
+    /// All portions are counted before any is expanded, so that nothing is written unless
+    /// everything fits.
     pub fn dispatches(&self) -> impl Iterator<Item = Dispatch> + use<> {
         let plan = *self;
         let portions = 0..self.portions().max(1);
@@ -51,7 +52,7 @@ impl Plan {
         counting.chain(list).chain(groups).chain(expansion)
     }
 
-    /// The dispatches that write the output of a portion; nothing if there is no room for any.
+    /// The dispatches that write the output of a portion; none if there is no room for output.
     fn expansion(self, portion: u32) -> impl Iterator<Item = Dispatch> + use<> {
         let has_room = self.capacity != Capacity::default();
         let (points, primitives) = match self.is_short() {
@@ -70,25 +71,26 @@ impl Plan {
 }
 
 impl Dispatch {
-    /// The stage, whose pipeline it runs.
+    /// The stage whose pipeline the dispatch runs.
     #[must_use]
     pub const fn stage(&self) -> Stage {
         self.stage
     }
 
-    /// The number of its job in the buffer of jobs.
+    /// The number of the dispatch's job in the buffer of jobs.
     #[must_use]
     pub fn job(&self) -> u32 {
         self.plan.job_number(self.portion, self.part)
     }
 
-    /// Its bindings in group 0, in order from binding 0: which buffer, and which bytes of it.
+    /// The bindings of the dispatch in group 0, in order from binding 0: each a buffer, and the
+    /// bytes of it to bind.
     pub fn bindings(&self) -> impl ExactSizeIterator<Item = (Resource, Span)> {
         let resources = self.stage.bindings().iter();
         resources.map(|&Binding(resource, _)| (resource, self.span(resource)))
     }
 
-    /// Its workgroups.
+    /// The workgroups of the dispatch.
     #[must_use]
     pub fn workgroups(&self) -> Workgroups {
         let patches = self.plan.patches_in(self.portion);

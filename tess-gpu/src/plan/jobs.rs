@@ -1,10 +1,10 @@
-//! The jobs of a batch: what the shaders are told about a portion and a window.
+//! The jobs of a batch, which tell the shaders about a portion and a window.
 
 use super::Plan;
 use crate::layout::Job;
 use crate::sizes::ALIGNMENT;
 
-/// Which part of a portion's work a job is about.
+/// The part of a portion's work that a job describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum JobPart {
     /// All of it: counting, partitioning, and the expansions of a short batch.
@@ -34,14 +34,14 @@ impl Plan {
         bytes
     }
 
-    /// How many jobs there are. A batch of no patches has those of an empty portion.
+    /// The number of jobs. A batch without patches has the jobs of an empty portion.
     pub(super) fn job_count(&self) -> u32 {
         self.portions().max(1) * self.parts()
     }
 
-    /// The number of a job. Each portion has one job for the whole of it, one for each window of
-    /// the points and one for each window of the primitives; shared/finish.wgsl numbers dispatch
-    /// sizes so.
+    /// The number of a job. Each portion has one job for the whole portion, one for each window of
+    /// the points and one for each window of the primitives. `shared/finish.wgsl` numbers the sizes
+    /// of dispatches in the same way.
     pub(super) fn job_number(&self, portion: u32, part: JobPart) -> u32 {
         let in_portion = match part {
             JobPart::Whole => 0,

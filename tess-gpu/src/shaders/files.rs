@@ -1,12 +1,12 @@
-//! The files of `shaders/`, joined in the order in which they need each other.
+//! The files of `shaders/`, joined so that each file follows the files that it needs.
 //!
-//! The first line of a file names the files that it needs by their paths: `// needs: layout/setup,
-//! {place}`. Names in braces stand for one of several files, which the setup chooses. Names behind
-//! a semicolon are bindings that whoever needs the file declares.
+//! The first line of a file has the paths of the files that it needs: `// needs: layout/setup,
+//! {place}`. A name in braces stands for one of several files, and the setup chooses which. Names
+//! after a semicolon are bindings that the user of the file must declare.
 
 use crate::setup::{IndexType, Setup};
 
-/// Lists files of `shaders/` by their folders: names and texts.
+/// Lists files of `shaders/` by folder: names and texts.
 macro_rules! files {
     ($($folder:ident: $($name:ident)*;)*) => {
         [$($(files!(@ concat!(stringify!($folder), "/", stringify!($name))),)*)*]
@@ -33,8 +33,8 @@ const FILES: [(&str, &str); 57] = files! {
 /// A name in braces and the file that stands for it.
 pub(super) type Choice = (&'static str, &'static str);
 
-/// How points are placed. With integer factors a number of points says it all; otherwise the file
-/// `stored` says where contexts are.
+/// The files that place points. With integer factors a point count is enough; otherwise the file
+/// `stored` reads or replaces the contexts.
 pub(super) const fn placing(setup: Setup, stored: &'static str) -> [Choice; 2] {
     if setup.has_integer_factors() {
         [("place", "variants/place_evenly"), ("contexts", "variants/place_evenly")]
@@ -43,7 +43,7 @@ pub(super) const fn placing(setup: Setup, stored: &'static str) -> [Choice; 2] {
     }
 }
 
-/// How indices are stored.
+/// The file that stores indices.
 pub(super) const fn indices(setup: Setup) -> Choice {
     let file = match setup.index_type {
         IndexType::U16 => "variants/indices_u16",
@@ -52,13 +52,13 @@ pub(super) const fn indices(setup: Setup) -> Choice {
     ("indices", file)
 }
 
-/// Whether topologies are entered into the catalogue.
+/// The file that enters topologies into the catalogue, or the one that does not.
 pub(super) const fn listing(lists: bool) -> Choice {
     ("listing", if lists { "variants/listing" } else { "variants/no_listing" })
 }
 
-/// Where the expansions of a short batch and of a long one differ: the catalogue and the size of
-/// tiles.
+/// The files in which the expansions of short and long batches differ: the catalogue and the size
+/// of tiles.
 pub(super) const fn expanding(is_short: bool) -> [Choice; 2] {
     if is_short {
         [("catalogue", "variants/no_catalogue"), ("elements", "variants/narrow_tiles")]
@@ -67,7 +67,7 @@ pub(super) const fn expanding(is_short: bool) -> [Choice; 2] {
     }
 }
 
-/// Files behind all that they need, each once.
+/// The texts of files, each after all files that it needs, and each once.
 pub(super) fn joined(files: &[&'static str], choices: &[Choice]) -> String {
     let mut names = Vec::new();
     for file in files {

@@ -1,28 +1,29 @@
-//! WGSL for shaders that compute points and primitives where they need them.
+//! WGSL for shaders that compute points and primitives on demand.
 
 use super::files;
 use crate::bindings::Resource;
 use crate::setup::Setup;
 
-/// WGSL to put in front of your own shader. It computes any point or primitive of a patch from its
-/// number, in constant time, so that nothing needs to be written out for drawing.
+/// WGSL to prepend to your own shader. It computes any point or primitive of a patch from its
+/// number, in constant time, so that no output has to be written for drawing.
 ///
-/// Run a batch with room for nothing first, of one portion: it leaves topologies and contexts. The
-/// WGSL declares `topologies`, `tables` and, unless [`Setup::has_integer_factors`], `contexts` as
-/// read-only storage buffers and `job` as a uniform buffer with the batch's first
-/// [`crate::layout::Job`], which says where the contexts of each factor begin. Any of them may be
-/// bound in a larger buffer. It offers these functions:
+/// First run a batch of one portion without room for output: it makes topologies and contexts. The
+/// WGSL declares `topologies` and `tables` as read-only storage buffers. Unless
+/// [`Setup::has_integer_factors`], it also declares `contexts`, another one, and `job`, a uniform
+/// buffer with the batch's first [`crate::layout::Job`], which has the place of each factor's
+/// contexts. Any of them may be bound as a part of a larger buffer. The WGSL offers these
+/// functions:
 /// - `tess_point(patch_index, i) -> vec2<u32>`: u and v of point `i` as 16.16 numbers,
 /// - `tess_location(patch_index, i) -> vec2<f32>`: the same as binary32, exactly,
-/// - `tess_primitive(patch_index, t) -> vec3<u32>`: the indices of primitive `t`, which count from
-///   the patch's first point; as many of the three as a primitive has.
+/// - `tess_primitive(patch_index, t) -> vec3<u32>`: the indices of primitive `t`, counted from the
+///   patch's first point; only as many of the three are used as a primitive has.
 ///
-/// [`Pull::source_for_drawing`] also finds the patch of a vertex that is drawn.
+/// [`Pull::source_for_drawing`] also finds the patch of a drawn vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Pull {
     /// Bind group of the buffers.
     pub group: u32,
-    /// Binding of `topologies`, to which the others follow: [`Pull::bindings`].
+    /// Binding of `topologies`. The other bindings follow it: [`Pull::bindings`].
     pub first_binding: u32,
 }
 
@@ -37,9 +38,9 @@ impl Pull {
         Resource::Tiles,
     ];
 
-    /// Declarations of [`Pull::source_for_drawing`]: numbers of bindings and their buffers.
-    /// [`Pull::source`] declares the first four of six, or with [`Setup::has_integer_factors`],
-    /// where contexts are left out, two of five.
+    /// The bindings that [`Pull::source_for_drawing`] declares: their numbers and buffers.
+    /// [`Pull::source`] declares the first four of these six. With [`Setup::has_integer_factors`]
+    /// contexts are left out, and it declares the first two of five.
     pub fn bindings(self, setup: Setup) -> impl Iterator<Item = (u32, Resource)> {
         let all = (self.first_binding..).zip(Self::RESOURCES);
         all.filter(move |(_, what)| *what != Resource::Contexts || !setup.has_integer_factors())
@@ -52,11 +53,11 @@ impl Pull {
         self.begin(setup, declared) + &Self::files(setup, &["stages/locate"])
     }
 
-    /// The same for the vertex shader of a batch that does not write everything
+    /// The WGSL for the vertex shader of a batch that does not write everything
     /// ([`crate::Plan::writing`]).
     ///
-    /// The WGSL declares `job` in every setup, and the storage buffers `offsets` and `tiles`. It
-    /// also offers
+    /// In addition to [`Pull::source`], it declares `job` in every setup, and the storage buffers
+    /// `offsets` and `tiles`. It also offers
     /// - `tess_point_at(i) -> vec2<u32>`: the patch of point `i` of the batch, and the point's
     ///   number within the patch,
     /// - `tess_primitive_at(t) -> vec2<u32>`: the same for primitive `t` of the batch.
@@ -66,7 +67,7 @@ impl Pull {
             + &Self::files(setup, &["stages/locate", "offered/elements"])
     }
 
-    /// These files and what they need.
+    /// These files and the files that they need.
     fn files(setup: Setup, files: &[&'static str]) -> String {
         files::joined(files, &files::placing(setup, "variants/stored_contexts"))
     }

@@ -1,19 +1,21 @@
-//! Stage taps: the WGSL of single stages, whose values tests compare with the golden model's.
+//! Stage taps: the WGSL of single stages. Tests compare their values with the golden model's.
 
 use super::files;
 use crate::setup::Setup;
 
-/// A shader that runs one stage alone, so that its values can be compared with the golden model's.
+/// A shader that runs a single stage, so that its values can be compared with the golden model's.
 ///
 /// The entry point is `taps`. Binding 0 is the input, binding 1 the output, binding 2 the
 /// [`crate::tables`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Tap {
-    /// Four words of a triangle patch's factors to its fixed-point u = 0 and inside factors.
+    /// Input: the four factors of a triangle patch. Output: its fixed-point u = 0 and inside
+    /// factors.
     Factors,
-    /// A 15.16 factor and its parity (1 is odd) to its packed context.
+    /// Input: a 15.16 factor and its parity (1 is odd). Output: its packed context.
     Contexts,
-    /// A packed context to 65 words of locations, as many of them written as it has points.
+    /// Input: a packed context. Output: 65 words for locations, of which those of the context's
+    /// points are written.
     Locations,
 }
 
@@ -31,7 +33,7 @@ impl Tap {
         }
     }
 
-    /// Its WGSL, a whole module.
+    /// The tap's WGSL, a whole module.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
         let file = match self {

@@ -1,9 +1,9 @@
-//! The instructions of each level, in three forms: as the machine is asked for them, as the
-//! functions that use intrinsics are given them, and as `multiversion` is told them.
+//! The instructions of each level, in three forms: for detection at run time (`has`), for functions
+//! that use intrinsics (`with_avx512`), and for `multiversion` (`at_each_level`).
 
 use super::level::Level;
 
-/// Whether this machine has all of these.
+/// Whether this machine has all of these instruction sets.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 macro_rules! all_of {
     ($($instructions:tt)*) => {
@@ -11,9 +11,8 @@ macro_rules! all_of {
     };
 }
 
-/// Whether this machine can run a level: it has the target's instructions and those that
-/// `multiversion` asks for beside them. On a processor that lacks one of these it would run what
-/// was compiled for the baseline.
+/// Whether this machine can run a level: it has the instructions of the target, and the others that
+/// `multiversion` checks for. Without one of them, `multiversion` would choose the baseline's code.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 pub(super) fn has(level: Level) -> bool {
     match level {
@@ -28,14 +27,14 @@ pub(super) fn has(level: Level) -> bool {
     }
 }
 
-/// Whether this machine can run a level: it cannot be asked.
+/// Whether this machine can run a level. The machine cannot be asked, so only the baseline.
 #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
 pub(super) const fn has(level: Level) -> bool {
     matches!(level, Level::Baseline)
 }
 
 /// Defines functions that may call the intrinsics of AVX-512. Only functions of that level may call
-/// them.
+/// these functions.
 #[cfg(target_arch = "x86_64")]
 macro_rules! with_avx512 {
     ($($function:item)*) => {
@@ -50,11 +49,12 @@ macro_rules! with_avx512 {
 #[cfg(target_arch = "x86_64")]
 pub(crate) use with_avx512;
 
-/// Defines a function that runs `$kernel` at a level: one instance for each, which the level's
-/// availability was checked for ([`Level::is_available`] asks for the same instructions). With
-/// `avx512 = $special`, that level runs `$special` instead, a function of `with_avx512`.
+/// Defines a function that runs `$kernel` at a level, with one compiled instance per level. The
+/// caller has checked that the level is available ([`Level::is_available`] asks for the same
+/// instructions). With `avx512 = $special`, the level AVX-512 runs `$special` instead, a function
+/// of `with_avx512`.
 ///
-/// Only for this project's crates; one that uses it depends on `multiversion`.
+/// Only for this project's crates. A crate that uses it depends on `multiversion`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! at_each_level {
@@ -79,8 +79,8 @@ macro_rules! at_each_level {
             fn avx2 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
                 multiversion::target::match_target! {
                     "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt" => $kernel($($arg),*),
-                    // For processors without the level's instructions. It never runs, so it need
-                    // not be an instance of the kernel.
+                    // For processors without the level's instructions. This arm never runs, so it
+                    // does not need an instance of the kernel of its own.
                     _ => self::$name($crate::Level::Baseline, $($arg),*),
                 }
             }
@@ -97,7 +97,7 @@ macro_rules! at_each_level {
                 }
             }
 
-            // Apart, so that choosing a level needs no registers and no stack.
+            // Not inlined, so that choosing a level needs no registers and no stack.
             #[inline(never)]
             fn baseline $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
                 $kernel($($arg),*)
@@ -108,7 +108,7 @@ macro_rules! at_each_level {
                 $crate::Level::Avx2 => avx2($($arg),*),
                 #[cfg(target_arch = "x86_64")]
                 $crate::Level::Avx512 => avx512($($arg),*),
-                // Elsewhere it is the only level that is available.
+                // On other architectures the baseline is the only level that is available.
                 _ => baseline($($arg),*),
             }
         }

@@ -1,4 +1,4 @@
-//! CPU levels: which instructions the kernels are compiled for.
+//! CPU levels: the sets of instructions that the kernels are compiled for.
 
 use super::instructions::has;
 use core::fmt;
@@ -11,7 +11,7 @@ pub enum Level {
     Baseline,
     /// AVX2 on x86-64.
     Avx2,
-    /// AVX-512 on x86-64, as processors have it since Ice Lake and Zen 4.
+    /// AVX-512 on x86-64, as in processors since Ice Lake and Zen 4.
     Avx512,
 }
 
@@ -36,10 +36,10 @@ impl Level {
         has(self)
     }
 
-    /// Nothing if this machine can run the level.
+    /// Checks that this machine can run the level.
     ///
     /// # Errors
-    /// [`LevelUnavailableError`] if it, or this build, cannot.
+    /// [`LevelUnavailableError`] if this machine, or this build, cannot run it.
     pub fn require(self) -> Result<(), LevelUnavailableError> {
         if self.is_available() { Ok(()) } else { Err(LevelUnavailableError(self)) }
     }

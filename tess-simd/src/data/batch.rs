@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use tess_core::{Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
 
-/// The raw factors of patches of one domain, in one of three layouts: one structure a patch, as a
-/// hull shader writes them; the core's [`PatchFactors`]; or one slice a factor (columns). `From`
+/// The raw factors of patches of one domain, in one of three layouts: one structure per patch, as a
+/// hull shader writes them; the core's [`PatchFactors`]; or one slice per factor (columns). `From`
 /// converts each of them.
 ///
 /// Every bit pattern of every factor is valid. The patches must have one domain, and the columns
@@ -29,14 +29,14 @@ pub enum Batch<'a> {
     Triangles(&'a [TriangleFactors]),
     /// Quads, patch by patch.
     Quads(&'a [QuadFactors]),
-    /// Patches of any one domain, patch by patch. Up to a fifth slower than the structures above
-    /// where patches are small; see [`OwnedBatch`](crate::OwnedBatch).
+    /// Patches of any one domain, patch by patch. For small patches up to a fifth slower than the
+    /// structures above; see [`OwnedBatch`](crate::OwnedBatch).
     Patches(&'a [PatchFactors]),
     /// Patches, factor by factor: a column for each factor.
     Columns(PatchFactors<&'a [f32]>),
 }
 
-/// Conversions from a slice of structures, and from what is borrowed as one.
+/// Conversions from a slice of structures, and from references to an array or a vector of them.
 macro_rules! from_structures {
     ($factors:ty, $layout:ident) => {
         impl<'a> From<&'a [$factors]> for Batch<'a> {
@@ -63,7 +63,7 @@ from_structures!(TriangleFactors, Triangles);
 from_structures!(QuadFactors, Quads);
 from_structures!(PatchFactors, Patches);
 
-/// A conversion from a column for each factor.
+/// A conversion from one column per factor.
 macro_rules! from_columns {
     ($columns:ty) => {
         impl<'a> From<$columns> for Batch<'a> {
@@ -79,8 +79,8 @@ from_columns!(QuadFactors<&'a [f32]>);
 from_columns!(PatchFactors<&'a [f32]>);
 
 impl Batch<'_> {
-    /// The domain of its patches. For [`PatchFactors`] it is the first patch's domain, and quad if
-    /// there is no patch.
+    /// The domain of the patches. For [`PatchFactors`] it is the first patch's domain, or quad if
+    /// there are no patches.
     #[must_use]
     pub fn domain(&self) -> Domain {
         match self {
@@ -92,7 +92,7 @@ impl Batch<'_> {
         }
     }
 
-    /// The number of patches: the length of the shortest column if it is made of columns.
+    /// The number of patches. For columns, the length of the shortest one.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -104,7 +104,7 @@ impl Batch<'_> {
         }
     }
 
-    /// Whether it has no patches.
+    /// Whether the batch has no patches.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -123,7 +123,7 @@ impl Batch<'_> {
         }
     }
 
-    /// Whether its patches have one domain and its columns one length.
+    /// Checks that the patches have one domain and the columns one length.
     ///
     /// # Errors
     /// [`Error::MixedDomains`], [`Error::UnevenColumns`].
@@ -169,7 +169,7 @@ impl Batch<'_> {
         }
     }
 
-    /// The patches of a range within it.
+    /// The patches of a range within the batch.
     pub(crate) fn slice(&self, range: &Range<usize>) -> Self {
         match *self {
             Self::Isolines(patches) => Self::Isolines(part(patches, range)),
@@ -211,8 +211,9 @@ fn differ<const N: usize>(a: impl Into<[f32; N]>, b: impl Into<[f32; N]>) -> u32
     different
 }
 
-/// How many patches, from the first on, are like it in every column. Looks twice as far as the
-/// columns have agreed so far: one of them may stay the same where another one does not.
+/// The number of patches, counted from `first`, that equal patch `first` in every column. The
+/// search doubles its range for as long as all columns agree, because one column may stay the same
+/// long after another has changed.
 fn run_of_columns(columns: &PatchFactors<&[f32]>, first: usize) -> usize {
     let mut sight = 16;
     loop {
@@ -229,7 +230,8 @@ fn run_of_columns(columns: &PatchFactors<&[f32]>, first: usize) -> usize {
     }
 }
 
-/// How many elements, from the first on, are like it: each like the one before.
+/// The number of elements, counted from `first`, that equal element `first`. In blocks, each
+/// element is compared with the next.
 #[inline(always)]
 fn run<T>(all: &[T], first: usize, differ: impl Fn(&T, &T) -> u32) -> usize {
     /// Elements compared at a time, as vectors.

@@ -6,25 +6,26 @@ use tess_core::{Domain, PatchFactors};
 
 /// The factors of up to [`Chunk::PATCHES`] patches, factor by factor.
 ///
-/// Packets are read from here and not from the batch: a wide load stalls if narrow stores of its
-/// elements are recent.
+/// Packets are read from here and not from the batch, because a wide load stalls if its elements
+/// were stored one by one a short time ago.
 #[derive(Clone, Debug)]
 pub(crate) struct Chunk([[f32; Self::PATCHES]; MAX_FACTORS]);
 
-/// The work of one step: the patches of a chunk, or one patch and those that repeat it.
+/// The work of one step: the patches of a chunk, or one patch that repeats.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stretch {
-    /// Patches that differ, at most [`Chunk::PATCHES`]; 1 if it repeats.
+    /// Patches to process, at most [`Chunk::PATCHES`]; 1 if the patch repeats.
     pub(crate) patches: usize,
-    /// How often they follow each other.
+    /// How many times these patches come in a row.
     pub(crate) times: usize,
 }
 
 impl Stretch {
-    /// At this many equal patches and above, repeating one is faster than processing each.
+    /// At this many equal patches and above, copying the output of one is faster than processing
+    /// each.
     pub(crate) const WORTH_REPEATING: usize = 8;
 
-    /// The patches of a batch from `start` on, of which there are some.
+    /// The next step of a batch, from patch `start`, which the batch has.
     #[inline(always)]
     pub(crate) fn new(batch: &Batch<'_>, start: usize) -> Self {
         let times = batch.run(start);
@@ -41,8 +42,8 @@ impl Chunk {
     pub(crate) const PATCHES: usize = Self::PACKETS * LANES;
     pub(crate) const EMPTY: Self = Self([[0.0; Self::PATCHES]; MAX_FACTORS]);
 
-    /// Loads the first patches of a batch, at most a chunk. Factors are zero where the last
-    /// packet has no patch, or one of another domain.
+    /// Loads the first patches of a batch, at most a chunk. Lanes of the last packet that have no
+    /// patch get zeros.
     #[inline(always)]
     pub(crate) fn load(&mut self, batch: &Batch<'_>) {
         match batch {
@@ -79,7 +80,8 @@ impl Chunk {
         factors: impl Fn(&F) -> Option<[f32; N]>,
     ) {
         let patches = patches.get(..Self::PATCHES).unwrap_or(patches);
-        // Whole packets apart: loops of a fixed length leave no patches to be loaded one by one.
+        // Whole packets have their own loop, whose fixed length lets the compiler load them without
+        // a remainder.
         let (whole, others) = patches.as_chunks::<LANES>();
         for (number, patches) in whole.iter().enumerate().take(Self::PACKETS) {
             self.load_packet(number * LANES, patches, &factors);
@@ -88,7 +90,7 @@ impl Chunk {
         self.clear(patches.len());
     }
 
-    /// Loads patches of one packet, whose first is number `first`.
+    /// Loads patches of one packet, the first of which is number `first` of the chunk.
     #[inline(always)]
     fn load_packet<F, const N: usize>(
         &mut self,
@@ -114,7 +116,7 @@ impl Chunk {
         self.clear(end);
     }
 
-    /// Zeros from a patch to the end of its packet.
+    /// Writes zeros from patch `first` to the end of its packet.
     #[inline(always)]
     fn clear(&mut self, first: usize) {
         for i in first..first.next_multiple_of(LANES).min(Self::PATCHES) {

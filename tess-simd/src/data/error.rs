@@ -1,4 +1,4 @@
-//! Why a batch is refused.
+//! The reasons to refuse a batch.
 
 use core::fmt;
 use tess_core::Domain;
@@ -15,7 +15,7 @@ pub enum BatchBuffer {
     Ranges,
 }
 
-/// Why a batch was refused. Buffers and outputs stay as they were.
+/// The reason why a batch was refused. Buffers and outputs keep their contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
@@ -28,8 +28,8 @@ pub enum Error {
         /// Elements that the buffer has.
         got: usize,
     },
-    /// The largest index does not fit the index format. Use wider indices, number each patch on
-    /// its own, or make the batch smaller.
+    /// The largest index does not fit the index format. Use wider indices, number each patch
+    /// separately, or make the batch smaller.
     IndexTooLarge {
         /// The largest index needed.
         largest: u64,
@@ -43,18 +43,18 @@ pub enum Error {
         /// Its indices.
         indices: u64,
     },
-    /// The columns of the batch have different lengths. Give each one factor for each patch.
+    /// The columns of the batch have different lengths. Give each column one factor per patch.
     UnevenColumns {
         /// The shortest length, and another one.
         lengths: [usize; 2],
     },
     /// The patches of the batch have different domains. Make a batch of each domain.
     MixedDomains {
-        /// Number of the first patch with another domain than the batch.
+        /// Number of the first patch whose domain is not the batch's.
         patch: usize,
         /// Its domain.
         found: Domain,
-        /// The batch's domain: the one it was made with, or the first patch's.
+        /// The batch's domain: the one that it was made with, or the first patch's.
         expected: Domain,
     },
 }

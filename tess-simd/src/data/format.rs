@@ -6,10 +6,10 @@ use tess_core::DomainPoint;
 /// are exact.
 ///
 /// `tess-gpu` calls the first `PointFormat::F32`. C calls them `TESS_POINT_F32` and
-/// `TESS_POINT_FIXED`. The shaders' packed format, which has the patch's number in each point, does
+/// `TESS_POINT_FIXED`. The shaders' packed format, in which each point has its patch's number, does
 /// not exist here.
 pub trait OutputPoint: sealed::Point + Copy + Default + Send + Sync + 'static {
-    /// The point with these 16.16 coordinates, each in `0..=ONE`. Exact; beyond that range
+    /// The point with these 16.16 coordinates. Exact if each is in `0..=ONE`, otherwise
     /// unspecified.
     #[must_use]
     fn from_bits(u: u32, v: u32) -> Self;
@@ -20,16 +20,16 @@ pub trait OutputPoint: sealed::Point + Copy + Default + Send + Sync + 'static {
 /// `tess-gpu` calls them `IndexType::U16` and `IndexType::U32`; C calls them `TESS_INDEX_U16` and
 /// `TESS_INDEX_U32`.
 ///
-/// The largest index, 65535 or 2^32 - 1, restarts primitives in WebGL 2, and in other interfaces
-/// where primitive restart is on. Batches write it like any other index. To do without it, keep a
-/// batch that is numbered through ([`Numbering::PerBatch`](crate::Numbering::PerBatch)) to
-/// [`IndexFormat::POINTS_WITHOUT_RESTART`] points, its `base_vertex` included. No single patch has
-/// it.
+/// The largest index, 65535 or 2^32 - 1, restarts primitives in WebGL 2, and in other interfaces if
+/// primitive restart is on. Batches write it like any other index. To avoid it with
+/// [`Numbering::PerBatch`](crate::Numbering::PerBatch), keep `base_vertex` plus the batch's points
+/// at or below [`IndexFormat::POINTS_WITHOUT_RESTART`]. A single patch never needs it.
 pub trait IndexFormat: sealed::Index + Copy + Default + Send + Sync + 'static {
     /// The largest index.
     const LARGEST: u64;
 
-    /// The points that can be numbered from 0 without the largest index: 65 535, or 2^32 - 1.
+    /// The number of points that can be numbered from 0 without the largest index: 65 535, or 2^32
+    /// - 1.
     const POINTS_WITHOUT_RESTART: u64 = Self::LARGEST;
 
     /// The index, modulo 2^16 or 2^32.
@@ -37,8 +37,8 @@ pub trait IndexFormat: sealed::Index + Copy + Default + Send + Sync + 'static {
     fn wrapping_from(index: u32) -> Self;
 }
 
-/// Methods of the formats for the kernels. The module keeps them to those that are compared with
-/// the core.
+/// Methods of the formats for the kernels. The module is private, so only formats that are compared
+/// with the core implement them.
 mod sealed {
     use tess_core::DomainPoint;
 
@@ -50,16 +50,16 @@ mod sealed {
         /// The point with these coordinates.
         fn from_coordinates(coordinates: [u32; 2]) -> Self;
 
-        /// The same points as one of the formats there are.
+        /// The same points, as a format that is known at run time.
         fn any(points: &mut [Self]) -> AnyPoints<'_>;
     }
 
     #[expect(unnameable_types, reason = "keeps the formats to those compared with the core")]
     pub trait Index: Sized {
-        /// The same indices as one of the formats there are.
+        /// The same indices, as a format that is known at run time.
         fn any(indices: &mut [Self]) -> AnyIndices<'_>;
 
-        /// A code from a stitch table: its sign is extended.
+        /// A code from a stitch table, with its sign extended.
         fn from_code(code: i8) -> Self;
 
         /// The sum, modulo 2^16 or 2^32.
@@ -75,7 +75,7 @@ mod sealed {
     pub enum AnyPoints<'a> {
         F32(&'a mut [[f32; 2]]),
         Fixed(&'a mut [DomainPoint]),
-        /// Arrays of u and of v, of one length.
+        /// An array of u and an array of v, of equal length.
         #[cfg(feature = "apart")]
         F32Apart([&'a mut [f32]; 2]),
     }
@@ -92,8 +92,8 @@ mod sealed {
 pub(crate) use sealed::{AnyIndices, AnyPoints};
 
 impl sealed::Point for [f32; 2] {
-    /// From 128 on binary32 numbers are the multiples of 2^-16: the mantissa of `128 + x` is `x` in
-    /// 16.16.
+    /// The binary32 numbers from 128 to 256 are the multiples of 2^-16, so the mantissa of `128 +
+    /// x` is `x` in 16.16.
     #[inline(always)]
     #[expect(
         clippy::float_arithmetic,

@@ -21,7 +21,7 @@ pub enum Numbering {
 }
 
 impl Numbering {
-    /// That of the part of a batch which begins at this point.
+    /// The numbering of the part of a batch that begins at this point.
     #[must_use]
     pub const fn behind(self, first_point: u32) -> Self {
         match self {
@@ -30,7 +30,7 @@ impl Numbering {
         }
     }
 
-    /// The number of a patch's first point, which is this point of the batch.
+    /// The index of a patch's first point, which is point `first_point` of the batch.
     #[inline(always)]
     pub(crate) const fn base(self, first_point: u32) -> u32 {
         match self {
@@ -40,15 +40,15 @@ impl Numbering {
     }
 }
 
-/// The range of one patch's output. A culled patch has no points and no indices.
+/// The place of one patch's output. A culled patch has no points and no indices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(C)]
 pub struct PatchRange {
-    /// Number of its first point in the batch's points.
+    /// Number of the patch's first point in the batch's points.
     pub first_point: u32,
     /// Number of its points, at most 4225.
     pub points: u32,
-    /// Number of its first index in the batch's indices.
+    /// Number of the patch's first index in the batch's indices.
     pub first_index: u32,
     /// Number of its indices, at most 24576.
     pub indices: u32,
@@ -92,17 +92,17 @@ impl<'a, P: OutputPoint, I: IndexFormat> Buffers<'a, P, I> {
     }
 }
 
-/// [`Buffers`] whose points are in two arrays: u of each, and v of each, as binary32. Points are
-/// those of [`Buffers`] with `[f32; 2]`.
+/// [`Buffers`] whose points are in two arrays, all u and all v, as binary32. The points are the
+/// same as with [`Buffers`] of `[f32; 2]`.
 ///
 /// C calls the format `TESS_POINT_F32_APART`. It needs the feature `apart`.
 #[cfg(feature = "apart")]
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct ApartBuffers<'a, I = u32> {
-    /// Receives u of the points of all patches, one patch after another.
+    /// Receives the u of all points, one patch after another.
     pub u: &'a mut [f32],
-    /// Receives v of the same points.
+    /// Receives the v of the same points.
     pub v: &'a mut [f32],
     /// Receives the indices of all patches, one patch after another.
     pub indices: &'a mut [I],
@@ -125,9 +125,10 @@ impl<'a, I: IndexFormat> ApartBuffers<'a, I> {
     }
 }
 
-/// Buffers that grow as needed and keep their memory. After the largest batch nothing is allocated.
+/// Buffers that grow as needed and keep their memory. Batches no larger than earlier ones allocate
+/// nothing.
 ///
-/// Points and indices begin on cache lines: with AVX-512, batches are then written up to a fourth
+/// Points and indices begin on cache lines, which makes AVX-512 write batches up to a fourth
 /// faster.
 #[derive(Clone, Debug)]
 pub struct Output<P = [f32; 2], I = u32> {
@@ -140,7 +141,7 @@ pub struct Output<P = [f32; 2], I = u32> {
 pub type ExactOutput = Output<DomainPoint, u32>;
 
 impl<P: OutputPoint, I: IndexFormat> Output<P, I> {
-    /// An empty output, without memory yet.
+    /// An empty output that has no memory yet.
     #[must_use]
     pub const fn new() -> Self {
         Self { points: Aligned::new(), indices: Aligned::new(), ranges: Aligned::new() }
@@ -191,7 +192,7 @@ impl<P: OutputPoint, I: IndexFormat> Default for Output<P, I> {
     }
 }
 
-/// Elements that begin on a cache line where they can, in a vector that only ever grows.
+/// Elements that begin on a cache line if possible, in a vector that never shrinks.
 #[derive(Clone, Debug)]
 struct Aligned<T> {
     all: Vec<T>,

@@ -1,7 +1,7 @@
-//! How the points of a format come to memory.
+//! Writing the points of a format to memory.
 //!
-//! The kernels write points without knowing where a format has them: in pairs of coordinates, or
-//! with all u before all v.
+//! The kernels write points without knowing their layout: pairs of coordinates, or all u in one
+//! array and all v in another.
 //!
 //! ```text
 //! pairs    [ u0 v0 | u1 v1 | u2 v2 | ...          Writer
@@ -22,16 +22,16 @@ pub(crate) trait PointRoom: Sized + Send {
     where
         Self: 'a;
 
-    /// Writes from the start.
+    /// A writer that begins at the start.
     fn writer(&mut self) -> Self::Writer<'_>;
 
-    /// [`first`], of each array.
+    /// [`first`], applied to each array.
     ///
     /// # Errors
     /// [`Error::BufferTooSmall`].
     fn first(self, needed: usize, more: usize) -> Result<Self, Error>;
 
-    /// The first points, which it has, and those after them.
+    /// The first `points` points, which must exist, and those after them.
     fn split_at(self, points: usize) -> (Self, Self);
 
     fn len(&self) -> usize;
@@ -65,7 +65,7 @@ impl<P: OutputPoint> PointRoom for &mut [P] {
 pub(crate) trait PointWriter {
     type Point: OutputPoint;
 
-    /// [`Writer::map`]; `point` may be asked twice for the same element.
+    /// [`Writer::map`]; `point` may be called twice for the same element.
     fn map<S: Copy, const N: usize>(
         &mut self,
         length: usize,
@@ -73,7 +73,7 @@ pub(crate) trait PointWriter {
         point: impl Fn(S) -> Self::Point,
     );
 
-    /// [`Writer::map_least`]; `point` may be asked twice for the same element.
+    /// [`Writer::map_least`]; `point` may be called twice for the same element.
     fn map_least<S: Copy, const N: usize, const LEAST: usize>(
         &mut self,
         length: usize,
@@ -93,7 +93,8 @@ pub(crate) trait PointWriter {
     /// [`Writer::put`].
     fn put<const N: usize>(&mut self, points: [Self::Point; N]);
 
-    /// Fills `times` times `period` points from the first `period` of them, whatever was written.
+    /// Copies the first `period` points until `times` times `period` points are filled. The
+    /// writer's position does not matter.
     fn repeat(self, period: usize, times: usize);
 }
 

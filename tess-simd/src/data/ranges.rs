@@ -3,19 +3,19 @@
 use crate::data::output::PatchRange;
 use core::mem::take;
 
-/// The ranges of patches, written from front to back where the caller wants them. Nobody can ask
-/// whether they are there or how many are left, so that nothing depends on it.
+/// The ranges of patches, written from front to back if the caller wants them. There is no way to
+/// ask whether they are wanted or how many are left, so the output cannot depend on it.
 #[derive(Debug)]
 pub(crate) struct Ranges<'a>(Option<&'a mut [PatchRange]>);
 
 impl<'a> Ranges<'a> {
-    /// A range for each patch, or none.
+    /// The caller's ranges, one for each patch, or `None`.
     pub(crate) const fn new(all: Option<&'a mut [PatchRange]>) -> Self {
         Self(all)
     }
 
-    /// Room for the next ranges, to be written before it is read: the caller's, or all of `own`,
-    /// which has as many.
+    /// Room for the next `own.len()` ranges: the caller's, or else `own`. Its contents are stale;
+    /// write before you read.
     pub(crate) fn next_or<'b>(&mut self, own: &'b mut [PatchRange]) -> &'b mut [PatchRange]
     where
         'a: 'b,
@@ -23,7 +23,7 @@ impl<'a> Ranges<'a> {
         self.next(own.len()).unwrap_or(own)
     }
 
-    /// Writes the next ranges: those of `more` patches that follow a patch and have its sizes.
+    /// Writes the ranges of the `more` patches after `patch`, which have the same sizes.
     #[inline(always)]
     pub(crate) fn repeat(&mut self, patch: PatchRange, more: usize) {
         let mut range = patch;
@@ -34,7 +34,7 @@ impl<'a> Ranges<'a> {
         }
     }
 
-    /// The next ranges, which count as written.
+    /// The next ranges, which then count as written; `None` if the caller wants none.
     #[inline(always)]
     fn next(&mut self, patches: usize) -> Option<&'a mut [PatchRange]> {
         let (next, rest) = take(&mut self.0)?.split_at_mut(patches);
@@ -42,7 +42,7 @@ impl<'a> Ranges<'a> {
         Some(next)
     }
 
-    /// Splits them after the first patches.
+    /// Splits the ranges after the first `patches`.
     #[cfg(feature = "rayon")]
     pub(crate) fn split_at(mut self, patches: usize) -> (Self, Self) {
         (Self(self.next(patches)), self)

@@ -1,7 +1,7 @@
 //! The caller's buffers, in formats that are known at run time.
 //!
-//! Below the public interface nothing depends on the formats' types, so that everything is compiled
-//! once, in this crate, for each pair of formats. [`with_types`] makes them types again, once a
+//! The public interface turns the formats' types into values, so that this crate compiles the code
+//! below it once for each pair of formats. [`with_types`] turns them into types again, once per
 //! call.
 
 use crate::data::error::{BatchBuffer, Error};
@@ -10,7 +10,7 @@ use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
 use crate::data::output::ApartBuffers;
 use crate::data::output::{Buffers, PatchRange};
 
-/// Buffers as the caller gives them.
+/// The buffers that the caller gave.
 #[derive(Debug)]
 pub(crate) struct AnyBuffers<'a> {
     pub(crate) points: AnyPoints<'a>,
@@ -31,7 +31,8 @@ impl<'a, I: IndexFormat> From<ApartBuffers<'a, I>> for AnyBuffers<'a> {
     }
 }
 
-/// Runs an expression with [`AnyBuffers`] as what they are: points, indices and perhaps ranges.
+/// Runs an expression with the points, indices and optional ranges of [`AnyBuffers`], in their
+/// types.
 macro_rules! with_types {
     ($buffers:expr, |$points:ident, $indices:ident, $ranges:ident| $run:expr) => {{
         use $crate::data::format::{AnyIndices::*, AnyPoints::*};
@@ -50,7 +51,7 @@ macro_rules! with_types {
 }
 pub(crate) use with_types;
 
-/// The first `needed` elements of a caller's buffer and up to `more` after them.
+/// The first `needed` elements of a caller's buffer, and up to `more` elements after them.
 ///
 /// # Errors
 /// [`Error::BufferTooSmall`].

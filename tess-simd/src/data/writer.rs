@@ -1,17 +1,17 @@
 //! Writing by whole blocks.
 //!
-//! Runs of points or indices are written in blocks of a fixed size, so that they compile to
-//! vector stores. A run's last block may reach past its end: what it leaves there is overwritten
-//! by whatever comes next, and nothing is ever written past the slice. Only where the slice ends
-//! within a block is that block cut.
+//! Runs of points or indices are written in blocks of a fixed size, so that they compile to vector
+//! stores. A run's last block may reach past the run; the next run overwrites those elements.
+//! Nothing is ever written past the slice: a block that would reach past it is cut.
 
 use core::sync::atomic::{Ordering, compiler_fence};
 
-/// Bytes that are copied at a time: so few that they are read from the first cache.
+/// Bytes that are copied at a time: few enough to be read from the first-level cache.
 const COPIED: usize = 4096;
 
-/// From so many bytes on, output that leaves the caches is copied by `memcpy`, which need not read
-/// what it overwrites, in pieces as large as this: both sides of a copy fit the first cache.
+/// At this many bytes and above, output leaves the caches and is copied by `memcpy`, which can
+/// avoid reading the memory that it overwrites. Both sides of a copy of [`LARGE_COPIED`] bytes fit
+/// the first-level cache.
 const LARGE: usize = 1 << 20;
 const LARGE_COPIED: usize = 16 << 10;
 
@@ -29,8 +29,8 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         Self { out, at: 0 }
     }
 
-    /// The next `length` elements, each made from the one of `source` in its place, in blocks of
-    /// `N`. Where `source` has no whole blocks for them all, the rest stays unwritten.
+    /// Writes the next `length` elements in blocks of `N`, each made from the element of `source`
+    /// with the same number. If `source` is shorter, the rest stays unwritten.
     #[inline(always)]
     pub(crate) fn map<S: Copy, const N: usize>(
         &mut self,
@@ -41,8 +41,8 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         self.map_least::<_, N, N>(length, source, element);
     }
 
-    /// [`Self::map`], with one branch for all lengths up to `LEAST`, a multiple of `N`: that many
-    /// elements are written if there is room.
+    /// [`Self::map`], with one branch for all lengths up to `LEAST`, a multiple of `N`: for these
+    /// it writes `LEAST` elements if there is room.
     #[inline(always)]
     pub(crate) fn map_least<S: Copy, const N: usize, const LEAST: usize>(
         &mut self,
@@ -66,8 +66,9 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         }
     }
 
-    /// Writes the next `length` elements, each block made from a block of `source`. Makes at least
-    /// `LEAST` elements if there is room, so that most patches need no branch on their length.
+    /// Writes the next `length` elements, each block made from a block of `source`. Writes
+    /// multiples of `LEAST` elements if there is room, so that most patches need no branch on their
+    /// length.
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(crate) fn blocks<S: Copy, const N: usize, const LEAST: usize>(
@@ -93,7 +94,7 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         }
     }
 
-    /// The next `length` elements, each made from its number, in blocks of `N`.
+    /// Writes the next `length` elements in blocks of `N`, each made from its number.
     #[inline(always)]
     pub(crate) fn count<const N: usize>(&mut self, length: usize, element: impl Fn(u32) -> T) {
         let padded = length.next_multiple_of(N);
@@ -118,7 +119,7 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         }
     }
 
-    /// The next `N` elements.
+    /// Writes the next `N` elements.
     #[inline(always)]
     pub(crate) fn put<const N: usize>(&mut self, values: [T; N]) {
         let room = self.out.get_mut(self.at..).unwrap_or_default();
@@ -129,9 +130,9 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
     }
 }
 
-/// Methods that need no default.
+/// Methods that do not need a default element.
 impl<'a, T: Copy> Writer<'a, T> {
-    /// The rest of the slice, of which the next `length` elements count as written.
+    /// The rest of the slice; its first `length` elements then count as written.
     #[cfg(feature = "apart")]
     #[inline(always)]
     pub(crate) fn take(&mut self, length: usize) -> &mut [T] {
@@ -140,8 +141,8 @@ impl<'a, T: Copy> Writer<'a, T> {
         room
     }
 
-    /// Fills `times` times `period` elements of the slice from the first `period` of them. `moved`
-    /// makes an element from the one that stands this many periods before it.
+    /// Fills `times` times `period` elements of the slice from its first `period` elements.
+    /// `moved(x, n)` makes an element from the element `x` that is `n` periods before it.
     #[inline(always)]
     pub(crate) fn repeat(self, period: usize, times: usize, moved: impl Fn(T, u32) -> T) {
         fill(self.out, period, times, COPIED, |to, from, patches| {
@@ -151,7 +152,7 @@ impl<'a, T: Copy> Writer<'a, T> {
         });
     }
 
-    /// [`Self::repeat`] of elements that stay as they are.
+    /// [`Self::repeat`] with unchanged elements.
     #[inline(always)]
     pub(crate) fn copy(self, period: usize, times: usize) {
         if period * times * size_of::<T>() < LARGE {
@@ -162,7 +163,7 @@ impl<'a, T: Copy> Writer<'a, T> {
     }
 }
 
-/// Whole blocks.
+/// Writes whole blocks.
 #[inline(always)]
 fn write_blocks<S: Copy, T: Copy + Default, const N: usize>(
     target: &mut [T],
@@ -188,7 +189,7 @@ fn make<S: Copy, T: Copy + Default, const N: usize>(
     made
 }
 
-/// The last elements of a slice that ends within a block.
+/// Writes the last elements of a slice that ends within a block.
 #[cold]
 #[inline(never)]
 fn write_cut<S: Copy, T>(room: &mut [T], source: &[S], element: impl Fn(S) -> T) {
@@ -211,8 +212,8 @@ fn write_cut_blocks<S: Copy, T: Copy, const N: usize>(
     }
 }
 
-/// [`Writer::repeat`], at most `copied` bytes or a period at a time: `copy` is given room for them,
-/// what they are made from, and how many periods it stands before.
+/// [`Writer::repeat`], at most `copied` bytes or one period at a time. `copy` gets the elements to
+/// fill, the elements to make them from, and the distance between the two in periods.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
 fn fill<T>(
@@ -235,8 +236,8 @@ fn fill<T>(
     }
 }
 
-/// Keeps the compiler from turning the loop over blocks, instead of each block, into vectors: it
-/// does not vectorise loops that have a fence in them. It compiles to no instruction.
+/// Makes the compiler turn each block into vectors rather than the loop over blocks: it does not
+/// vectorise loops that contain a fence. The fence compiles to no instruction.
 #[inline(always)]
 pub(crate) fn separate_blocks() {
     compiler_fence(Ordering::AcqRel);
@@ -247,7 +248,7 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
-    /// Periods that are copied together, and one that is copied alone.
+    /// A period of which several are copied at a time, and one that is copied singly.
     #[test]
     fn large_copies() {
         for period in [7, LARGE_COPIED / 8 + 1] {

@@ -20,10 +20,11 @@ use crate::threads::part::{Job, Part};
 use crate::threads::sizes::Slicing;
 use crate::threads::slices::Share;
 
-/// A counted batch. It can be written any number of times.
+/// A counted batch, made by [`Tessellator::count`](crate::Tessellator::count). It can be written
+/// any number of times.
 ///
-/// [`Tessellator::count`](crate::Tessellator::count) makes it. It borrows the tessellator, so the
-/// tessellator cannot count another batch before it is written.
+/// It borrows the tessellator, which therefore cannot count another batch until this one is
+/// written.
 ///
 /// ```compile_fail,E0499
 /// # use tess_simd::tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
@@ -53,20 +54,20 @@ pub struct Counted<'a> {
 }
 
 impl<'a> Counted<'a> {
-    /// Number of patches, culled ones included. The range buffer needs one element for each.
+    /// Number of patches, including culled ones. The range buffer needs one element for each.
     #[must_use]
     pub fn patches(&self) -> usize {
         self.batch.len()
     }
 
-    /// Number of points, below 2^32: the elements that the point buffer needs.
+    /// Number of points, below 2^32. The point buffer needs one element for each.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
     pub const fn points(&self) -> usize {
         self.total.points as usize
     }
 
-    /// Number of indices, below 2^32: the elements that the index buffer needs.
+    /// Number of indices, below 2^32. The index buffer needs one element for each.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
     pub const fn indices(&self) -> usize {
@@ -116,10 +117,10 @@ impl<'a> Counted<'a> {
         self.write_into(numbering, buffers.into())
     }
 
-    /// Writes the batch into an output object, which grows if it must.
+    /// Writes the batch into an output object, which grows if needed.
     ///
     /// # Errors
-    /// [`Error::IndexTooLarge`]; then the output stays as it was.
+    /// [`Error::IndexTooLarge`]; then the output keeps its contents.
     pub fn tessellate<P: OutputPoint, I: IndexFormat>(
         &mut self,
         numbering: Numbering,
@@ -160,7 +161,7 @@ impl<'a> Counted<'a> {
         Ok(counts)
     }
 
-    /// Whether the largest index fits.
+    /// Checks that the largest index fits the index format.
     fn check_indices<I: IndexFormat>(&self, numbering: Numbering) -> Result<(), Error> {
         match self.largest_index(numbering) {
             Some(largest) if largest > I::LARGEST => {

@@ -3,12 +3,12 @@
 use crate::data::output::PatchRange;
 use core::fmt;
 
-/// The range of the output that each group of patches has.
+/// The range of the output that belongs to each group of patches.
 ///
 /// `ranges` are the ranges of a batch's patches. `starts` has the number of the first patch of each
 /// group. A group ends where the next one begins, and the last one ends with the batch. A group's
-/// output is contiguous, because the output of patches follows their order. So a renderer
-/// tessellates all meshes of a frame in one call and draws each mesh separately.
+/// output is contiguous, because the output is in the order of the patches. A renderer can
+/// therefore tessellate all meshes of a frame in one call and draw each mesh separately.
 ///
 /// ```
 /// use tess_simd::tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
@@ -26,7 +26,7 @@ use core::fmt;
 /// ```
 ///
 /// # Errors
-/// [`BadGroupError`] if a group begins before the one before it, or past the end of the batch.
+/// [`BadGroupError`] if a group begins before its predecessor, or past the end of the batch.
 pub fn group_ranges<'a>(
     ranges: &'a [PatchRange],
     starts: &'a [u32],
@@ -45,7 +45,7 @@ pub fn group_ranges<'a>(
     }))
 }
 
-/// The range of patches that follow each other; an empty one at `first` if there are none.
+/// The joint range of consecutive patches; an empty one at `first` if there are none.
 fn joined(ranges: &[PatchRange], first: (u32, u32)) -> PatchRange {
     let (first_point, first_index) = first;
     let (end_point, end_index) = if ranges.is_empty() { first } else { end_of(ranges) };
@@ -64,16 +64,16 @@ fn end_of(ranges: &[PatchRange]) -> (u32, u32) {
     })
 }
 
-/// A group of patches begins where it cannot.
+/// A group of patches begins out of order or past the end of the batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BadGroupError {
     /// Number of the group.
     pub group: usize,
     /// The patch at which it begins.
     pub start: u32,
-    /// The patch at which the group before it begins; 0 for the first group.
+    /// The patch at which the previous group begins; 0 for the first group.
     pub lowest: u32,
-    /// Patches of the batch.
+    /// Number of patches of the batch.
     pub patches: usize,
 }
 

@@ -1,4 +1,4 @@
-//! One stage or kernel over inputs of one's own, for comparison and for timing: see
+//! Taps: they run a single stage or kernel over any input, for comparison and for timing. See
 //! `tests/kernels/table.rs`.
 
 mod words;
@@ -43,28 +43,28 @@ pub struct Input {
     pub config: Config,
     /// The order of triangles.
     pub order: Order,
-    /// The parity of factors that come as numbers.
+    /// The parity of factors that are given as numbers.
     pub parity: Parity,
-    /// The number of the first point, in both numberings.
+    /// The number of the first point, with both numberings.
     pub base: u32,
-    /// How indices count.
+    /// Whether indices count through the batch ([`Numbering::PerBatch`]).
     pub per_batch: bool,
     /// The formats of points and indices.
     pub format: Format,
-    /// The numbers that a stage of numbers takes, a multiple of 16. Others take from their bytes,
-    /// highest first:
+    /// The numbers that a stage of numbers takes; their count is a multiple of 16. Other stages
+    /// read fields from the bytes of a number, highest byte first:
     ///
-    /// - stitches: what it is (0 transition, 1 ring, 2 strip, 3 strip except in the middle), outer
+    /// - stitches: the kind (0 transition, 1 ring, 2 strip, 3 strip except in the middle), outer
     ///   points, and inside points, inner points or quads;
-    /// - rows: a stitch; first indices of the outer and the inner row; whether both run up, the
-    ///   entries of the outer and of the inner row that are replaced (255: none), whether the inner
-    ///   row runs down; what replaces them;
+    /// - rows, six numbers: a stitch; the first indices of the outer and of the inner row; then in
+    ///   bytes whether both rows run up, the replaced entries of the outer and of the inner row
+    ///   (255: none), and whether the inner row runs down; then the two indices that replace them;
     /// - writers: a method, the place of the first source, two bytes of the length;
-    /// - repeating: points, indices and times of each run.
+    /// - repeating, three numbers: points, indices and times of each run.
     pub numbers: Vec<u32>,
-    /// The patches that other kernels take, at most 64 of one domain.
+    /// The patches that the remaining kernels take, at most 64 of one domain.
     pub patches: Vec<PatchFactors>,
-    /// How much is written: points, indices.
+    /// The sizes of the output: points, indices.
     pub sizes: [usize; 2],
 }
 
@@ -85,7 +85,7 @@ pub struct KernelTap {
 }
 
 impl KernelTap {
-    /// Takes an input up to the kernel.
+    /// Runs the stages that precede the kernel over the input.
     ///
     /// # Errors
     /// [`LevelUnavailableError`] if this machine cannot run the level.
@@ -113,12 +113,12 @@ impl KernelTap {
         Ok(tap)
     }
 
-    /// Exactly the room that is written.
+    /// Makes exactly the room that is written.
     fn make_room(&mut self, sizes: [usize; 2]) {
         let [points, indices] = sizes;
         let Self { kernel, format, made, .. } = self;
-        // Repeating begins with the places' numbers. What other kernels leave unwritten has none of
-        // their output.
+        // Repeating starts from elements that are their own numbers. For other kernels the elements
+        // are numbers that no output has, so that unwritten ones show.
         let flip = if *kernel == Kernel::Repeat { 0 } else { u32::MAX };
         let number = |i: usize| u32::try_from(i).unwrap_or(u32::MAX) ^ flip;
         let points = 0..if *kernel == Kernel::Codes { 0 } else { points };
@@ -173,7 +173,7 @@ impl KernelTap {
             Kernel::CountAndKeep => {
                 let counted = levels::count_and_keep(*level, config, &batch, kept);
                 *part = counted.unwrap_or_else(|| levels::count(*level, config, &batch));
-                // Of a batch that begins with a run it keeps one patch or none.
+                // If a batch begins with a run, the kernel keeps one patch or none.
                 if part.run > 1 {
                     levels::process(*level, config, &batch, kept);
                 }
@@ -210,7 +210,7 @@ impl KernelTap {
     }
 }
 
-/// Where kernels write to, but for the formats.
+/// The arguments of kernels that write, except for the buffers in their formats.
 struct TapTarget<'a> {
     kernel: Kernel,
     level: Level,
@@ -287,7 +287,7 @@ impl TapTarget<'_> {
     }
 }
 
-/// The data that the kernel reads: its input, after the stages before it.
+/// The data that the kernel reads: the input, after the stages that precede the kernel.
 fn work(kernel: Kernel, level: Level, input: &Input) -> TapInput {
     let Input { config, order, parity, base, numbers, patches, .. } = input.clone();
     let settings = Settings { order, ..Settings::new(config) };

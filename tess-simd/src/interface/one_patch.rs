@@ -1,9 +1,9 @@
 //! One patch per call, for callers that have no batch.
 //!
-//! Such a call goes through no chunk, no slices and no pool: one kernel takes the patch through the
-//! front end (`stages/packet/one`) and, if it is compact, writes it; the kernel of batches writes
-//! any other. Both use the templates of batches. A patch with the factors of the one before skips
-//! the front end, so that a write after a count does.
+//! Such a call uses no chunk, no slices and no pool. One kernel takes the patch through the front
+//! end (`stages/packet/one`) and writes it if it is compact; the kernel of batches writes any other
+//! patch. Both use the templates of batches. A patch with the same factors as the previous one
+//! skips the front end, and so does a write after its count.
 
 use crate::data::error::Error;
 use crate::data::format::{IndexFormat, OutputPoint};
@@ -14,8 +14,8 @@ use crate::data::target::{AnyBuffers, with_types};
 use crate::interface::tessellator::Tessellator;
 use tess_core::{Counts, PatchFactors};
 
-/// One patch whose output was counted, ready to be written any number of times. Made by
-/// [`Tessellator::count_patch`].
+/// One patch whose output was counted, made by [`Tessellator::count_patch`]. It can be written any
+/// number of times.
 #[derive(Debug)]
 #[must_use = "a count alone writes nothing"]
 pub struct CountedPatch<'a> {
@@ -25,15 +25,15 @@ pub struct CountedPatch<'a> {
 }
 
 impl Tessellator {
-    /// Tessellates one patch into the caller's buffers, its indices counted from its own first
-    /// point: [`Tessellator::count_patch`] and [`CountedPatch::write`] in one. Returns the output
-    /// sizes.
+    /// Tessellates one patch into the caller's buffers: [`Tessellator::count_patch`] and
+    /// [`CountedPatch::write`] in one call. Indices count from the patch's first point. Returns the
+    /// output sizes.
     ///
     /// Up to [`CountedPatch::OVERRUN`] elements after the output are overwritten in each buffer, if
-    /// the buffer is that large. Buffers of batches keep those elements; these do not.
+    /// the buffer is that large. Calls for batches do not overwrite them.
     ///
     /// For a few patches or more, [`Tessellator::write`] is faster. This call uses only the calling
-    /// thread, and allocates only when a topology is new.
+    /// thread, and allocates only if the topology is new.
     ///
     /// ```
     /// use tess_simd::Tessellator;
@@ -76,7 +76,8 @@ impl Tessellator {
         self.write_one(&factors.into(), ApartBuffers::new(u, v, indices).into())
     }
 
-    /// Counts one patch: the sizes of the buffers that it needs, and then a `write` into them.
+    /// Counts one patch. The result has the sizes of the buffers that the patch needs, and writes
+    /// into them.
     pub fn count_patch(&mut self, factors: impl Into<PatchFactors>) -> CountedPatch<'_> {
         let factors = factors.into();
         let counts = self.workspaces.one().count_one(self.level, self.settings.config, &factors);
@@ -97,8 +98,8 @@ impl Tessellator {
 }
 
 impl CountedPatch<'_> {
-    /// The number of elements after the output that may be overwritten in either buffer. Buffers
-    /// with that much room are written fastest.
+    /// The number of elements after the output that may be overwritten in either buffer. Writing is
+    /// fastest if the buffers have that much more room.
     pub const OVERRUN: usize = 64;
 
     /// The output sizes; zeros if the patch is culled.
@@ -107,9 +108,9 @@ impl CountedPatch<'_> {
         self.counts
     }
 
-    /// Writes the patch into the caller's buffers, its indices counted from its own first point.
-    /// Returns the output sizes. The first
-    /// [`CountedPatch::OVERRUN`] elements after the output are unspecified afterwards.
+    /// Writes the patch into the caller's buffers. Indices count from the patch's first point.
+    /// Returns the output sizes. The first [`CountedPatch::OVERRUN`] elements after the output are
+    /// unspecified afterwards.
     ///
     /// # Errors
     /// [`Error::BufferTooSmall`]; then nothing is written.

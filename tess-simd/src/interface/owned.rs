@@ -6,11 +6,12 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use tess_core::{Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
 
-/// Patches of one domain, owned and in the layout that is fastest to read: a structure of that
-/// domain for each patch.
+/// Owned patches of one domain, in the layout that is fastest to read: one structure of that domain
+/// per patch.
 ///
-/// A [`Batch`] of any layout becomes one. A batch of [`PatchFactors`] needs no copy, but small
-/// patches take up to a fifth longer. Copy patches once if you tessellate them again and again.
+/// A [`Batch`] of any layout can be converted. Tessellating [`PatchFactors`] directly needs no
+/// copy, but small patches take up to a fifth longer. If you tessellate the same patches
+/// repeatedly, copy them once.
 ///
 /// ```
 /// use tess_simd::OwnedBatch;
@@ -33,7 +34,7 @@ enum Structures {
 }
 
 impl OwnedBatch {
-    /// No patches yet, of this domain.
+    /// An empty batch of this domain.
     #[must_use]
     pub const fn new(domain: Domain) -> Self {
         Self(match domain {
@@ -46,7 +47,7 @@ impl OwnedBatch {
     /// Adds a patch.
     ///
     /// # Errors
-    /// [`Error::MixedDomains`] if it has another domain; then it is not added.
+    /// [`Error::MixedDomains`] if the patch has another domain; then it is not added.
     pub fn push(&mut self, patch: PatchFactors) -> Result<(), Error> {
         match (&mut self.0, patch) {
             (Structures::Isolines(all), PatchFactors::Isoline(factors)) => all.push(factors),

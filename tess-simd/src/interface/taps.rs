@@ -1,15 +1,15 @@
 //! Stage taps: the values of single stages of the front end, for comparison with other
 //! implementations.
 //!
-//! Each runs the code that whole patches go through, at a CPU level.
+//! Each tap runs the code that whole patches go through, at a CPU level.
 
 use crate::cpu::level::{Level, LevelUnavailableError};
 use crate::levels;
 use alloc::vec::Vec;
 use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 
-/// Factor processing (spec section 3): for each value `x` the u = 0 factor of the triangle patch
-/// (x, 3, 3; 3), zero if it is culled, and the inside factor of (3, 3, 3; x).
+/// Factor processing (spec section 3). For each value `x`, returns the u = 0 factor of the triangle
+/// patch (x, 3, 3; 3), or 0 if that patch is culled, and the inside factor of (3, 3, 3; x).
 ///
 /// # Errors
 /// [`LevelUnavailableError`] if this machine cannot run the level.
@@ -24,8 +24,8 @@ pub fn fixed_factors(
     Ok(factors)
 }
 
-/// Contexts (spec section 4) of fixed-point factors. Valid factors are 1..=63 if odd, 1 and 2..=64
-/// if even. Any other factor counts as the nearest valid one.
+/// Contexts (spec section 4) of fixed-point factors. Valid factors are 1..=63 if odd, and 1 and
+/// 2..=64 if even. Other factors are clamped to them.
 ///
 /// # Errors
 /// [`LevelUnavailableError`] if this machine cannot run the level.

@@ -1,4 +1,4 @@
-//! The front door: a configuration, ready to take batches.
+//! The entry point: a configuration that is ready to tessellate batches.
 
 use crate::cpu::level::{Level, LevelUnavailableError};
 use crate::data::batch::Batch;
@@ -26,25 +26,26 @@ use tess_core::{Config, Order};
 
 /// Tessellates batches of patches in one configuration.
 ///
-/// Making one is cheap: less than a microsecond and a kilobyte. Tables that follow from the
-/// configuration (0.2 to 0.9 MB) are made once for the process, by the first tessellator that needs
+/// Making one is cheap: it takes less than a microsecond and a kilobyte. Tables that depend only on
+/// the configuration (0.2 to 0.9 MB) are made once per process, by the first tessellator that needs
 /// them, in about a millisecond; without the feature `std` each tessellator makes its own.
 ///
-/// It takes memory as it meets patches ([`Tessellator::memory`]): 12 to 17 KB with the first small
-/// patch, 20 KB more with the first batch, and at most 1.2 MB for each thread. It allocates where a
+/// A tessellator's memory ([`Tessellator::memory`]) grows with use: 12 to 17 KB with the first
+/// small patch, 20 KB more with the first batch, and at most 1.2 MB per thread. It allocates if a
 /// patch has point counts that are new to it, which is rare after the first frames.
-/// [`Tessellator::reserve`] takes all of it in advance. The only other allocations are the growth
-/// of an [`Output`] and, on several threads, a short list for each batch.
+/// [`Tessellator::reserve`] allocates all of it in advance. The only other allocations are the
+/// growth of an [`Output`] and, with several threads, a short list per batch.
 #[derive(Clone, Debug)]
 pub struct Tessellator {
     pub(super) level: Level,
     pub(super) settings: Settings,
     pub(super) workspaces: Workspaces,
-    /// The counts of each slice of the batch that was counted last, and perhaps others after them.
+    /// The counts of each slice of the batch that was counted last; there may be stale ones after
+    /// them.
     slices: Vec<PartCounts>,
     /// The packets of the batch that was counted last, if it had at most one chunk.
     kept: Option<Box<[Packet; Chunk::PACKETS]>>,
-    /// Whether it takes all memory before it is needed.
+    /// Whether all memory was reserved ([`Tessellator::reserve`]).
     reserved: bool,
 }
 
@@ -58,7 +59,7 @@ impl Tessellator {
     /// A tessellator at a CPU level.
     ///
     /// # Errors
-    /// [`LevelUnavailableError`] if this machine or this build cannot run it.
+    /// [`LevelUnavailableError`] if this machine or this build cannot run the level.
     pub fn with_level(config: Config, level: Level) -> Result<Self, LevelUnavailableError> {
         level.require()?;
         Ok(Self::at(config, level))
@@ -76,8 +77,8 @@ impl Tessellator {
         }
     }
 
-    /// Spreads batches over up to `threads` threads: [`Tessellator::set_threads`] while a
-    /// tessellator is made.
+    /// Spreads batches over up to `threads` threads: [`Tessellator::set_threads`] as a builder
+    /// method.
     #[cfg(feature = "rayon")]
     #[must_use]
     pub fn with_threads(mut self, threads: usize) -> Self {
@@ -85,14 +86,14 @@ impl Tessellator {
         self
     }
 
-    /// Spreads later batches over up to `threads` threads, at least 1 and at most
-    /// [`Tessellator::MAX_THREADS`]; a new tessellator has one. The output stays the same. What it
-    /// learned of patches is forgotten.
+    /// Spreads later batches over up to `threads` threads, clamped to
+    /// 1..=[`Tessellator::MAX_THREADS`]; a new tessellator has one. The output stays the same.
+    /// Cached templates are dropped.
     ///
-    /// A batch uses one thread for each 256 KiB of its output, so a second thread joins from 512
-    /// KiB on. The threads belong to the rayon pool that the caller runs in. Outside of any pool
-    /// they belong to one that all tessellators of the process share: a thread for each processor,
-    /// or as many as `RAYON_NUM_THREADS` asks for. The first large batch starts it; where it cannot
+    /// A batch uses one thread for each 256 KiB of its output, so a second thread joins at 512 KiB.
+    /// The threads belong to the rayon pool that the caller runs in. Outside any pool they belong
+    /// to a pool that all tessellators of the process share, with one thread per processor or as
+    /// many as `RAYON_NUM_THREADS` asks for. The first large batch starts that pool; if it cannot
     /// be started, batches are written on the calling thread. A forked child starts its own. Each
     /// thread takes up to 1.2 MB.
     #[cfg(feature = "rayon")]
@@ -101,8 +102,8 @@ impl Tessellator {
         self.reserve_as_before();
     }
 
-    /// Starts the threads that all tessellators of the process share, so that no batch has to, and
-    /// to learn whether that is possible. Does nothing where they run.
+    /// Starts the threads that all tessellators of the process share. Call it so that no batch has
+    /// to start them, or to learn whether they can be started. Does nothing if they are running.
     ///
     /// # Errors
     /// [`ThreadsError`] if the system refuses.
@@ -115,20 +116,19 @@ impl Tessellator {
     #[cfg(feature = "rayon")]
     pub const MAX_THREADS: usize = MAX_THREADS;
 
-    /// Writes triangles in this order: [`Tessellator::set_order`] while a tessellator is made.
+    /// Writes triangles in this order: [`Tessellator::set_order`] as a builder method.
     #[must_use]
     pub fn with_order(mut self, order: Order) -> Self {
         self.set_order(order);
         self
     }
 
-    /// Writes the triangles of later batches in this order; a new tessellator has
-    /// [`Order::Specification`]. What it learned of patches is forgotten.
+    /// Writes the triangles of later batches in this order; a new tessellator uses
+    /// [`Order::Specification`]. Cached templates are dropped.
     ///
-    /// [`Order::VertexCache`] writes the same points and the same triangles in an order that suits
-    /// vertex caches. It is for renderers. Patches of more than about 300 points take two to four
-    /// times as long with it, unless they have the same point counts as the large patch before
-    /// them.
+    /// [`Order::VertexCache`] is for renderers. It writes the same points and the same triangles,
+    /// in an order that suits vertex caches. Patches of more than about 300 points take two to four
+    /// times as long, unless they have the same point counts as the previous large patch.
     pub fn set_order(&mut self, order: Order) {
         self.settings.order = order;
         // The templates have their triangles in the order before.
@@ -136,29 +136,29 @@ impl Tessellator {
         self.reserve_as_before();
     }
 
-    /// Reserves the memory of new workspaces, if that of the old ones was reserved.
+    /// Reserves the memory of new workspaces if the old ones were reserved.
     fn reserve_as_before(&mut self) {
         if self.reserved {
             self.reserve();
         }
     }
 
-    /// The configuration that it was made with.
+    /// The configuration that the tessellator was made with.
     #[must_use]
     pub const fn config(&self) -> Config {
         self.settings.config
     }
 
-    /// The CPU level that it runs at.
+    /// The CPU level that the tessellator runs at.
     #[must_use]
     pub const fn level(&self) -> Level {
         self.level
     }
 
-    /// Takes all the memory that patches may ever need, 1.2 MB for each thread, and keeps it
-    /// through [`Tessellator::set_order`], `set_threads` and clones. No later call on one thread
-    /// allocates, and [`Tessellator::memory`] stays as it is. For programs in which an allocation
-    /// may not come late; others are faster without.
+    /// Allocates all the memory that patches may ever need, 1.2 MB per thread. It stays allocated
+    /// through [`Tessellator::set_order`], `set_threads` and clones. Afterwards no call on one
+    /// thread allocates, and [`Tessellator::memory`] does not change. For programs that must not
+    /// allocate later; other programs are faster without it.
     pub fn reserve(&mut self) {
         self.reserved = true;
         self.workspaces.reserve();
@@ -166,8 +166,7 @@ impl Tessellator {
         self.kept.get_or_insert_with(no_packets);
     }
 
-    /// Bytes of memory that it takes on the heap so far; tables that it shares with others are not
-    /// counted.
+    /// Bytes of heap memory in use so far, without the tables that all tessellators share.
     #[must_use]
     pub fn memory(&self) -> usize {
         let kept = self.kept.as_deref().map_or(0, size_of_val);
@@ -175,7 +174,7 @@ impl Tessellator {
         self.settings.stitches.bytes() + self.workspaces.bytes() + kept + slices
     }
 
-    /// Counts a batch. The result says which buffer sizes the batch needs and writes into such
+    /// Counts a batch. The result has the buffer sizes that the batch needs, and writes into such
     /// buffers.
     ///
     /// # Errors
@@ -184,7 +183,8 @@ impl Tessellator {
         self.counted(batch.into())
     }
 
-    /// Counts a batch. One of at most a chunk goes through the front end here, for the write too.
+    /// Counts a batch. If the batch has at most one chunk, its front end runs here and the write
+    /// reuses the packets.
     fn counted<'a>(&'a mut self, batch: Batch<'a>) -> Result<Counted<'a>, Error> {
         batch.check()?;
         let Self { level, ref settings, ref mut workspaces, ref mut slices, ref mut kept, .. } =
@@ -192,7 +192,7 @@ impl Tessellator {
         let slicing = Slicing::new(batch.len(), workspaces.threads());
         let keep = slicing.slices <= 1 && batch.len() <= Chunk::PATCHES;
         let slices = first(slices, slicing.slices.max(1));
-        // Made by the first batch whatever its size, so that no later one has to.
+        // Allocated by the first batch of any size, so that no later batch allocates.
         let packets = kept.get_or_insert_with(no_packets);
         if keep {
             let config = settings.config;
@@ -206,15 +206,15 @@ impl Tessellator {
         if total.points.max(total.indices) > u64::from(u32::MAX) {
             return Err(Error::BatchTooLarge { points: total.points, indices: total.indices });
         }
-        // A batch that only begins with a run was not kept.
+        // A batch that begins with a run, but has other patches after it, was not kept.
         let run = slices[0].run;
         let is_kept = keep && (run <= 1 || run == batch.len());
         let kept = is_kept.then_some(&**packets);
         Ok(Counted { level, settings, workspaces, batch, slicing, slices, total, kept })
     }
 
-    /// Tessellates a batch into the caller's buffers. Does [`Tessellator::count`] and
-    /// [`Counted::write`] in one call.
+    /// Tessellates a batch into the caller's buffers: [`Tessellator::count`] and [`Counted::write`]
+    /// in one call.
     ///
     /// # Errors
     /// Any [`Error`]; then nothing is written.
@@ -241,10 +241,10 @@ impl Tessellator {
         self.count(batch)?.write_apart(numbering, buffers)
     }
 
-    /// Tessellates a batch into an output object, which grows if it must.
+    /// Tessellates a batch into an output object, which grows if needed.
     ///
     /// # Errors
-    /// Any [`Error`] but [`Error::BufferTooSmall`]; then the output stays as it was.
+    /// Any [`Error`] except [`Error::BufferTooSmall`]; then the output keeps its contents.
     pub fn tessellate<'a, P: OutputPoint, I: IndexFormat>(
         &'a mut self,
         batch: impl Into<Batch<'a>>,
@@ -255,7 +255,7 @@ impl Tessellator {
     }
 }
 
-/// The counts of this many slices.
+/// The first `needed` elements, after the vector has grown to have them.
 fn first(slices: &mut Vec<PartCounts>, needed: usize) -> &mut [PartCounts] {
     if let Some(more) = needed.checked_sub(slices.len()) {
         slices.reserve_exact(more);

@@ -1,7 +1,8 @@
 //! Writes packets of patches into buffers.
 //!
-//! Each patch takes the cheapest of four ways to its output. `threads/part` calls this through
-//! `levels` for each chunk; the result is the core's output, patch after patch, in order.
+//! There are four ways to write a patch, and each patch takes the cheapest one. `threads/part`
+//! calls this through `levels` for each chunk. The result is the core's output, patch by patch, in
+//! order.
 //!
 //! # Data
 //!
@@ -9,7 +10,7 @@
 //!                      points from                         indices from
 //! compact, integer     template: [u16; 2] widened          template: u8 + base
 //! compact, fractional  template: codes, CompactPoints      template: u8 + base
-//! up to 289 points, or like the large patch before:
+//! up to 289 points, or equal in topology to the previous large patch:
 //!                      template if integer, else stages    template: u16 + base
 //! larger               stages/points                       stages/connect, cache_order
 //! ```
@@ -22,9 +23,9 @@
 //!
 //! # One packet
 //!
-//! Two patches in one packet: the quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md` with 43 points
-//! and 186 indices, and after it a culled one and the same quad again, numbered through the batch
-//! from 100 on:
+//! Three patches in one packet: the quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md` with 43 points
+//! and 186 indices, a culled patch, and the same quad again. The batch is numbered through,
+//! beginning with 100:
 //!
 //! ```text
 //! lane  first_point  points  first_index  indices   base
@@ -35,22 +36,23 @@
 //!
 //! # What must hold
 //!
-//! - Buffers have exactly the room that the counts predict, or more; a patch writes whole blocks,
-//!   and what a block writes past its patch is overwritten by the next one or cut at the buffer's
-//!   end ([`Writer`]). So patches are written in order.
-//! - A packet's patches are looked up after one `make_room` and before the next.
+//! - Buffers have at least the room that the counts predict. Patches are written in order and in
+//!   whole blocks: elements that a block writes past its patch are overwritten by the next patch,
+//!   or cut off at the buffer's end ([`Writer`]).
+//! - All look-ups of a packet's patches happen after the same `make_room`.
 //! - Lanes without points are skipped: their other numbers are unspecified.
 //!
 //! # The simpler form
 //!
-//! Sizes of blocks: one for every level. Long blocks, which AVX-512 gains from, took one patch of
-//! factor 4 from 50 to 75 ns at the baseline ([`CompactPoints::LONG_BLOCKS`]).
+//! One block size for all levels: AVX-512 gains from long blocks, but at the baseline they slowed
+//! one patch of factor 4 from 50 to 75 ns ([`CompactPoints::LONG_BLOCKS`]).
 //!
-//! A packet of compact patches alone goes stage by stage: all look-ups, then, with integer factors,
-//! all points before all indices. Patch by patch, a branch that is predicted wrongly in one stage
-//! also discards the begun work of the next. Together with permutes this took `meshes/quads` from
-//! 0.16 to 0.25 of a fill (`docs/experiments.md`). Fractional points take so long to compute that
-//! the stores of the indices before them cost nothing meanwhile.
+//! One patch after another: a packet in which all patches are compact goes stage by stage instead,
+//! with all look-ups first and, for integer factors, all points before all indices. Patch by patch,
+//! a mispredicted branch in one stage also discards the work already begun on the next. Together
+//! with permutes, stage by stage took `meshes/quads` from 0.16 to 0.25 of a fill
+//! (`docs/experiments.md`). Fractional points take so long to compute that the stores of the
+//! preceding indices are free.
 
 use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::lanes::LANES;
@@ -70,20 +72,20 @@ pub(crate) struct Packets<'a> {
     pub(crate) packets: &'a [Packet],
     pub(crate) first: Offsets,
     pub(crate) numbering: Numbering,
-    /// Receives where each patch's output lies. As long as there are patches; the packets may have
-    /// more lanes.
+    /// Receives the place of each patch's output. Its length is the number of patches; the packets
+    /// may have more lanes.
     pub(crate) ranges: &'a mut [PatchRange],
 }
 
-/// The output of a batch before some patch of it: where that patch's output begins.
+/// The points and indices of a batch before one of its patches: where that patch's output begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Offsets {
     pub(crate) points: u32,
     pub(crate) indices: u32,
 }
 
-/// Tables and templates, kept from patch to patch and from batch to batch. All of it follows from
-/// the configuration and the patches' factors.
+/// Tables and templates, kept from patch to patch and from batch to batch. They depend only on the
+/// configuration and the patches' factors.
 #[derive(Clone, Debug)]
 pub(crate) struct Caches {
     tables: LocationTables,
@@ -91,17 +93,17 @@ pub(crate) struct Caches {
 }
 
 impl Caches {
-    /// Empty ones, which grow as they are used.
+    /// Empty caches, which grow as they are used.
     pub(crate) const fn new() -> Self {
         Self { tables: LocationTables::EMPTY, templates: Templates::new() }
     }
 
-    /// Bytes of memory that they take on the heap.
+    /// Bytes of heap memory.
     pub(crate) const fn bytes(&self) -> usize {
         self.tables.bytes() + self.templates.bytes()
     }
 
-    /// Takes all the memory that they may ever need.
+    /// Allocates all the memory that the caches may ever need.
     pub(crate) fn reserve(&mut self) {
         self.tables.reserve();
         self.templates.reserve();
@@ -114,8 +116,8 @@ struct Writers<'a, W, I> {
     indices: Writer<'a, I>,
 }
 
-/// Writes packets; returns where their output ends in the batch. Points and indices have room for
-/// the packets' output, or more; what follows it may be overwritten.
+/// Writes packets; returns where their output ends in the batch. The buffers have at least the room
+/// for the packets' output; elements after it may be overwritten.
 #[inline(always)]
 pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,
@@ -139,7 +141,7 @@ pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
             first.indices += range.indices;
         }
         caches.templates.make_room();
-        // One patch's lane was written a moment ago: all lanes together would wait for it.
+        // A single patch's lane was stored a moment ago: a load of all lanes would wait for it.
         if ranges.len() > 1 && packet.all_compact() {
             emit_compact(settings, (packet, ranges), numbering, caches, &mut out, compact_points);
             continue;
@@ -161,24 +163,24 @@ pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     first
 }
 
-/// Where a single patch goes, and what is kept from patch to patch: together, so that calls pass
-/// few arguments.
+/// The buffers of a single patch, and the state kept from patch to patch, in one structure so that
+/// calls pass few arguments.
 pub(crate) struct OneWriters<'a, W, I> {
     pub(crate) settings: &'a Settings,
     pub(crate) domain: Domain,
     pub(crate) points: W,
-    /// As many as `points` has room for.
+    /// The number of points that `points` has room for.
     pub(crate) most_points: usize,
     pub(crate) indices: &'a mut [I],
     pub(crate) one: &'a mut OnePatch,
     pub(crate) caches: &'a mut Caches,
 }
 
-/// Takes one patch ([`pairs`](crate::stages::packet::pairs)) through the front end and writes it,
-/// its indices counted from its own first point. Returns whether it was written: it is if it is
-/// compact, not culled, and has room.
+/// Takes one patch ([`pairs`](crate::stages::packet::pairs)) through the front end, and writes it
+/// if it is compact, not culled, and has room. Indices count from the patch's first point. Returns
+/// whether it was written.
 ///
-/// [`emit`] would be correct, but sets up state that only large patches use.
+/// [`emit`] would give the same output, but sets up state that only large patches use.
 #[inline(always)]
 pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     to: &mut OneWriters<'_, W, I>,
@@ -204,8 +206,8 @@ pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     true
 }
 
-/// Writes a packet of compact patches that are all looked up first, so that a wrongly predicted
-/// branch discards no look-up.
+/// Writes a packet of compact patches. All are looked up first, so that a mispredicted branch does
+/// not discard a look-up.
 #[inline(always)]
 fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,
@@ -221,7 +223,7 @@ fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     for (lane, _) in lanes.clone() {
         starts[lane] = templates.find(packet.patch(lane), (settings, tables), M::kept);
     }
-    // Apart, so that neither loop keeps the other's constants.
+    // Separate loops, so that neither keeps the other's constants in registers.
     if packet.patch(0).integer() {
         for (lane, _) in lanes.clone() {
             let (patch, points) = (packet.patch(lane), templates.get(starts[lane]).points);
@@ -289,7 +291,7 @@ fn indices_of<I: IndexFormat, W, M: CompactPoints<W>>(
     }
 }
 
-/// Writes any other patch that is not culled and whose first point is number `base`.
+/// Writes a patch that is neither compact nor culled and whose first point is number `base`.
 #[inline(always)]
 fn emit_patch<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,

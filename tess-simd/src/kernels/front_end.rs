@@ -1,4 +1,4 @@
-//! The front end over a batch: raw factors to packets, and output sizes without output.
+//! The front end over a batch: raw factors to packets, or only to output sizes.
 
 use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
@@ -7,8 +7,8 @@ use crate::stages::counts::{PacketCounts, PartCounts};
 use crate::stages::packet::{Packet, one_counts, packet_counts};
 use tess_core::Config;
 
-/// Takes up to a chunk of patches through the front end. Lanes past the end count as culled;
-/// packets past the end stay as they are.
+/// Takes up to a chunk of patches through the front end. Packets past the end keep their contents.
+/// So do the lanes past the end if there are at most [`FEW`] patches; otherwise they are culled.
 #[inline(always)]
 pub(crate) fn process(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk::PACKETS]) {
     if batch.len() <= FEW {
@@ -58,10 +58,10 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
     PartCounts { run, ..sums.total() }
 }
 
-/// [`process`], then the output sizes of these patches together.
+/// [`process`], then the total output sizes of these patches.
 ///
-/// Of a batch of equal patches, one is kept. `None` for another that begins with a run, which
-/// [`count`] is for: nothing is kept.
+/// Of a batch of equal patches, one is kept. Returns `None`, and keeps nothing, if a batch begins
+/// with a run and has other patches after it: [`count`] is for those.
 #[inline(always)]
 pub(crate) fn count_and_keep(
     config: Config,
@@ -86,11 +86,11 @@ pub(crate) fn count_and_keep(
     Some(sums.total())
 }
 
-/// As many patches are processed one by one: that takes less than a whole packet.
+/// Up to this many patches are processed one by one, which takes less time than a whole packet.
 const FEW: usize = 4;
 
-/// Takes the first patches of a batch, at most [`FEW`], through the front end. The other lanes stay
-/// as they are.
+/// Takes the first patches of a batch, at most [`FEW`], through the front end. The other lanes keep
+/// their contents.
 #[inline(always)]
 fn process_few(
     config: Config,
@@ -118,7 +118,7 @@ struct Sums {
 }
 
 impl Sums {
-    /// Patches that differ.
+    /// Adds the patches of a packet.
     #[inline(always)]
     fn add(&mut self, counts: &PacketCounts) {
         for lane in 0..LANES {
@@ -128,7 +128,7 @@ impl Sums {
         }
     }
 
-    /// A patch that comes several times.
+    /// Adds a patch that comes `times` times.
     #[inline(always)]
     fn add_one(
         &mut self,

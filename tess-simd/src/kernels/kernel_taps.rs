@@ -1,4 +1,4 @@
-//! Stages and kernels on their own, over many inputs: what [`crate::KernelTap`] runs.
+//! Single stages and kernels over many inputs, for [`crate::KernelTap`].
 
 mod numbers;
 mod patches;
@@ -31,7 +31,7 @@ macro_rules! kernels {
         }
 
         impl Kernel {
-            /// Each of them.
+            /// All of them.
             pub const ALL: &[Self] = &[$(Self::$name),*];
         }
     };
@@ -74,7 +74,7 @@ kernels!(
     Repeat,
 );
 
-/// The data that taps read: [`crate::Input`], and the output of the stages before.
+/// The data that taps read: [`crate::Input`], and the output of the preceding stages.
 #[derive(Debug)]
 pub(crate) struct TapInput {
     pub(crate) settings: Settings,
@@ -97,7 +97,7 @@ impl TapInput {
     }
 }
 
-/// The output of taps, and the tables that they keep from patch to patch.
+/// The output of taps, and the tables that they keep between patches.
 #[derive(Debug)]
 pub(crate) struct TapOutput {
     pub(crate) words: Vec<u32>,
@@ -115,7 +115,7 @@ pub(crate) struct TapOutput {
     pub(crate) tables: LocationTables,
     pub(crate) templates: Templates,
     pub(crate) lookup: Lookup,
-    /// Indices that are their own places.
+    /// The numbers 0, 1, 2 and so on: indices that equal their places.
     pub(crate) places: Vec<u16>,
 }
 

@@ -1,4 +1,4 @@
-//! Runs of equal patches: the first one's output again and again.
+//! Runs of equal patches: copies of the first one's output.
 
 use crate::data::format::IndexFormat;
 use crate::data::output::{Numbering, PatchRange};
@@ -7,18 +7,18 @@ use crate::data::ranges::Ranges;
 use crate::data::writer::Writer;
 use crate::kernels::emit::Offsets;
 
-/// A patch that was written, and what is known of those after it.
+/// A patch that was written, and the number of equal patches.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Repeat {
-    /// Where its output lies.
+    /// The place of the patch's output.
     pub(crate) range: PatchRange,
-    /// How many patches have its factors, itself included.
+    /// How many patches have these factors, including this one.
     pub(crate) times: usize,
     pub(crate) numbering: Numbering,
 }
 
-/// Writes the patches of a run after its first one, which stands at the beginning of the buffers,
-/// and their ranges. Returns where their output ends in the batch.
+/// Writes the patches of a run after its first one, whose output is at the beginning of the
+/// buffers, and their ranges. Returns where their output ends in the batch.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
 pub(crate) fn repeat<W: PointWriter, I: IndexFormat>(

@@ -1,4 +1,4 @@
-//! The stages of the front end on their own.
+//! Single stages of the front end.
 
 use crate::data::lanes::{LANES, Lanes};
 use crate::stages::factor_context::PlainContext;

@@ -1,6 +1,6 @@
 //! The primitives of a patch, in order (spec sections 7 and 8).
 //!
-//! Vertex indices are modulo 2^32, so that one past the largest is 0 instead of an overflow.
+//! Vertex indices are modulo 2^32: the one after the largest is 0 instead of an overflow.
 
 pub(crate) mod cache_order;
 mod quad;

@@ -16,10 +16,10 @@ pub(crate) struct PacketCounts<const L: usize = LANES> {
 pub(crate) struct PartCounts {
     pub(crate) points: u64,
     pub(crate) indices: u64,
-    /// Points of its largest patch.
+    /// Points of the part's largest patch.
     pub(crate) largest: u32,
-    /// How many patches, from its first one on, are to be written as copies; 1 or less if that is
-    /// not known.
+    /// Length of the run of equal patches at the part's beginning; 1 or less if it is not known or
+    /// not worth copying.
     pub(crate) run: usize,
 }
 
@@ -34,7 +34,7 @@ impl PartCounts {
         })
     }
 
-    /// The counts of a patch that comes several times, from the count of one.
+    /// The counts of `run` equal patches, from the counts of one.
     #[inline(always)]
     pub(crate) const fn times(self, run: usize) -> Self {
         let Self { points, indices, largest, .. } = self;
@@ -48,7 +48,7 @@ impl PartCounts {
     }
 }
 
-/// Predicts the output sizes of patches that have these points; zeros if they are culled.
+/// Predicts the output sizes of patches whose factors have these points; zeros for culled patches.
 #[inline(always)]
 pub(crate) fn counts<const L: usize, const F: usize>(
     config: Config,
@@ -73,10 +73,10 @@ pub(crate) fn counts<const L: usize, const F: usize>(
     counts
 }
 
-/// Points, lines that join them in order, and triangles of a patch.
+/// The numbers of a patch's points, of lines that join them in order, and of triangles.
 type Elements = [u32; 3];
 
-/// Indices for each of these.
+/// The indices of each kind of element that the output has; 0 for the other kinds.
 #[inline(always)]
 const fn indices_each(output: OutputPrimitive, domain: Domain) -> Elements {
     match output.indices_per_primitive(domain) {
@@ -87,7 +87,7 @@ const fn indices_each(output: OutputPrimitive, domain: Domain) -> Elements {
 }
 
 impl PacketCounts<1> {
-    /// The sizes of the patch. Divisions by constants are no divisions.
+    /// The sizes of the patch. The divisors are constants, so no division instruction remains.
     #[inline(always)]
     pub(crate) const fn of_patch(self, config: Config, domain: Domain) -> Counts {
         let Self { points: [points], indices: [indices] } = self;
@@ -122,8 +122,8 @@ fn quad(n: impl Fn(usize) -> u32, minimum: u32) -> Elements {
     disc(boundary, n(4).wrapping_sub(2).wrapping_mul(n(5).wrapping_sub(2)), minimum)
 }
 
-/// The sizes of a patch with these points on its boundary and, unless it is a minimum patch,
-/// inside: Euler's formula for a disc.
+/// The sizes of a patch with these points on its boundary and inside, by Euler's formula for a
+/// disc. A minimum patch has no points inside.
 #[inline(always)]
 const fn disc(boundary: u32, interior: u32, minimum: u32) -> Elements {
     let points = boundary.wrapping_add(interior.wrapping_mul(1 - minimum));

@@ -17,7 +17,7 @@ pub(crate) struct PlainContext {
     pub(crate) points: u32,
 }
 
-/// The point counts of factors, alone.
+/// Only the point counts of factors.
 #[inline(always)]
 pub(crate) fn point_counts<const L: usize, const F: usize>(
     fixed: &[[u32; L]; F],
@@ -44,7 +44,7 @@ impl PlainContext {
         let floor = half >> 16;
         let ceil = (half + 0xFFFF) >> 16;
         let split = match order {
-            // With no points to rank, which an odd factor of floor 1 has, the position is 0, not 1.
+            // An odd factor below 3 has no points to rank; then the position is 0, not 1.
             SplitOrder::Ruler => {
                 let points = floor - odd;
                 2 * drop_most_significant_bit(points) + u32::from(points != 0)
@@ -65,7 +65,7 @@ impl PlainContext {
 
 /// Half of a factor, from which the points of a half edge follow, in 16.16: at most 32.
 ///
-/// An odd factor has one half more. The even factor 1 acts as 2; there is none between these.
+/// An odd factor has one half more. The even factor 1 acts as 2; no even factor is between 1 and 2.
 #[inline(always)]
 fn half(fixed: u32, odd: u32) -> u32 {
     let half = ((fixed + 1) >> 1) + HALF * odd;
@@ -110,7 +110,7 @@ mod tests {
         }
     }
 
-    /// Half a factor, rounded up, and one half more where the parity is odd; an even 1 acts as 2.
+    /// Half a factor, rounded up, and one half more if the parity is odd; an even 1 acts as 2.
     #[test]
     fn halves() {
         for fixed in ONE..=64 * ONE {

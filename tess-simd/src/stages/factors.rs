@@ -1,28 +1,28 @@
-//! Factor processing (spec section 3), steps named as there.
+//! Factor processing (spec section 3), with the step numbers of that section.
 //!
-//! A packet has sixteen patches and a row for each factor of its domain. A patch that comes alone
-//! has rows of one element, eight of them, which fill a short vector.
+//! A packet has sixteen patches and a row for each factor of its domain. A single patch has eight
+//! rows of one element, which fill a short vector.
 
 use crate::data::lanes::{LANES, MAX_FACTORS, at, at_mut, each};
 use crate::stages::reciprocal::{MANTISSA, TWO_POW_23};
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, Partitioning};
 
-/// The factors of `L` patches as fixed-point numbers, a row for each of `F` factors. Rows that the
-/// domain has no factor for are unspecified, and in range.
+/// The factors of `L` patches as fixed-point numbers, a row for each of `F` factors. Rows without a
+/// factor of the domain have unspecified values in range.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Processed<const L: usize = LANES, const F: usize = MAX_FACTORS> {
     /// 15.16 factors, in 1..=64.
     pub(crate) fixed: [[u32; L]; F],
-    /// 1 where the parity is odd.
+    /// 1 if the parity is odd, else 0.
     pub(crate) odd: [[u32; L]; F],
-    /// 1 where the patch is not culled.
+    /// 1 if the patch is not culled, else 0.
     pub(crate) alive: [u32; L],
-    /// 1 where the patch is a minimum patch.
+    /// 1 if the patch is a minimum patch, else 0. Means nothing for a culled patch.
     pub(crate) minimum: [u32; L],
 }
 
-/// Processes raw factors; zeros follow those that the domain has. Total: every bit pattern is
+/// Processes raw factors. Rows after the domain's factors are zeros. Total: every bit pattern is
 /// valid.
 #[inline(always)]
 pub(crate) fn process<const L: usize, const F: usize>(
@@ -95,7 +95,7 @@ fn integers<const L: usize, const F: usize>(
     (fixed, odd)
 }
 
-/// 1 where every row has it.
+/// For each lane, 1 if `has` is true in every row, else 0.
 #[inline(always)]
 pub(crate) fn all<T: Copy, const L: usize>(rows: &[[T; L]], has: impl Fn(T) -> bool) -> [u32; L] {
     let mut all = [1; L];
@@ -107,14 +107,14 @@ pub(crate) fn all<T: Copy, const L: usize>(rows: &[[T; L]], has: impl Fn(T) -> b
     all
 }
 
-/// The bit pattern of infinity. As signed integers, NaN patterns are greater and patterns with a
-/// sign are negative.
+/// The bit pattern of infinity. As signed integers, patterns of positive NaNs are greater and
+/// patterns with a sign bit are negative.
 ///
-/// Factors are compared as integers for the reason that `tess-core` gives (`d3d_float`); signed
-/// ones, as every level has instructions for them.
+/// Factors are compared as integers for the reason given in `tess-core` (`d3d_float`). The integers
+/// are signed because every level has instructions for those.
 const INFINITY: i32 = f32::INFINITY.to_bits().cast_signed();
 
-/// Whether `x > low`, which is not negative.
+/// Whether `x > low`. `low` is not negative.
 #[inline(always)]
 fn is_greater(x: f32, low: f32) -> bool {
     let bits = x.to_bits().cast_signed();
@@ -132,7 +132,7 @@ pub(crate) fn clamp(x: f32, low: f32, high: f32) -> f32 {
 const ONE_PLUS_2_POW_MINUS_17: f32 = f32::from_bits(0x3F80_0040);
 const ONE_PLUS_2_POW_MINUS_16: f32 = f32::from_bits(0x3F80_0080);
 
-/// The ceiling of a number in 0..2^22: the nearest integer, one more if that lies below.
+/// The ceiling of a number in 0..2^22: the nearest integer, plus one if that is below the number.
 #[inline(always)]
 #[expect(clippy::float_arithmetic, reason = "sums below 2^24 round to the nearest integer")]
 pub(crate) fn ceil(x: f32) -> u32 {
@@ -142,8 +142,9 @@ pub(crate) fn ceil(x: f32) -> u32 {
 
 /// A number in 0..=64 in multiples of 2^-16, ties to even.
 ///
-/// The product is exact and at most 2^22, so the sum lies where binary32 numbers are the integers:
-/// adding rounds to the nearest one, ties to even, and leaves it in the mantissa.
+/// The product is exact and at most 2^22, so the sum is in the range where the binary32 numbers are
+/// exactly the integers: the addition rounds to the nearest integer, ties to even, and leaves it in
+/// the mantissa.
 #[inline(always)]
 #[expect(clippy::float_arithmetic, reason = "the rounding of the sum is the conversion's own")]
 pub(crate) fn to_fixed(x: f32) -> u32 {

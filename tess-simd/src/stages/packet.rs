@@ -1,9 +1,8 @@
 //! A packet: sixteen patches side by side after factor processing, as in ray packets.
 //!
-//! The front end turns raw factors into what every later stage asks of a patch: point counts,
-//! spacings, output sizes, topology. It does so for sixteen patches at a time, one patch in each
-//! vector lane. `kernels/front_end` fills packets, `kernels/emit` takes them apart again, patch by
-//! patch.
+//! The front end turns raw factors into the numbers that every later stage needs of a patch: point
+//! counts, spacings, output sizes, topology. It does so for sixteen patches at a time, one patch in
+//! each vector lane. `kernels/front_end` fills packets; `kernels/emit` reads them patch by patch.
 //!
 //! # Data
 //!
@@ -22,8 +21,8 @@
 //! factor 5  [    80][81] .. [95]          inside v
 //! ```
 //!
-//! The topology is one 64-bit number. Connectivity depends on nothing else; with integer factors
-//! neither do points.
+//! The topology is one 64-bit number. The connectivity depends on nothing else; with integer
+//! factors, neither do the points.
 //!
 //! ```text
 //! bit    43   42..36    35..29    28..22    21..15    14..8     7..1        0
@@ -46,20 +45,20 @@
 //!
 //! # What must hold
 //!
-//! - Factors that a domain lacks have no points, so topologies of two domains differ.
-//! - A lane without a patch is culled: its raw factors are 0. Its counts are 0; everything else in
-//!   it is unspecified, so callers skip lanes without points.
-//! - [`PacketPatch::key`] tells two factors apart by their lowest bit too: location tables are
-//!   reused by it.
-//! - Compact patches have at most [`COMPACT_EDGE`] points along each edge; codes and templates have
-//!   room for no more.
+//! - Factors that a domain lacks have 0 points, so topologies of different domains differ.
+//! - A lane whose raw factors are 0 is culled. The counts of a culled lane are 0; everything else
+//!   in it is unspecified, so callers skip lanes without points.
+//! - [`PacketPatch::key`] differs even for factors that differ only in their lowest bit, because
+//!   location tables are reused by key.
+//! - Compact patches have at most [`COMPACT_EDGE`] points along each edge: codes and templates do
+//!   not have room for more.
 //!
 //! # The simpler form
 //!
-//! Eight patches a packet were slower: half of the vector loads waited for two narrower stores. The
-//! vector types of the crate `wide` take two to three times as long, because they choose their
-//! instructions when they are compiled (`docs/experiments.md`). So lanes are plain arrays, and the
-//! compiler makes vectors of each level's width.
+//! Eight patches per packet were slower: half of the vector loads waited for two narrower stores.
+//! The vector types of the crate `wide` take two to three times as long, because they choose their
+//! instructions when they are compiled (`docs/experiments.md`). Lanes are therefore plain arrays,
+//! and the compiler makes vectors of each level's width.
 
 mod one;
 
@@ -80,9 +79,9 @@ pub(crate) const COMPACT_EDGE: usize = 16;
 /// The most points of the inside factor of a compact triangle.
 pub(crate) const COMPACT_TRIANGLE_INSIDE: usize = 13;
 
-/// Bits of the counts of a small topology.
+/// Bits of a small topology's number that hold the ranks of its point counts.
 const SMALL_BITS: u32 = 12;
-/// Numbers of small topologies of both domains.
+/// The number of small topologies of both domains.
 pub(crate) const SMALL_TOPOLOGIES: usize = 2 << SMALL_BITS;
 
 /// Sixteen patches of one domain after factor processing, their output sizes known.
@@ -92,7 +91,7 @@ pub(crate) struct Packet {
     domain: Domain,
     fixed: Column,
     points: Column,
-    /// Unspecified where factors are integers: see [`PacketPatch::spacing`].
+    /// Unspecified if factors are integers: see [`PacketPatch::spacing`].
     spacings: Spacings,
     minimum: Lanes,
     topologies: Lanes<u64>,
@@ -118,9 +117,9 @@ impl Packet {
         counts: PacketCounts { points: [0; _], indices: [0; _] },
     };
 
-    /// Processes the raw factors of a packet; zeros count as culled.
+    /// Processes the raw factors of a packet. Patches whose factors are zeros are culled.
     ///
-    /// Written in place; returning it would copy the packet.
+    /// Writes to `self`, because returning a packet would copy it.
     #[inline(always)]
     pub(crate) fn process(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
         use Domain::{Isoline, Quad, Triangle};
@@ -142,8 +141,8 @@ impl Packet {
         self.counts = self.keep(config, domain, 0, &process(config.partitioning, domain, raw));
     }
 
-    /// Makes all lanes, or the one with this number, from processed factors, but for their sizes,
-    /// which it returns.
+    /// Sets all lanes, or the lane with this number, from processed factors. Does not set the
+    /// output sizes, but returns them.
     #[inline(always)]
     fn keep<const L: usize, const F: usize>(
         &mut self,
@@ -153,7 +152,7 @@ impl Packet {
         processed: &Processed<L, F>,
     ) -> PacketCounts<L> {
         let Processed { fixed, odd, minimum, .. } = processed;
-        // Where factors are integers, few spacings are ever needed.
+        // If factors are integers, few spacings are ever needed: they are computed on demand.
         let points = if config.partitioning.has_integer_factors() {
             point_counts(fixed, odd)
         } else {
@@ -171,20 +170,20 @@ impl Packet {
         counts(config, domain, processed, &points)
     }
 
-    /// Whether all of its patches are compact.
+    /// Whether all patches are compact.
     #[inline(always)]
     pub(crate) fn all_compact(&self) -> bool {
         self.compact.iter().fold(1, |all, compact| all & compact) == 1
     }
 
-    /// One of its patches.
+    /// The patch of a lane.
     #[inline(always)]
     pub(crate) const fn patch(&self, lane: usize) -> PacketPatch<'_> {
         PacketPatch { packet: self, lane }
     }
 }
 
-/// Only the output sizes of a packet.
+/// The output sizes of a packet's patches, without the rest of the packet.
 #[inline(always)]
 pub(crate) fn packet_counts(config: Config, domain: Domain, raw: &Column<f32>) -> PacketCounts {
     #[inline(always)]
@@ -209,58 +208,58 @@ pub(crate) struct PacketPatch<'a> {
 }
 
 impl PacketPatch<'_> {
-    /// Its domain.
+    /// The patch's domain.
     #[inline(always)]
     pub(crate) const fn domain(self) -> Domain {
         self.packet.domain
     }
 
-    /// The number of its points; 0 if it is culled.
+    /// The number of points; 0 if the patch is culled.
     #[inline(always)]
     pub(crate) const fn points(self) -> u32 {
         self.packet.counts.points[self.lane]
     }
 
-    /// The number of its indices; 0 if it is culled.
+    /// The number of indices; 0 if the patch is culled.
     #[inline(always)]
     pub(crate) const fn indices(self) -> u32 {
         self.packet.counts.indices[self.lane]
     }
 
-    /// Whether all factors are integers, so that a point count says all about a factor.
+    /// Whether all factors are integers; then a factor's locations follow from its point count.
     #[inline(always)]
     pub(crate) const fn integer(self) -> bool {
         self.packet.config.partitioning.has_integer_factors()
     }
 
-    /// Whether it is a minimum patch.
+    /// Whether the patch is a minimum patch.
     #[inline(always)]
     pub(crate) const fn is_minimum(self) -> bool {
         self.packet.minimum[self.lane] == 1
     }
 
-    /// Whether it is a quad or a triangle of which no edge has more than [`COMPACT_EDGE`] points;
-    /// nor has a triangle's inside more than [`COMPACT_TRIANGLE_INSIDE`].
+    /// Whether the patch is a quad or a triangle with at most [`COMPACT_EDGE`] points along each
+    /// edge and each inside axis; for a triangle's inside at most [`COMPACT_TRIANGLE_INSIDE`].
     #[inline(always)]
     pub(crate) const fn is_compact(self) -> bool {
         self.packet.compact[self.lane] == 1
     }
 
-    /// A number for each topology of a domain, not 0.
+    /// The number of the patch's topology, not 0: see the head of this file.
     #[inline(always)]
     pub(crate) const fn topology(self) -> u64 {
         self.packet.topologies[self.lane]
     }
 
-    /// Below [`SMALL_TOPOLOGIES`], another number for each topology, if each factor of a quad has
-    /// one of the first four counts of its parity, of a triangle one of the first eight; others
-    /// have larger numbers.
+    /// A number below [`SMALL_TOPOLOGIES`], different for each topology, if each factor has one of
+    /// the first point counts that are possible: the first four for a quad, the first eight for a
+    /// triangle. Other topologies have larger numbers, which may coincide.
     #[inline(always)]
     pub(crate) const fn small_topology(self) -> usize {
         self.packet.small[self.lane] as usize
     }
 
-    /// The point counts of its factors.
+    /// The point counts of the patch's factors.
     #[inline(always)]
     pub(crate) const fn edges(self) -> EdgePoints {
         let Self { packet: Packet { points: [a, b, c, d, e, f], .. }, lane: i } = self;
@@ -273,7 +272,8 @@ impl PacketPatch<'_> {
         self.packet.points[factor][self.lane]
     }
 
-    /// A number, not 0, that differs for different contexts of one split order.
+    /// The number, not 0, of a factor's context: different contexts of one split order have
+    /// different numbers.
     #[inline(always)]
     pub(crate) const fn key(self, factor: usize) -> u32 {
         let Packet { fixed, points, .. } = self.packet;
@@ -292,14 +292,14 @@ impl PacketPatch<'_> {
         }
     }
 
-    /// [`Self::spacing`] where the partitioning is fractional.
+    /// [`Self::spacing`] for fractional partitionings.
     #[inline(always)]
     pub(crate) const fn fractional_spacing(self, factor: usize) -> Spacing {
         self.packet.spacings.get(factor, self.lane, self.edge_points(factor))
     }
 }
 
-/// A number for each topology: the point counts of all factors, after a leading 1, and whether it
+/// The numbers of topologies: a leading 1, the point counts of all factors, and whether the patch
 /// is a minimum patch.
 #[inline(always)]
 fn topologies<const L: usize>(points: &[[u32; L]; MAX_FACTORS], minimum: &[u32; L]) -> [u64; L] {
@@ -315,9 +315,10 @@ fn topologies<const L: usize>(points: &[[u32; L]; MAX_FACTORS], minimum: &[u32; 
     topologies
 }
 
-/// Two or three bits for each factor, the rank of its count among those that a factor can have;
-/// then a bit for the domain, and bits that make the number too large. A minimum patch has ranks of
-/// 0, which no other patch with the count of its inside has.
+/// The numbers of small topologies. From the lowest bit: two or three bits for each factor, the
+/// rank of its point count among those that are possible; a bit for the domain; then bits that are
+/// set if a rank is too large. A minimum patch has rank 0 for every factor. No other patch of its
+/// partitioning does, because an inside factor of rank 0 would have 2 points.
 #[inline(always)]
 fn small_topologies<const L: usize>(
     config: Config,
@@ -340,7 +341,7 @@ fn small_topologies<const L: usize>(
     small
 }
 
-/// 1 where a patch is compact.
+/// For each lane, 1 if the patch is compact, else 0.
 #[inline(always)]
 fn compact<const L: usize>(domain: Domain, points: &[[u32; L]; MAX_FACTORS]) -> [u32; L] {
     let mut compact = [u32::from(domain != Domain::Isoline); L];
@@ -398,7 +399,7 @@ mod tests {
         assert!(!is_compact(Domain::Isoline, 2.0, 2.0), "isolines are not");
     }
 
-    /// Topologies of two domains differ, even where all factors that both have are alike.
+    /// Topologies of two domains differ even if all common factors are equal.
     #[test]
     fn topologies_of_domains_differ() {
         let [triangle, quad] = [Domain::Triangle, Domain::Quad].map(|domain| {

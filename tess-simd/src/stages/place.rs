@@ -11,12 +11,12 @@ const LOCATIONS_AT_ONCE: u32 = 16;
 /// Room for an edge's 65 locations and for reading whole blocks from any start.
 const ROOM: usize = 112;
 
-/// The numbers that the locations of an edge's points follow from, all modulo 2^32.
+/// The numbers from which the locations of an edge's points are computed, all modulo 2^32.
 ///
-/// With `a` and `b` the places of a position in the coarser and in the finer subdivision, the
+/// Let `a` and `b` be the places of a position in the coarser and in the finer subdivision. The
 /// specification takes `a * (ONE - fraction) + b * fraction`, which fits 32 bits. `b` is the
-/// position times `inv_ceil`; `a` is the position, less one behind the split, times `inv_floor`.
-/// Hence the sum is the position times `step`, less `lag` behind the split.
+/// position times `inv_ceil`; `a` is the position, less one after the split, times `inv_floor`.
+/// Hence the sum is the position times `step`, less `lag` after the split.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spacing {
     /// Points of the edge.
@@ -63,7 +63,7 @@ impl Spacings {
         let spacing = |i| Spacing::new(&PlainContext::new(at(fixed, i), at(odd, i), order));
         let [mut points, mut split, mut step, mut lag] = [[[0; L]; F]; 4];
         if L == LANES {
-            // In place: copies would take a tenth of the front end's time.
+            // Written in place: copies would take a tenth of the front end's time.
             for i in 0..L * F {
                 let spacing = spacing(i);
                 *at_mut(&mut points, i) = spacing.points;
@@ -93,10 +93,10 @@ impl Spacings {
     }
 }
 
-/// The 16.16 locations of all points of an edge, ascending in position; what follows them is
-/// unspecified.
+/// The 16.16 locations of all points of an edge, in the order of the points, followed by
+/// unspecified elements.
 ///
-/// The locations seen from the other end are `ONE` minus these.
+/// Seen from the other end of the edge, a location is `ONE` minus this one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Locations([u32; ROOM]);
 
@@ -120,7 +120,7 @@ impl Locations {
         }
     }
 
-    /// The locations of points from `first` on, and then the unspecified rest.
+    /// The locations from point `first`, followed by unspecified elements.
     #[inline(always)]
     pub(crate) fn from(&self, first: u32) -> &[u32] {
         self.0.get(first as usize..).unwrap_or_default()
@@ -135,7 +135,8 @@ impl Locations {
 
 /// The location of point `p < spacing.points`; unspecified beyond. Free of branches.
 ///
-/// Numbers of points are compared as signed integers, as every level has instructions for them.
+/// Numbers of points are compared as signed integers, because every level has instructions for
+/// those.
 #[inline(always)]
 pub(crate) fn place(spacing: &Spacing, p: u32) -> u32 {
     let mirrored = spacing.points.wrapping_sub(1 + p);
@@ -145,7 +146,7 @@ pub(crate) fn place(spacing: &Spacing, p: u32) -> u32 {
     if is_mirrored { ONE.wrapping_sub(x) } else { x }
 }
 
-/// The location of a point of an edge's first half, its middle included; unspecified beyond. Free
+/// The location of a point of an edge's first half, including the middle; unspecified beyond. Free
 /// of branches.
 #[inline(always)]
 pub(crate) const fn place_in_half(spacing: &Spacing, position: u32) -> u32 {

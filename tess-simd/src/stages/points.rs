@@ -1,9 +1,9 @@
 //! The domain points of a patch, in order (spec section 6).
 //!
-//! Every run of points along an edge is one coordinate held and the other read from a table of
-//! locations; seen from the other end a location is `ONE` minus itself. For compact patches of
-//! fractional factors, `coordinate_code` notes what each point is made of, and `permute` or
-//! `lookup` makes it.
+//! In every run of points along an edge, one coordinate is constant and the other is read from a
+//! table of locations; seen from the other end, a location is `ONE` minus the one in the table. For
+//! compact patches with fractional factors, `coordinate_code` describes each point by a code, and
+//! `permute` or `lookup` makes points from the codes.
 
 mod coordinate_code;
 mod isoline;
@@ -47,18 +47,18 @@ struct Runs<'a, W> {
     out: &'a mut W,
 }
 
-/// How the points of compact patches of fractional factors are made.
+/// A way to make the points of compact patches with fractional factors.
 ///
-/// One type decides what a template keeps of a code and who reads it, so that the two go together.
+/// The same type decides what a template stores of a code and reads it back, so that the two match.
 pub(crate) trait CompactPoints<W> {
-    /// Whether the level writes templates fastest in blocks of 64 indices and 24 points. Its stores
-    /// are so wide that elements past the patch's last cost less than a branch that is predicted
-    /// wrongly. Other levels write blocks of 16 and 8.
+    /// Whether the level writes templates fastest in blocks of 64 indices and 24 points: its stores
+    /// are so wide that elements past the patch's last cost less than a mispredicted branch. Other
+    /// levels write blocks of 16 and 8.
     const LONG_BLOCKS: bool;
 
-    /// The part of a coordinate's code that a template keeps.
+    /// The form in which a template stores a coordinate's code.
     fn kept(domain: Domain, code: u16) -> u16;
 
-    /// Writes the points of a patch from what its template keeps.
+    /// Writes the points of a patch from the codes in its template.
     fn emit(&mut self, patch: PacketPatch<'_>, kept: &[Code], out: &mut W);
 }

@@ -4,8 +4,9 @@ use tess_core::fixed_point::ONE;
 
 /// 1/n with 16 fraction bits, rounded to the nearest, for `n` in 1..=64: `(ONE + n / 2) / n`.
 ///
-/// `ONE / n` lies at least 1/128 off the middle of two integers, and its binary32 is off by 2^-9 at
-/// most. So adding 2^23 rounds it to the right integer, which then stands in the mantissa.
+/// `ONE / n` is at least 1/128 away from the middle of two integers, and its binary32 value is
+/// wrong by at most 2^-9. Adding 2^23 therefore rounds it to the right integer and leaves that in
+/// the mantissa.
 #[inline(always)]
 #[expect(clippy::float_arithmetic, reason = "the rounding of the sum is the one that is asked for")]
 pub(crate) fn reciprocal(n: u32) -> u32 {
@@ -20,7 +21,7 @@ pub(crate) const fn to_f32(x: u32) -> f32 {
     x as i32 as f32
 }
 
-/// From here on to its double, binary32 numbers are exactly the integers.
+/// From this number to twice this number, the binary32 numbers are exactly the integers.
 pub(crate) const TWO_POW_23: f32 = 8_388_608.0;
 /// The mantissa bits of a binary32.
 pub(crate) const MANTISSA: u32 = 0x007F_FFFF;

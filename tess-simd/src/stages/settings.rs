@@ -14,7 +14,7 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
-    /// Makes the tables, unless they are there.
+    /// The settings of a configuration. Makes the stitch tables unless they exist.
     pub(crate) fn new(config: Config) -> Self {
         Self { config, order: Order::Specification, stitches: SharedStitches::of(config) }
     }

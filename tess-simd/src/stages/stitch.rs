@@ -1,8 +1,8 @@
 //! Stitches as tables (spec sections 7.2 to 7.4).
 //!
-//! Which entries of its two rows a stitch connects depends on point counts and parities alone. A
-//! table holds one code for each index (`step_code`), made from the core's steps (`tables`); `rows`
-//! turns them into indices.
+//! The entries of its two rows that a stitch connects depend only on point counts and parities. A
+//! table has one code for each index (`step_code`), made from the core's steps (`tables`); `rows`
+//! turns codes into indices.
 
 mod rows;
 mod shared;

@@ -1,13 +1,15 @@
-//! Templates of patches: their output, counted from the patch's first point, kept to be copied.
+//! Templates of patches: output that is kept to be copied, with indices counted from the patch's
+//! first point.
 //!
-//! A patch's indices follow from its topology, and so do its points (integer factors) or, of
-//! compact patches, their codes (fractional ones). `kernels/emit` looks the topology up and copies;
-//! a topology that is new is made once, by the stages that large patches go through. One mechanism
-//! ([`Cache`]) keeps two kinds:
+//! A patch's topology determines its indices. It also determines its points if factors are
+//! integers, and the codes of the points if the patch is compact and factors are fractional.
+//! `kernels/emit` looks the topology up and copies its template; the template of a new topology is
+//! made once, by the stages that large patches go through. One mechanism ([`Cache`]) keeps two
+//! kinds of template:
 //!
-//! - compact patches, always: thousands of topologies, with indices of one byte;
-//! - others up to 289 points, and larger ones like the large patch before: hundreds, with indices
-//!   of two bytes.
+//! - of all compact patches: thousands of topologies, with indices of one byte;
+//! - of other patches up to 289 points, and of larger ones with the same topology as the previous
+//!   large patch: hundreds of topologies, with indices of two bytes.
 //!
 //! # Data
 //!
@@ -17,22 +19,22 @@
 //!  | topologies: 4 x u64, 0 = empty | starts: 4 x (point: u16, index: u16) |
 //!  +--------------------------------+--------------|-------------|---------+
 //!                                                  v             |
-//! points (64 Ki of [u16; 2])  [ ... | coordinates, or what CompactPoints keeps of codes | ... ]
+//! points (64 Ki of [u16; 2])  [ ... | coordinates, or codes in CompactPoints' form | ...      ]
 //!                                                                v
 //! indices (224 Ki of u8)      [ ... | indices from the patch's first point, as written | ... ]
 //!
-//! small (8192 starts)         by the topology's small number: what sets of few points said last
+//! small (8192 starts)         by the topology's small number: the start that the sets gave last
 //! ```
 //!
-//! These are the compact ones; others have at most 256 sets, 24 Ki points and 96 Ki indices. Memory
-//! is taken as templates are made: the first one makes 32 sets and a kilobyte or four of either
-//! room. A room that is full doubles. Where a topology finds its set full, there are eight times as
-//! many sets from then on, up to the most.
+//! These are the numbers for compact patches; other patches have at most 256 sets, 24 Ki points and
+//! 96 Ki indices. Memory is allocated as templates are made. The first template makes 32 sets and
+//! rooms of at least 1024 elements; a room that is full doubles. If a topology finds its set full,
+//! the number of sets becomes eight times as large, up to the most.
 //!
-//! Both rooms are filled from front to back. If a template might not fit, everything is forgotten:
-//! of compact patches before each packet ([`Templates::make_room`], for the largest sixteen),
-//! otherwise when one is made. Coordinates of integer factors are 16.16 numbers with `ONE` as
-//! 0xFFFF ([`short`], [`long`]).
+//! Both rooms are filled from front to back. If a template might not fit, all templates of its kind
+//! are forgotten. For compact patches this is checked before each packet, for sixteen of the
+//! largest ([`Templates::make_room`]); for other patches, when a template is made. Coordinates of
+//! integer factors are 16.16 numbers, with 0xFFFF for `ONE` ([`short`], [`long`]).
 //!
 //! # One patch
 //!
@@ -49,21 +51,24 @@
 //! - `make_room` is called before a packet's first [`Templates::find`], and a [`Start`] is used
 //!   before the next `make_room`. Otherwise a template is cut off, or read after others have
 //!   overwritten it.
-//! - [`room::PADDING`] elements after the last template can be read: whole blocks are copied.
-//! - Sets and rooms are emptied together. With the sets kept, old topologies would find new
+//! - [`room::PADDING`] elements after the last template can be read, because whole blocks are
+//!   copied.
+//! - Sets and rooms are emptied together. If the sets were kept, old topologies would find new
 //!   templates.
-//! - A set is the upper bits of one number, so that the topologies of a set share no new set with
-//!   others when sets become more, and all of them find a slot.
-//! - Whatever changes templates without changing the topology (order of triangles, [`Kept`])
-//!   belongs to one tessellator for good, or `Workspaces::forget` is called.
-//! - An index of a compact patch is below 256: it has at most 16 by 16 points.
+//! - The number of a set is the upper bits of one number. When the number of sets grows, a new set
+//!   therefore gets topologies of only one old set, and all of them find a slot.
+//! - Anything that changes templates without changing the topology (the order of triangles,
+//!   [`Kept`]) is constant for a tessellator, or `Workspaces::forget` is called when it changes.
+//! - An index of a compact patch is below 256, because the patch has at most 16 by 16 points.
 //!
 //! # The simpler form
 //!
-//! One kind for all: indices of two bytes for `mosaic`'s 4096 topologies do not fit the second
-//! cache. A triangle's inside is compact up to 13 points only, so that its codes have room for all
-//! rings. With AVX2, templates whose points are still copied in runs were slower than none:
-//! `character` took 1.4 times as long (`docs/experiments.md`).
+//! One kind of template for all patches: with indices of two bytes, `mosaic`'s 4096 topologies do
+//! not fit the second-level cache.
+//!
+//! Templates without codes, whose fractional points are still copied in runs: with AVX2 these were
+//! slower than no templates, and `character` took 1.4 times as long (`docs/experiments.md`). The
+//! codes limit a compact triangle to 13 points inside, because they have room for only 6 rings.
 
 mod cache;
 mod room;
@@ -81,22 +86,22 @@ use alloc::vec::Vec;
 use cache::{Cache, INDEX_STEP};
 use tess_core::{Domain, DomainPoint, MAX_INDICES, MAX_POINTS, Patch, PatchFactors};
 
-/// The most points and indices of a compact patch: a quad's whose edges have [`COMPACT_EDGE`]
-/// points.
+/// The most points and indices of a compact patch: those of a quad with [`COMPACT_EDGE`] points
+/// along each edge.
 const POINTS: usize = COMPACT_EDGE * COMPACT_EDGE;
 const INDICES: usize = (6 * (COMPACT_EDGE - 1) * (COMPACT_EDGE - 1)).next_multiple_of(INDEX_STEP);
 
-/// The most points of a patch whose template is kept from the first one on: a quad of factor 16 has
-/// this many.
+/// The most points of a patch whose template is kept the first time: as many as a quad of factor 16
+/// has.
 const ALWAYS_KEPT: usize = 17 * 17;
 
-/// The templates of one configuration. They take memory as they are made, at most 1 MiB with what
-/// makes them.
+/// The templates of one configuration. Memory is allocated as they are made: at most 1 MiB,
+/// including [`MadePatch`].
 #[derive(Clone, Debug)]
 pub(crate) struct Templates {
     compact: Cache<u8, CompactPoint, 2048, { 224 << 10 }, { 64 << 10 }>,
-    /// Where compact ones begin, by [`PacketPatch::small_topology`]; empty while there are few
-    /// sets.
+    /// The starts of compact templates, indexed by [`PacketPatch::small_topology`]; empty until the
+    /// number of sets has grown.
     small: Vec<Start>,
     others: Cache<u16, DomainPoint, 256, { 96 << 10 }, { 24 << 10 }>,
     /// Topology of the last large patch that had no template.
@@ -104,7 +109,7 @@ pub(crate) struct Templates {
     made: MadePatch,
 }
 
-/// The output of the patch that is made, as the stages write it.
+/// The output of the patch whose template is being made, as the stages write it.
 #[derive(Clone, Debug)]
 struct MadePatch {
     points: Vec<DomainPoint>,
@@ -116,10 +121,10 @@ struct MadePatch {
 /// its code.
 pub(crate) type CompactPoint = [u16; 2];
 
-/// The part of a code that is kept: see [`points::CompactPoints::kept`].
+/// Turns a code into the form that a template stores: see [`points::CompactPoints::kept`].
 pub(crate) type Kept = fn(Domain, u16) -> u16;
 
-/// The tables that a template is made with.
+/// The settings and tables that templates are made with.
 type Making<'a> = (&'a Settings, &'a mut LocationTables);
 
 impl Templates {
@@ -129,13 +134,13 @@ impl Templates {
         Self { compact: Cache::new(), small: Vec::new(), others: Cache::new(), last_large: 0, made }
     }
 
-    /// Bytes of memory that they take on the heap.
+    /// Bytes of heap memory.
     pub(crate) const fn bytes(&self) -> usize {
         let small = self.small.capacity() * size_of::<Start>();
         self.compact.bytes() + small + self.others.bytes() + self.made.bytes()
     }
 
-    /// Takes all the memory that they may ever need.
+    /// Allocates all the memory that templates may ever need.
     pub(crate) fn reserve(&mut self) {
         self.compact.reserve();
         self.make_small();
@@ -143,8 +148,8 @@ impl Templates {
         self.made.make_room(MAX_POINTS, MAX_INDICES);
     }
 
-    /// Makes room for the templates of a packet of compact patches; if there is none, all others
-    /// are forgotten.
+    /// Makes room for the templates of a packet of compact patches. If the packet might not fit,
+    /// all compact templates are forgotten.
     #[inline(always)]
     pub(crate) fn make_room(&mut self) {
         if self.compact.make_room(LANES * POINTS, LANES * INDICES) {
@@ -156,8 +161,8 @@ impl Templates {
         self.small.resize(SMALL_TOPOLOGIES, Start::NONE);
     }
 
-    /// Where the template of a compact patch that is not culled begins. It is made if there is
-    /// none.
+    /// The start of the template of a compact patch that is not culled. Makes the template if there
+    /// is none.
     #[inline(always)]
     pub(crate) fn find(&mut self, patch: PacketPatch<'_>, with: Making<'_>, kept: Kept) -> Start {
         match self.small.get(patch.small_topology()) {
@@ -178,14 +183,14 @@ impl Templates {
         start
     }
 
-    /// The template of a compact patch that begins here, found since there was room made last.
+    /// The compact template at a start that was found after the last [`Self::make_room`].
     #[inline(always)]
     pub(crate) fn get(&self, start: Start) -> Template<'_, u8, CompactPoint> {
         self.compact.get(start)
     }
 
-    /// The template of any other patch that is not culled, if there is one or should be. It has
-    /// points if factors are integers.
+    /// The template of a patch that is neither compact nor culled. Makes it if the patch is to have
+    /// one; otherwise `None`. The template has points only if factors are integers.
     #[inline(always)]
     pub(crate) fn other(
         &mut self,
@@ -200,7 +205,7 @@ impl Templates {
         Some(self.others.get(start))
     }
 
-    /// Whether a patch is not large or like the large patch before.
+    /// Whether a patch is not large, or has the topology of the previous large patch.
     #[inline(always)]
     fn is_wanted(&mut self, patch: PacketPatch<'_>) -> bool {
         let topology = patch.topology();
@@ -208,8 +213,8 @@ impl Templates {
             || core::mem::replace(&mut self.last_large, topology) == topology
     }
 
-    /// The indices of a patch without a template, counted from its first point and in the
-    /// specification's order, and then unspecified ones.
+    /// The indices of a patch without a template, counted from its first point, in the
+    /// specification's order, followed by unspecified elements.
     #[inline(never)]
     pub(crate) fn specified(&mut self, settings: &Settings, patch: PacketPatch<'_>) -> &[u16] {
         self.made.make_indices(settings, patch);
@@ -261,7 +266,7 @@ impl MadePatch {
         self.points.capacity() * size_of::<DomainPoint>() + self.indices.capacity() * 2
     }
 
-    /// Takes the memory of a patch and of whole blocks after it.
+    /// Makes room for a patch, and for whole blocks after it.
     fn make_room(&mut self, points: usize, indices: usize) {
         let (points, indices) = (points + room::PADDING, indices + room::PADDING);
         if self.points.len() < points {
@@ -274,8 +279,8 @@ impl MadePatch {
         }
     }
 
-    /// Makes the indices of a patch and, of a minimum patch or where factors are integers, its
-    /// points.
+    /// Makes the indices of a patch, and its points if it is a minimum patch or factors are
+    /// integers.
     fn make(&mut self, patch: PacketPatch<'_>, (settings, tables): Making<'_>) {
         self.make_room(patch.points() as usize, patch.indices() as usize);
         if patch.is_minimum() {
@@ -292,7 +297,7 @@ impl MadePatch {
         connect::emit(settings, patch, 0, &mut Writer::new(&mut self.indices));
     }
 
-    /// Makes the minimum patch of a domain, as the core does.
+    /// Makes the minimum patch of a domain, using the core.
     #[expect(clippy::cast_possible_truncation, reason = "indices of at most 4 points")]
     fn make_minimum(&mut self, settings: &Settings, domain: Domain) {
         let mut wide = [0; 8];
@@ -304,8 +309,8 @@ impl MadePatch {
         }
     }
 
-    /// Keeps the indices in their order, and so many points, which are in their room, as a
-    /// template.
+    /// Adds a template to the cache: copies the indices in the order of the settings. The caller
+    /// has already written the points.
     fn keep<I, P, const S: usize, const N: usize, const M: usize>(
         &self,
         cache: &mut Cache<I, P, S, N, M>,
@@ -327,9 +332,9 @@ impl MadePatch {
     }
 }
 
-/// A point of a compact patch of integer factors in half the room. `ONE` becomes the largest
-/// number, which no coordinate is. Larger patches keep whole points: lengthening them takes up to
-/// twice as long as a copy.
+/// A point of a compact patch with integer factors, in half the room. `ONE` becomes 0xFFFF, which
+/// never occurs as a coordinate. Templates of larger patches have whole points, because lengthening
+/// takes up to twice as long as a copy.
 #[expect(clippy::cast_possible_truncation, reason = "16.16 numbers up to ONE")]
 fn short(point: DomainPoint) -> CompactPoint {
     [point.u, point.v].map(|coordinate| coordinate.to_bits().min(u32::from(u16::MAX)) as u16)
@@ -362,7 +367,8 @@ mod tests {
         assert_eq!(template.indices[..9], [0, 1, 22, 22, 1, 23, 23, 1, 24], "indices");
     }
 
-    /// Coordinates of integer factors keep their bits in half the room. 0xFFFF is none of them.
+    /// Coordinates of integer factors keep their bits in half the room, because 0xFFFF never
+    /// occurs.
     #[test]
     fn shortened_points() {
         for bits in [0, 0x0444, 0x8000, 0xFBBC, 0x1_0000] {

@@ -1,4 +1,4 @@
-//! Only the calling thread.
+//! Counting and writing on the calling thread only.
 
 use crate::cpu::level::Level;
 use crate::data::format::IndexFormat;
@@ -7,7 +7,7 @@ use crate::threads::part::{self, Job, Workspace};
 use crate::threads::slices::{CountShare, Share};
 use tess_core::Config;
 
-/// The one workspace.
+/// The only workspace.
 #[derive(Clone, Debug)]
 pub(crate) struct Workspaces(Workspace);
 
@@ -16,7 +16,7 @@ impl Workspaces {
         Self(Workspace::new())
     }
 
-    /// Forgets what was kept from batch to batch.
+    /// Drops everything that was kept from earlier batches.
     pub(crate) fn forget(&mut self) {
         self.0 = Workspace::new();
     }
@@ -26,18 +26,18 @@ impl Workspaces {
         &mut self.0
     }
 
-    /// How many threads write at a time.
+    /// The number of threads that write: 1.
     #[expect(clippy::unused_self, reason = "the same interface as with a pool")]
     pub(crate) const fn threads(&self) -> usize {
         1
     }
 
-    /// Takes all the memory that it may ever need.
+    /// Allocates all the memory that the workspace may ever need.
     pub(crate) fn reserve(&mut self) {
         self.0.reserve();
     }
 
-    /// Bytes of memory that it takes on the heap.
+    /// Bytes of heap memory.
     pub(crate) fn bytes(&self) -> usize {
         self.0.bytes()
     }

@@ -25,13 +25,13 @@ pub(crate) struct Job<'a> {
     pub(crate) level: Level,
     pub(crate) settings: &'a Settings,
     pub(crate) numbering: Numbering,
-    /// The packets of the whole batch, if the count kept them: of equal patches, a packet of one.
-    /// Such a batch is one chunk and one part.
+    /// The packets of the whole batch, if the count kept them; only one patch if all are equal.
+    /// Such a batch is one part.
     pub(crate) kept: Option<&'a [Packet; Chunk::PACKETS]>,
 }
 
-/// Consecutive patches of a batch and where their output goes: buffers of exactly the sizes that
-/// the count predicts.
+/// Consecutive patches of a batch, and buffers for their output of exactly the sizes that the count
+/// predicts.
 #[derive(Debug)]
 pub(crate) struct Part<'a, P, I> {
     pub(crate) batch: Batch<'a>,
@@ -43,8 +43,8 @@ pub(crate) struct Part<'a, P, I> {
     pub(crate) run: usize,
 }
 
-/// The memory that a thread keeps from batch to batch, made when it is first used. Two threads'
-/// workspaces share no cache lines.
+/// The memory that a thread keeps from batch to batch, allocated on first use. Workspaces of
+/// different threads share no cache lines.
 #[derive(Clone, Debug)]
 #[repr(align(128))]
 pub(crate) struct Workspace(Option<Box<WorkspaceMemory>>);
@@ -53,11 +53,11 @@ pub(crate) struct Workspace(Option<Box<WorkspaceMemory>>);
 #[derive(Clone, Debug)]
 #[repr(align(128))]
 struct WorkspaceMemory {
-    /// The patch that comes alone.
+    /// The patch of calls for one patch.
     one: OnePatch,
     lookup: Lookup,
     caches: Caches,
-    /// Made by the first batch.
+    /// Allocated by the first batch.
     chunk: Option<Box<ChunkMemory>>,
 }
 
@@ -65,7 +65,7 @@ struct WorkspaceMemory {
 #[derive(Clone, Debug)]
 struct ChunkMemory {
     packets: [Packet; Chunk::PACKETS],
-    /// The ranges of a chunk, where the caller wants none.
+    /// The ranges of a chunk, used if the caller wants none.
     ranges: [PatchRange; Chunk::PATCHES],
 }
 
@@ -74,7 +74,7 @@ impl Workspace {
         Self(None)
     }
 
-    /// Bytes of memory that it takes on the heap.
+    /// Bytes of heap memory.
     pub(crate) fn bytes(&self) -> usize {
         self.0.as_ref().map_or(0, |memory| {
             let chunk = memory.chunk.as_deref().map_or(0, size_of_val);
@@ -82,7 +82,7 @@ impl Workspace {
         })
     }
 
-    /// Takes all the memory that it may ever need.
+    /// Allocates all the memory that the workspace may ever need.
     pub(crate) fn reserve(&mut self) {
         let WorkspaceMemory { caches, chunk, .. } = self.memory();
         caches.reserve();
@@ -105,7 +105,7 @@ impl Workspace {
         levels::process_one(level, &mut self.memory().one, config, factors.domain(), a, b, c)
     }
 
-    /// Writes one patch, and perhaps up to `MORE` elements behind it in either buffer. Returns its
+    /// Writes one patch; may overwrite up to `MORE` elements after it in either buffer. Returns the
     /// output sizes.
     ///
     /// # Errors

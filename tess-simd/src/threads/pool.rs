@@ -1,9 +1,10 @@
-//! The threads of the rayon pool that the caller runs in, otherwise those of this process.
+//! Counting and writing on the threads of the rayon pool that the caller runs in, or else on those
+//! of this process's own pool.
 //!
 //! Each thread begins with the same slices every time, so that its part of a reused buffer stays in
 //! its core's caches. A thread that is done helps the others. When nothing is left it waits for
-//! them: threads that leave a batch together are still awake when the next one comes. Small batches
-//! use fewer threads, because waking takes longer than they do.
+//! them, because threads that leave a batch together are still awake when the next one comes. Small
+//! batches use fewer threads, because waking a thread would take longer than the batch.
 
 use crate::cpu::level::Level;
 use crate::data::format::IndexFormat;
@@ -20,10 +21,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tess_core::Config;
 
-/// The most threads, and so workspaces, that a tessellator uses.
+/// The most threads, and so the most workspaces, of a tessellator.
 pub(crate) const MAX_THREADS: usize = 256;
 
-/// The longest that a thread waits for the others. Then it may sleep.
+/// The longest time that a thread waits for the others. Then it may sleep.
 const TOGETHER: Duration = Duration::from_micros(100);
 
 /// Patches that are counted in a few microseconds.
@@ -43,29 +44,29 @@ impl Workspaces {
         Self((0..threads.clamp(1, MAX_THREADS)).map(|_| Mutex::new(Workspace::new())).collect())
     }
 
-    /// Forgets what was kept from batch to batch.
+    /// Drops everything that was kept from earlier batches.
     pub(crate) fn forget(&mut self) {
         self.0.fill_with(|| Mutex::new(Workspace::new()));
     }
 
-    /// A workspace for the calling thread alone.
+    /// A workspace for the calling thread.
     pub(crate) fn one(&mut self) -> &mut Workspace {
         self.0[0].get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// How many threads write at a time.
+    /// The most threads that write at a time.
     pub(crate) fn threads(&self) -> usize {
         self.0.len()
     }
 
-    /// Takes all the memory that they may ever need.
+    /// Allocates all the memory that the workspaces may ever need.
     pub(crate) fn reserve(&mut self) {
         for workspace in &mut self.0 {
             workspace.get_mut().unwrap_or_else(PoisonError::into_inner).reserve();
         }
     }
 
-    /// Bytes of memory that they take on the heap.
+    /// Bytes of heap memory.
     pub(crate) fn bytes(&self) -> usize {
         let bytes = |workspace: &Mutex<Workspace>| {
             let workspace = workspace.lock().unwrap_or_else(PoisonError::into_inner);
@@ -117,8 +118,8 @@ impl Workspaces {
         pool.install(|| on_threads(threads, &write));
     }
 
-    /// All slices, which have these counts, from the first one of this thread on. Threads' own
-    /// slices have about the same output.
+    /// All slices, beginning with the first one of this thread's own. `counts` are the slices'
+    /// counts. Every thread's own slices have about the same output.
     fn own_first<'a, T>(
         &self,
         counts: &[PartCounts],
@@ -135,18 +136,19 @@ impl Workspaces {
         from_own.iter().chain(others)
     }
 
-    /// The number of the workspace and of the slices that are this thread's own.
+    /// The number of this thread's own workspace and slices.
     fn own(&self) -> usize {
         rayon::current_thread_index().unwrap_or(0) % self.0.len()
     }
 
-    /// Lends a workspace that is free, if possible always the same one to a thread; waits for one
-    /// if the pool has more threads than there are workspaces.
+    /// Lends a free workspace, if possible always the same one to each thread. Waits for one if the
+    /// pool has more threads than there are workspaces.
     fn lend<T>(&self, borrow: impl FnOnce(&mut Workspace) -> T) -> T {
         let own = self.own();
         let (before, from_own) = self.0.split_at(own);
         let free = from_own.iter().chain(before).find_map(|workspace| workspace.try_lock().ok());
-        // Templates are entered when they are complete, so one that a panic left is still right.
+        // A template is entered only when it is complete, so a workspace is still right after a
+        // panic.
         let mut workspace =
             free.unwrap_or_else(|| self.0[own].lock().unwrap_or_else(PoisonError::into_inner));
         borrow(&mut workspace)
@@ -155,14 +157,14 @@ impl Workspaces {
 
 /// A pool that a batch is spread over.
 enum Pool {
-    /// The one that the caller runs in.
+    /// The pool that the caller runs in.
     Current,
-    /// That of this process.
+    /// The pool of this process.
     Process(Arc<ThreadPool>),
 }
 
 impl Pool {
-    /// The pool for a batch on so many threads; `None` if the caller does it alone.
+    /// The pool for a batch on this many threads; `None` if the calling thread does it alone.
     fn of_caller(threads: usize) -> Option<Self> {
         match threads {
             0 | 1 => None,
@@ -189,7 +191,7 @@ fn on_threads(threads: usize, work: &(impl Fn() + Sync)) {
     }
 }
 
-/// Counts a share on this many threads, unless that takes less than waking them.
+/// Counts a share on up to this many threads; fewer if counting takes less time than waking them.
 fn count_on(threads: usize, level: Level, config: Config, share: CountShare<'_>) {
     if threads > 1 && share.batch.len() > SOON_COUNTED && share.counts.len() > 1 {
         let (one, other) = share.halve();

@@ -1,9 +1,9 @@
 //! The threads of this process, for callers outside of any rayon pool.
 //!
-//! rayon's global pool is not used: where its threads cannot be started, every use of it panics
-//! from then on, and a forked child, which has the pool without its threads, waits for them for
-//! ever. The pool here is started by the first batch that needs it. A batch does without a pool
-//! that cannot be started, and a forked child starts its own.
+//! rayon's global pool is not used for two reasons. If its threads cannot be started, every later
+//! use of it panics. And a forked child has the pool without its threads, and waits for them
+//! forever. The pool here is started by the first batch that needs it. If it cannot be started,
+//! batches run without it; a forked child starts its own.
 
 use crate::threads::MAX_THREADS;
 use core::fmt;
@@ -11,12 +11,12 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::string::{String, ToString};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
-/// The pool, and the process that has its threads. `None` for the pool: it could not be started.
+/// The process that tried to start the pool, and the pool; `None` if it could not be started.
 type Started = (u32, Option<Arc<ThreadPool>>);
 
 static STARTED: Mutex<Option<Started>> = Mutex::new(None);
 
-/// The threads of this process could not be started.
+/// The error that the threads of this process could not be started.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ThreadsError {
     threads: usize,
@@ -32,7 +32,7 @@ impl fmt::Display for ThreadsError {
 
 impl core::error::Error for ThreadsError {}
 
-/// The pool of this process; `None` if it cannot be started, or is being started by another thread.
+/// The pool of this process; `None` if it cannot be started or another thread is starting it.
 pub(crate) fn pool() -> Option<Arc<ThreadPool>> {
     let mut started = lock()?;
     match &*started {
@@ -45,7 +45,7 @@ pub(crate) fn pool() -> Option<Arc<ThreadPool>> {
     }
 }
 
-/// Starts the pool of this process, unless it runs or another thread is starting it.
+/// Starts the pool of this process, unless it is running or another thread is starting it.
 ///
 /// # Errors
 /// [`ThreadsError`].
@@ -58,12 +58,13 @@ pub(crate) fn start() -> Result<(), ThreadsError> {
 }
 
 fn put(started: &mut Option<Started>, pool: Option<Arc<ThreadPool>>) {
-    // A pool that was there is a parent's. It has no threads here that could end.
+    // An earlier pool belongs to the parent process. It has no threads here that dropping it could
+    // end.
     core::mem::forget(started.replace((this_process(), pool)));
 }
 
-/// The lock; `None` if it stays taken. A child that was forked while another thread had it never
-/// gets it, so nobody waits for it.
+/// The lock; `None` if it stays taken. A child that was forked while another thread had the lock
+/// never gets it, so it must not wait.
 fn lock() -> Option<MutexGuard<'static, Option<Started>>> {
     const TRIES: usize = 64;
     for _ in 0..TRIES {
@@ -76,7 +77,7 @@ fn lock() -> Option<MutexGuard<'static, Option<Started>>> {
     None
 }
 
-/// As many threads as rayon's global pool would have, at most [`MAX_THREADS`].
+/// Starts as many threads as rayon's global pool would have, at most [`MAX_THREADS`].
 fn build() -> Result<ThreadPool, ThreadsError> {
     let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|value| value.parse().ok());
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
@@ -85,7 +86,7 @@ fn build() -> Result<ThreadPool, ThreadsError> {
     pool.map_err(|error| ThreadsError { threads, reason: error.to_string() })
 }
 
-/// The number of this process, where processes fork.
+/// The number of this process, on systems that fork; 0 elsewhere.
 fn this_process() -> u32 {
     if cfg!(unix) { std::process::id() } else { 0 }
 }

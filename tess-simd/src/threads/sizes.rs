@@ -1,14 +1,14 @@
-//! The sizes of slices, and of outputs that are worth another thread.
+//! The sizes of slices, and the outputs that are large enough for another thread.
 
 use crate::data::lanes::LANES;
 
-/// Slices for each thread. With several, threads that are done can help the others.
+/// Slices for each thread: several, so that threads that are done can help the others.
 const SLICES_PER_THREAD: usize = 4;
 
-/// How a batch is cut.
+/// The cut of a batch into slices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Slicing {
-    /// Patches of each slice but the last, which may have fewer. Whole packets where there are
+    /// Patches of each slice; the last one may have fewer. A whole number of packets if there are
     /// enough patches.
     pub(crate) patches: usize,
     /// The number of slices.
@@ -16,12 +16,12 @@ pub(crate) struct Slicing {
 }
 
 impl Slicing {
-    /// The most slices of a batch for a number of threads.
+    /// The most slices of a batch on this many threads.
     pub(crate) const fn most(threads: usize) -> usize {
         if threads == 1 { 1 } else { threads * SLICES_PER_THREAD }
     }
 
-    /// The slices of this many patches for a number of threads.
+    /// The cut of this many patches for this many threads.
     pub(crate) fn new(patches: usize, threads: usize) -> Self {
         let slice = patches.div_ceil(Self::most(threads)).max(1);
         let slice = if slice < LANES { slice } else { slice.next_multiple_of(LANES) };
@@ -29,8 +29,8 @@ impl Slicing {
     }
 }
 
-/// Output for each thread that is woken, at least. A thread writes this much in about 8
-/// microseconds and takes 4 to wake, so that two threads are never slower than one.
+/// The least output per thread. A thread writes this much in about 8 microseconds and takes 4 to
+/// wake, so two threads are never slower than one.
 #[cfg(any(test, feature = "rayon"))]
 const BYTES_PER_THREAD: u64 = 256 << 10;
 
@@ -61,7 +61,7 @@ mod tests {
         assert_eq!(slices(3, 4), (1, 3), "a patch each");
     }
 
-    /// A second thread from 512 KiB on, all of them from 256 KiB for each on.
+    /// The second thread joins at 512 KiB; all threads run at 256 KiB for each.
     #[test]
     fn threads_follow_the_size() {
         let threads = |kib: u64, most| worth_waking(kib << 10, most);

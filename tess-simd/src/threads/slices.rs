@@ -1,6 +1,6 @@
-//! A batch cut into slices, and the slices shared among threads.
+//! A batch cut into slices, which threads share.
 //!
-//! The cut depends on the batch's length and the number of threads alone, and every slice has its
+//! The cut depends only on the batch's length and the number of threads, and every slice has its
 //! own part of the buffers, so the output does not depend on which thread writes it.
 
 use crate::cpu::level::Level;
@@ -18,14 +18,14 @@ use tess_core::Config;
 #[derive(Debug)]
 pub(crate) struct CountShare<'a> {
     pub(crate) batch: Batch<'a>,
-    /// Patches of each slice but the last.
+    /// Patches of each slice; the last one may have fewer.
     pub(crate) slice: usize,
     /// Receives the counts of each slice.
     pub(crate) counts: &'a mut [PartCounts],
 }
 
 impl CountShare<'_> {
-    /// Counts them, slice by slice.
+    /// Counts the slices one after another.
     pub(crate) fn count(self, level: Level, config: Config) {
         let patches = self.batch.len();
         for (number, counts) in self.counts.iter_mut().enumerate() {
@@ -35,7 +35,7 @@ impl CountShare<'_> {
         }
     }
 
-    /// Cuts them in two.
+    /// Divides the slices into two shares.
     #[cfg(feature = "rayon")]
     pub(crate) fn halve(self) -> (Self, Self) {
         let Self { batch, slice, counts } = self;
@@ -49,7 +49,7 @@ impl CountShare<'_> {
 #[derive(Debug)]
 pub(crate) struct Share<'a, P, I> {
     pub(crate) part: Part<'a, P, I>,
-    /// Patches of each slice but the last.
+    /// Patches of each slice; the last one may have fewer.
     #[cfg_attr(not(feature = "rayon"), expect(dead_code, reason = "one thread writes all slices"))]
     pub(crate) slice: usize,
     /// The counts of each slice.
@@ -59,7 +59,7 @@ pub(crate) struct Share<'a, P, I> {
 
 #[cfg(feature = "rayon")]
 impl<'a, P: PointRoom, I> Share<'a, P, I> {
-    /// Its slices, one part each.
+    /// The slices, one part each.
     #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
     pub(crate) fn into_parts(self) -> impl Iterator<Item = Part<'a, P, I>> {
         let Self { part, slice, counts } = self;
@@ -87,7 +87,7 @@ impl<'a, P: PointRoom, I> Share<'a, P, I> {
     }
 }
 
-/// The patches before `patch` and those from it on.
+/// The patches before `patch`, and `patch` with those after it.
 #[cfg(feature = "rayon")]
 fn cut(batch: Batch<'_>, patch: usize) -> (Batch<'_>, Batch<'_>) {
     let patch = patch.min(batch.len());

@@ -1,6 +1,7 @@
-//! The numbers of the Newell teapot: 306 control points, 32 patches of 16 numbers of points.
+//! The data of the Newell teapot: 306 control points, and 32 patches of 16 point numbers.
 
-/// The control points. Four of them (205, 206, 216 and 223, counted from 1) are in no patch.
+/// The control points. Four of them (205, 206, 216 and 223, counted from 1) are not used by any
+/// patch.
 #[rustfmt::skip]
 pub(super) const POINTS: [[f32; 3]; 306] = [
     [1.4, 0.0, 2.4], [1.4, -0.784, 2.4], [0.784, -1.4, 2.4], [0.0, -1.4, 2.4],
@@ -79,7 +80,7 @@ pub(super) const POINTS: [[f32; 3]; 306] = [
     [1.425, -0.798, 0.0],
 ];
 
-/// For each patch the numbers of its points, counted from 1 as published, row by row.
+/// The numbers of each patch's points, counted from 1 as published, row by row.
 #[rustfmt::skip]
 pub(super) const PATCHES: [[u16; 16]; 32] = [
     [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16],

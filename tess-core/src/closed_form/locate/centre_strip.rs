@@ -6,8 +6,7 @@
 //! # The data
 //!
 //! The inside factors 5 and 3 make a ring of 4 by 2 points, the factors 3 and 5 one of 2 by 4. With
-//! integer outer factors of 3, both have the indices 12 to 19. The number of each triangle, `t`,
-//! stands in it:
+//! integer outer factors of 3, both have the indices 12 to 19. Each triangle shows its number `t`:
 //!
 //! ```text
 //!   u longer                            v longer
@@ -29,16 +28,16 @@
 //!
 //! - `size` is at least 4, the size of the smallest ring that goes round, so `(size - 2) / 4` is
 //!   its middle quad.
-//! - A strip along u has all diagonals alike. One along v has its middle quad's diagonal turned
-//!   (spec section 7.4).
+//! - All diagonals of a strip along u run the same way. A strip along v whose longer factor is odd
+//!   has its middle quad's diagonal turned (spec section 7.4).
 //! - `t` is below `size - 2`, the number of triangles.
 //!
-//! The test `the_worked_strips` has the pictures' numbers.
+//! The test `the_worked_strips` checks the pictures' numbers.
 //!
 //! # Why not simpler
 //!
-//! The sequential form (`model/connect/quad.rs`) walks both rows and reverses one that runs the
-//! other way. Here a vertex is one addition, and at most one remainder.
+//! The sequential form (`model/connect/quad.rs`) walks both rows, one of them backwards. Here a
+//! vertex takes one addition and at most one remainder.
 
 use crate::closed_form::locate::point::quad_points_before;
 use crate::model::points::quad::Inside;
@@ -49,7 +48,7 @@ use crate::model::stitch::Triangle;
 /// first index of the ring around it.
 ///
 /// The ring's points are numbered from 0 around it, so the two long sides are runs of those
-/// numbers, one up and one down, that close up modulo the ring's size.
+/// numbers, one up and one down, modulo the ring's size.
 pub(crate) fn triangle(inside: &Inside<'_>, innermost: u32, t: u32) -> Option<Triangle> {
     let (u, v) = (inside.u, inside.v);
     let along_u = u.points > v.points;
@@ -59,7 +58,7 @@ pub(crate) fn triangle(inside: &Inside<'_>, innermost: u32, t: u32) -> Option<Tr
     }
     let interior = (u.points - 2) * (v.points - 2);
     let size = interior - quad_points_before(inside, u.points.min(v.points) / 2 - 1);
-    // Where the strip runs along u, the ring's first point is the end of row B, else that of row A.
+    // The ring's first point begins row B if the strip runs along u, otherwise row A.
     let start = u32::from(along_u);
     let a = |k| innermost + start + k;
     let b = |k| innermost + (size + start - 1 - k) % size;

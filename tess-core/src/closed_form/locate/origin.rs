@@ -1,8 +1,8 @@
 //! Where a point or a primitive comes from: line, ring and edge, and its number there.
 //!
-//! The words of the specification's walks (sections 6 to 8) as values. `locate` makes them from
-//! numbers, and explanations and comparisons show them. A quad's edges and rings, with `p` the
-//! number of a point in the direction of the walk:
+//! The terms of the specification's walks (sections 6 to 8) as values. `locate` makes them from
+//! numbers; explanations and comparisons print them. In the picture of a quad's edges and rings, an
+//! edge's points are numbered in the direction of the walk:
 //!
 //! ```text
 //!        0 <-- 21 .. 17 <-- 16      edge 3, v = 1
@@ -17,10 +17,10 @@
 //! In the quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md` point 30 is `Ring { ring: 1, edge: 2, p:
 //! 0 }` and point 42 `Centre { p: 4 }`. Triangle 45 is `Ring { ring: 2, edge: 0, step: 7 }`: its
 //! stitch joins ring 1 to ring 2, and is named after the inner one. `locate.rs` works these numbers
-//! out, and its test `the_worked_patch` has them.
+//! out, and its test `the_worked_patch` checks them.
 //!
-//! Invariant: an origin is a pure value. One that `locate` never gives for a patch is no error:
-//! `point` and `primitive` give `None` for it.
+//! Invariant: an origin is a pure value. Its numbers mean something only for the patch that
+//! `locate` made it for.
 
 /// Where a domain point comes from in the walk of spec section 6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

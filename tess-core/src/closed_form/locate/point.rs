@@ -1,8 +1,8 @@
 //! The line, edge or ring of the i-th point of a patch, and its place there.
 //!
 //! [`locate`] turns a point's number into its origin, and [`point`] the origin into coordinates.
-//! They are apart because tests, `tess explain` and debuggers want the origin, and because shaders
-//! keep an origin to step to the next point.
+//! They are separate because tests, `tess explain` and debuggers want the origin, and because
+//! shaders keep an origin to step to the next point.
 //!
 //! # The data
 //!
@@ -12,8 +12,8 @@
 //! quad       outer edges: n - 1 each | ring 1: 2 (u - 3) + 2 (v - 3) | ...         | centre row
 //! ```
 //!
-//! An edge has its first point and leaves its last one to the next edge. Interior rings have the
-//! points of the inside factors, whatever the outer edges have.
+//! An edge includes its first point; its last point belongs to the next edge. The sizes of interior
+//! rings depend only on the inside factors, not on the outer edges.
 //!
 //! # One patch
 //!
@@ -21,15 +21,15 @@
 //! 6 on rings 1, 2 and 3, and the centre. Point 33 is number 24 of the interior. The rings begin at
 //! 0, 18 and 30, so it is number 6 of ring 2, which has 9 - 1 - 2 * 2 = 4 points on each edge: edge
 //! 1, point 2. Its coordinates are 0x6aaa and 0x2aab, close to 5 / 12 and 1 / 6. The test
-//! `the_worked_rings` has these numbers.
+//! `the_worked_rings` checks these numbers.
 //!
 //! # What holds
 //!
 //! - `i` is below the patch's count. Any other number would become a point of the centre.
 //! - `triangle_points_before` and `quad_points_before` are 0 for ring 1 and grow with the ring up
-//!   to the last one that goes round. Beyond it they fall, so the search ends there.
-//! - The sizes of a ring's edges are at least 1, since a ring that goes round has two points along
-//!   each axis.
+//!   to the last one that goes round. Past it the formulas decrease, so the search stops there.
+//! - Every edge of a ring has at least 1 point, because a ring that goes round has at least two
+//!   points along each axis.
 //!
 //! # Why not simpler
 //!
@@ -47,7 +47,7 @@ use crate::model::patch_factors::{PatchFactors, QuadFactors, TriangleFactors};
 use crate::model::points::quad::Inside;
 use crate::model::points::{isoline, minimum_corners, quad, triangle};
 
-/// Locates point `i`, which is less than the patch's point count.
+/// The origin of point `i`, which is less than the patch's point count.
 pub(crate) fn locate(patch: &ProcessedPatch, i: u32) -> PointOrigin {
     match patch {
         ProcessedPatch::Culled | ProcessedPatch::Minimum(_) => PointOrigin::Corner { corner: i },
@@ -99,17 +99,19 @@ fn locate_on_outer_edge<const EDGES: usize>(rings: &Rings<'_, EDGES>, i: u32) ->
     PointOrigin::OuterEdge { edge, p }
 }
 
-/// Interior points on the rings `1..ring`: the sum of 3 (n - 1 - 2 k).
+/// Interior points on the rings `1..ring`: the sum of 3 (n - 1 - 2 k) over these rings `k`.
 pub(crate) const fn triangle_points_before(inside: &FactorContext, ring: u32) -> u32 {
     3 * (ring - 1) * (inside.points - 1 - ring)
 }
 
-/// Interior points on the rings `1..ring`: the sum of 2 (nU - 1 - 2 k) + 2 (nV - 1 - 2 k).
+/// Interior points on the rings `1..ring`: the sum of 2 (nU - 1 - 2 k) + 2 (nV - 1 - 2 k) over
+/// these rings `k`.
 pub(crate) const fn quad_points_before(inside: &Inside<'_>, ring: u32) -> u32 {
     2 * (ring - 1) * (inside.u.points + inside.v.points - 2 - 2 * ring)
 }
 
-/// The point at a location that [`locate`] gave for this patch; `None` for one it never gives.
+/// The point at a location that [`locate`] gave for this patch; `None` for a location of another
+/// kind of patch.
 pub(crate) fn point(patch: &ProcessedPatch, location: PointOrigin) -> Option<DomainPoint> {
     match (patch, location) {
         (ProcessedPatch::Minimum(factors), PointOrigin::Corner { corner }) => {

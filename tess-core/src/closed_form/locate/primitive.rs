@@ -1,8 +1,7 @@
 //! Which line, stitch or centre the t-th primitive of a patch belongs to, and its indices.
 //!
-//! `Patch::locate_primitive` and `Patch::primitive` call the two halves: [`locate`] turns a number
-//! into an origin, [`primitive`] an origin into indices. A caller may keep the origin, or ask for
-//! the neighbour of one.
+//! `Patch::locate_primitive` calls [`locate`], which turns a number into an origin.
+//! `Patch::primitive` also calls [`primitive`], which turns the origin into indices.
 //!
 //! # The data
 //!
@@ -15,8 +14,8 @@
 //! other triangles               Transition, Ring or Centre                `locate/rings.rs`
 //! ```
 //!
-//! with `s` the segments of a line and `p = line * (s + 1) + segment`. Triangles are located
-//! clockwise; counterclockwise swaps the last two indices.
+//! Here `s` is the number of segments of a line, and `p = line * (s + 1) + segment`. Triangles are
+//! made clockwise; counterclockwise output swaps the last two indices.
 //!
 //! # One patch
 //!
@@ -25,10 +24,9 @@
 //!
 //! # What holds
 //!
-//! - `t` is below the patch's count, so no division has a remainder beyond the last line, and `s`
-//!   is at least 1.
-//! - [`primitive`] takes any origin, and gives `None` for one of another output, kind of patch or
-//!   size of stitch.
+//! - `t` is below the patch's count, so `t / s` is one of its lines. `s` is at least 1.
+//! - [`primitive`] returns `None` for an origin of another output or kind of patch. It does not
+//!   check the ring, edge and step of one of the right kind.
 
 use crate::closed_form::locate::origin::PrimitiveOrigin;
 use crate::closed_form::locate::rings;
@@ -38,7 +36,7 @@ use crate::model::output::Primitive;
 use crate::model::patch_factors::{IsolineFactors, PatchFactors};
 use crate::model::state::{Config, OutputPrimitive};
 
-/// Locates primitive `t`, which is less than the patch's primitive count.
+/// The origin of primitive `t`, which is less than the patch's primitive count.
 pub(crate) fn locate(config: Config, patch: &ProcessedPatch, t: u32) -> PrimitiveOrigin {
     match (config.output, patch) {
         (OutputPrimitive::Point, _) | (_, ProcessedPatch::Culled) => {
@@ -55,7 +53,8 @@ pub(crate) fn locate(config: Config, patch: &ProcessedPatch, t: u32) -> Primitiv
     }
 }
 
-/// The primitive at a location that [`locate`] gave for this patch; `None` for one it never gives.
+/// The primitive at a location that [`locate`] gave for this patch; `None` for a location of
+/// another output or kind of patch.
 pub(crate) fn primitive(
     config: Config,
     patch: &ProcessedPatch,

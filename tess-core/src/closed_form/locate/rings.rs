@@ -1,8 +1,8 @@
 //! The t-th triangle of the rings of a triangle or quad patch.
 //!
 //! `locate::primitive` asks for a triangle by its number, for both domains: [`locate`] finds its
-//! stitch, and [`triangle`] its three indices. [`ClosedForms`] has the differences between the
-//! domains.
+//! stitch, and [`triangle`] its three indices. The differences between the domains are in
+//! [`ClosedForms`].
 //!
 //! # The data
 //!
@@ -16,31 +16,32 @@
 //! centre    innermost ring           triangle: 1 or 0; strip     triangles_before(end)
 //! ```
 //!
-//! A ring's indices are consecutive, so a row is a first index and a direction ([`Row`]). The last
-//! edge of a ring ends at the ring's first index: its row has one index that is out of line.
+//! A ring's indices are consecutive, so a row is a first index and a direction ([`Row`]). The
+//! exception is the last entry of a ring's last edge, which is the ring's first index.
 //!
 //! # One patch
 //!
-//! The triangle (3, 3, 3; 8), integer, has 9 points along its inside factor. Ring 0 has the 9
-//! indices from 0 on, ring 1 18 from 9 on, ring 2 12 from 27 on, ring 3 6 from 39 on, and the
-//! centre is 45. Each transition has 4 + 9 - 4 = 9 triangles; stitches 2, 3 and 4 have 30, 18 and
-//! 6. Triangle 60 is number 33 after the 27 of the transitions, so number 3 of stitch 3, which has
-//! 6 on each edge: edge 0, step 3. Its rows are 27 to 31 and 39 to 41, and its indices 40, 29 and
-//! 30. The test `the_worked_rings` has these numbers.
+//! The triangle (3, 3, 3; 8), integer, has 9 points along its inside factor. Ring 0 has the indices
+//! 0 to 8, ring 1 has 9 to 26, ring 2 has 27 to 38, ring 3 has 39 to 44, and the centre is 45. Each
+//! transition has 4 + 9 - 4 = 9 triangles; stitches 2, 3 and 4 have 30, 18 and 6. Triangle 60 is
+//! number 33 after the 27 of the transitions, hence number 3 of stitch 3, which has 6 on each edge:
+//! edge 0, step 3. Its rows are 27 to 31 and 39 to 41, and its indices 40, 29 and 30. The test
+//! `the_worked_rings` checks these numbers.
 //!
 //! # What holds
 //!
 //! - `triangles_before(2)` is 0, and it grows with the ring. The search for a ring relies on both.
-//! - Rings `1..end` exist. Of stitches, `end` is one only where the interior ends with a point or a
-//!   row of points.
-//! - Step numbers are below the stitch's size, which [`locate`] keeps. `triangle` does not check
-//!   them again.
+//! - Stitches `1..end` exist, one for each ring `1..end`; an innermost ring may be a single point
+//!   or a row of points. The triangles after them are the centre's, which only a ring that goes
+//!   round has.
+//! - Step numbers are below the stitch's size: [`locate`] gives no others. `triangle` does not
+//!   check them again.
 //!
 //! # Why not simpler
 //!
-//! The sequential walk (`model/connect/rings.rs`) adds up sizes and keeps its rows from ring to
-//! ring. Here a row is found from the ring's number alone: two products, where adding up takes a
-//! step for each of up to 31 rings.
+//! The sequential walk (`model/connect/rings.rs`) adds up sizes from ring to ring. Here a row
+//! follows from the ring's number with two products; adding up would take a step for each of up to
+//! 31 rings.
 
 use crate::closed_form::locate::origin::PrimitiveOrigin;
 use crate::closed_form::locate::point::{quad_points_before, triangle_points_before};
@@ -105,7 +106,7 @@ impl ClosedForms<4> for QuadFactors<ProcessedFactor> {
     }
 }
 
-/// Locates triangle `t`: in a transition, in a ring stitch, or in the centre.
+/// The origin of triangle `t`: in a transition, in a ring stitch, or in the centre.
 pub(crate) fn locate<const EDGES: usize>(
     patch: &impl ClosedForms<EDGES>,
     t: u32,
@@ -128,7 +129,7 @@ pub(crate) fn locate<const EDGES: usize>(
     PrimitiveOrigin::Ring { ring, edge, step }
 }
 
-/// The triangle at a location that [`locate`] gave, clockwise; `None` for one it never gives.
+/// The triangle at a location that [`locate`] gave, clockwise; `None` for another kind of location.
 pub(crate) fn triangle<const EDGES: usize>(
     patch: &impl ClosedForms<EDGES>,
     split: SplitOrder,
@@ -186,7 +187,7 @@ fn first_of_ring<const EDGES: usize>(
     if ring == 0 { 0 } else { rings.outer_points() + patch.points_before(ring) }
 }
 
-/// One edge of a ring that starts at index `start`; the last edge ends there again.
+/// One edge of a ring that starts at index `start`; the last edge ends at `start` again.
 fn ring_row<const EDGES: usize>(start: u32, sizes: &[u32; EDGES], edge: usize) -> Row {
     let row = Row::ascending(start + points_before_edge(sizes, edge));
     if edge == EDGES - 1 { row.with(sizes[edge] - 1, start) } else { row }

@@ -3,10 +3,10 @@
 //! The specification walks a transition position by position; here step `t` is found without the
 //! steps before it. `locate::rings` calls this for one triangle.
 //!
-//! A half edge is a mask: a bit for each of the positions 1..=32, set where the half edge has a
+//! A half edge is a mask with a bit for each of the positions 1..=32, set where the half edge has a
 //! point. The number of steps up to a position is then a count of bits. With 3 half steps on the
-//! outer edge and 2 on the inner one, ruler order puts points at positions 17 (rank 1) and 9 (rank
-//! 2):
+//! outer edge and 2 on the inner one, ruler order puts points at position 17 (rank 1) of both and
+//! at position 9 (rank 2) of the outer edge:
 //!
 //! ```text
 //! bit        31 ........ 16 ....... 8 ........ 0
@@ -18,14 +18,14 @@
 //! advances    outer  outer  inner  outer|  outer  inner  outer  outer
 //! ```
 //!
-//! The first half takes the inner row's step before the outer row's at each position. The second
-//! half is the first one of a patch walked the other way: step `t` is the mirror image of step
-//! `total - 1 - t`. Between them are the steps of the middle, one for each of the two factors whose
-//! parity is odd; here are none. The test `the_worked_transition` has the first half's steps.
+//! At each position, the first half takes the inner row's step before the outer row's. The second
+//! half mirrors the first: step `t` is the mirror image of step `total - 1 - t`. Between them are
+//! the steps of the middle, one for each of the two factors whose parity is odd; this example has
+//! none. The test `the_worked_transition` checks the first half's steps.
 //!
-//! Invariants: `t` is below the stitch's size, which the caller has from the same counts; the
-//! position of a step is the largest one before which at most `t` steps are done, and the five bits
-//! of the search find it among 32. A walk would take up to 126 steps.
+//! Invariants: `t` is below the stitch's size, which the caller computes from the same counts. The
+//! position of a step is the largest one before which at most `t` steps are done; a search of five
+//! halvings finds it among 32. A walk would take up to 126 steps.
 
 use crate::model::factor_context::FactorContext;
 use crate::model::row::Row;
@@ -53,7 +53,7 @@ impl HalfEdge {
     }
 }
 
-/// One step of a stitch; `o` and `i` are the positions on the rows before it.
+/// One step of a stitch; `o` and `i` are the entries that the two rows are at before it.
 #[derive(Clone, Copy)]
 enum Step {
     Outer { o: u32, i: u32 },
@@ -71,8 +71,8 @@ impl Step {
 
 /// Triangle `t` of a transition stitch (spec section 7.2).
 ///
-/// Its first half merges two masks in ascending position, and its second half is the first
-/// one of a patch walked the other way, so a step's number is a count of mask bits.
+/// The first half merges two masks in ascending position, and the second half mirrors the first, so
+/// a step's number is a count of mask bits.
 pub(crate) fn transition_triangle(
     rows: (&Row, &Row),
     outer_edge: &FactorContext,
@@ -82,7 +82,7 @@ pub(crate) fn transition_triangle(
 ) -> Triangle {
     let outer = HalfEdge::new(split, outer_edge.half_steps());
     let inner = HalfEdge::new(split, inside.half_steps());
-    let first = outer_edge.half_steps().min(1); // the outer step from the corner, if any
+    let first = outer_edge.half_steps().min(1); // 1 if there is an outer step from the corner
     let outer_half = first + outer.points_up_to(32);
     let inner_half = inner.points_up_to(32);
     let half = outer_half + inner_half;
@@ -125,7 +125,7 @@ fn half_step(outer: HalfEdge, inner: HalfEdge, first: u32, t: u32) -> Step {
     }
 }
 
-/// Triangle `t` of the middle, which starts at positions `o` and `i`.
+/// Triangle `t` of the middle, which starts at entries `o` and `i` of the rows.
 fn middle_triangle(
     (outer, inner): (&Row, &Row),
     o: u32,
@@ -143,8 +143,8 @@ fn middle_triangle(
 
 /// Triangle `t` of a ring stitch whose inner row has `inner_points` points (spec section 7.3).
 ///
-/// The outer row has two points more, one at each end: its first and last triangle have no pair,
-/// and between them each inner segment makes a pair. With 4 inner points:
+/// The outer row has two points more, one at each end. The first and the last triangle are single;
+/// between them each inner segment has a pair of triangles. With 4 inner points:
 ///
 /// ```text
 /// outer   o0 --- o1 --- o2 --- o3 --- o4 --- o5       segment p = (t - 1) / 2 of the inner row;
@@ -156,8 +156,8 @@ fn middle_triangle(
 ///     o0 o1 i0  o1 i1 i0  o1 o2 i1  o2 i2 i1  o2 o3 i2  i2 o3 o4  i2 o4 i3  o4 o5 i3
 /// ```
 ///
-/// Invariants: `t` is below `2 * inner_points`, and `inner_points` is at least 1: with 1, triangles
-/// 0 and 1 are the ends.
+/// Invariants: `t` is below `2 * inner_points`, and `inner_points` is at least 1. With 1 inner
+/// point, the only triangles are the two ends.
 pub(crate) fn ring_triangle((outer, inner): (&Row, &Row), inner_points: u32, t: u32) -> Triangle {
     let last = 2 * inner_points - 1;
     if t == 0 {

@@ -13,8 +13,8 @@ pub(crate) struct Rings<'a, const EDGES: usize> {
     pub(crate) outer: [&'a FactorContext; EDGES],
     /// For each edge, the inside context of the axis that it runs along.
     pub(crate) along: [&'a FactorContext; EDGES],
-    /// For each edge, whether the rings end in a row of points that lies along it: the inside
-    /// context of the other axis is even, and its last ring has this number.
+    /// For each edge, the ring that is a single row of points along this edge, if the rings get
+    /// that far: the last ring of the other axis, whose inside context is even.
     pub(crate) row_at: [Option<u32>; EDGES],
 }
 
@@ -39,7 +39,7 @@ impl<const EDGES: usize> Rings<'_, EDGES> {
         self.along[edge].points - 2 * ring
     }
 
-    /// Whether the inner row of this edge walks back over a row of points.
+    /// Whether the inner row of this edge is the single row of points, walked backwards.
     pub(crate) fn walks_back(&self, ring: u32, edge: usize) -> bool {
         edge >= 2 && self.row_at[edge] == Some(ring)
     }
@@ -78,8 +78,8 @@ impl<const EDGES: usize> Rings<'_, EDGES> {
     }
 }
 
-/// One more than the number of the innermost ring that an inside factor makes, be it a single point
-/// or a row of them.
+/// One more than the number of the innermost ring that an inside factor makes; a single point or a
+/// row of points counts as a ring.
 const fn end_of_rings(inside: &FactorContext) -> u32 {
     inside.points.div_ceil(2)
 }

@@ -14,7 +14,7 @@ pub(crate) fn emit(factors: &IsolineFactors<ProcessedFactor>, sink: &mut impl Si
     }
 }
 
-/// Lines drawn: the one at v = 1 is not.
+/// The number of lines. The line at v = 1 is not drawn.
 pub(crate) const fn line_count(factors: &IsolineFactors<ProcessedFactor>) -> u32 {
     factors.density.context.points - 1
 }

@@ -18,7 +18,7 @@ pub(crate) struct Inside<'a> {
     pub(crate) v: &'a FactorContext,
 }
 
-/// The innermost ring where it is a single row of points.
+/// The direction of an innermost ring that is a single row of points.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CentreRow {
     /// Along u at v = 1/2, ascending.
@@ -32,19 +32,19 @@ impl<'a> Inside<'a> {
         Self { u: &factors.inside_u.context, v: &factors.inside_v.context }
     }
 
-    /// The number of the first ring that does not go round, one more than that of the last one that
-    /// does: a row of points ([`Self::centre_row`]), or none.
+    /// One more than the number of the last ring that goes round. The ring with this number is a
+    /// row of points ([`Self::centre_row`]), or does not exist.
     pub(crate) const fn first_open_ring(&self) -> u32 {
         (if self.u.points < self.v.points { self.u.points } else { self.v.points }) / 2
     }
 
-    /// Points on an edge of interior ring `ring >= 1`, its last point left out.
+    /// Points on an edge of interior ring `ring >= 1`, without the last point.
     pub(crate) const fn ring_edge_points(&self, ring: u32, edge: u32) -> u32 {
         let running = if edge.is_multiple_of(2) { self.v } else { self.u };
         running.points - 1 - 2 * ring
     }
 
-    /// The row that the interior ends with, if it does.
+    /// The row of points that the interior ends with, if there is one.
     pub(crate) fn centre_row(&self) -> Option<CentreRow> {
         if self.u.points > self.v.points {
             (self.v.parity == Parity::Even).then_some(CentreRow::AlongU)

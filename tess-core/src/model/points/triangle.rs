@@ -31,8 +31,8 @@ pub(crate) fn emit(factors: &TriangleFactors<ProcessedFactor>, sink: &mut impl S
     }
 }
 
-/// Points on each edge of interior ring `ring >= 1`, its last point (the next edge's first) left
-/// out.
+/// Points on each edge of interior ring `ring >= 1`, without the last point, which is the next
+/// edge's first.
 pub(crate) const fn ring_edge_points(inside: &FactorContext, ring: u32) -> u32 {
     inside.points - 1 - 2 * ring
 }
@@ -52,10 +52,10 @@ pub(crate) const fn outer_point(context: &FactorContext, edge: u32, p: u32) -> D
 
 /// Point `p` of an edge of interior ring `ring >= 1`.
 ///
-/// The ring's distance from its edges is two thirds of its place in one dimension, so locations
-/// along an edge move back by half of that distance: `shift`. No overflow: places are at most
-/// `ONE`, their product with `TWO_THIRDS` stays below 2^32. No underflow: the place of any
-/// point of the ring is at least `shift`, which is about half of the ring's own place.
+/// The ring's distance from the patch's edges is two thirds of its place in one dimension, so
+/// locations along an edge move back by half of that distance: `shift`. No overflow: places are at
+/// most `ONE`, and their product with `TWO_THIRDS` is below 2^32. No underflow: the place of any
+/// point of the ring is at least the ring's own place, and `shift` is about a third of that.
 pub(crate) const fn ring_point(
     inside: &FactorContext,
     ring: u32,

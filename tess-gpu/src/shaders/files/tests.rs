@@ -3,7 +3,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
-/// The shaders: a file that nothing needs, with every choice that there is for it.
+/// The shaders: every file that no other needs, with every choice that it has.
 fn roots() -> Vec<(&'static str, Vec<Choice>)> {
     let mut all = Vec::new();
     for partitioning in Partitioning::ALL {
@@ -45,7 +45,8 @@ fn roots() -> Vec<(&'static str, Vec<Choice>)> {
     all
 }
 
-/// Names that a file declares at module scope, bindings apart, and what it mentions.
+/// The names that a file declares at module scope, its bindings separately, and the names that it
+/// uses.
 #[derive(Debug, Default)]
 struct Names<'a> {
     declared: BTreeSet<&'a str>,
@@ -77,8 +78,8 @@ fn names(text: &str) -> Names<'_> {
     names
 }
 
-/// The words of a line that can name something at module scope: not members, parameters or locals
-/// where they are declared.
+/// The words of a line that can be names at module scope. Members, and the declarations of
+/// parameters and locals, are left out.
 fn words(code: &str) -> Vec<&str> {
     let is_in_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut words = Vec::new();
@@ -96,7 +97,7 @@ fn words(code: &str) -> Vec<&str> {
     words
 }
 
-/// Faults of the first lines of a shader's files.
+/// The errors in the first lines of a shader's files.
 fn complaints(root: &'static str, choices: &[Choice]) -> Vec<String> {
     let mut files = Vec::new();
     add(root, choices, &mut files);
@@ -125,7 +126,7 @@ fn complaints(root: &'static str, choices: &[Choice]) -> Vec<String> {
     wrong
 }
 
-/// Every name of a binding that a file leaves to others.
+/// Every binding that some file uses without declaring it.
 const BINDINGS: [&str; 11] = [
     "job",
     "offsets",
@@ -152,7 +153,7 @@ fn first_lines_name_what_a_file_uses() {
 fn every_file_is_part_of_a_shader() {
     let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
     let mut in_folders = BTreeSet::new();
-    // Surfaces are joined by their users.
+    // Surfaces are left out: their users join them.
     for folder in entries(&shaders).into_iter().filter(|folder| !folder.ends_with("surfaces")) {
         let folder_name = folder.file_name().expect("a folder").to_string_lossy().into_owned();
         for file in entries(&folder) {

@@ -2,9 +2,9 @@
 //!
 //! # The simpler forms
 //!
-//! Pairs that are taken apart afterwards go through memory twice: 1.2 to 1.4 times as long as pairs
-//! alone, in a batch. Two passes over each run of points, one for each array, are two loops to
-//! begin and end: 1.4 times at factor 16.
+//! Writing pairs and separating them afterwards goes through memory twice: a batch takes 1.2 to 1.4
+//! times as long as with pairs only. Two passes over each run of points, one for each array, begin
+//! and end two loops: 1.4 times as long at factor 16.
 
 use super::{PointRoom, PointWriter};
 use crate::data::error::{BatchBuffer, Error};
@@ -12,7 +12,7 @@ use crate::data::target::first;
 use crate::data::writer::{Writer, separate_blocks};
 use core::array;
 
-/// Arrays of u and of v, of one length.
+/// An array of u and an array of v, of equal length.
 impl PointRoom for [&mut [f32]; 2] {
     type Writer<'a>
         = ApartWriter<'a>
@@ -95,12 +95,13 @@ impl PointWriter for ApartWriter<'_> {
     }
 }
 
-/// Points of a run that are written at a time: as many bytes of each array as eight pairs have.
+/// Points of a run that are written at a time. In each array they fill as many bytes as eight
+/// pairs.
 const BLOCK: usize = 16;
 
 impl ApartWriter<'_> {
-    /// The next `length` points, whose coordinates `make` makes a block at a time: `LEAST` of them
-    /// if there is room, without asking how many there are.
+    /// Writes the next `length` points; `make` makes the coordinates of a block. Runs of at most
+    /// `LEAST` points are all written as `LEAST` if there is room, without a branch on the length.
     #[inline(always)]
     fn write<S: Copy, const N: usize, const LEAST: usize>(
         &mut self,
@@ -123,7 +124,7 @@ impl ApartWriter<'_> {
     }
 }
 
-/// Whole blocks.
+/// Writes whole blocks.
 #[inline(always)]
 fn write_blocks<S: Copy, const N: usize>(
     u: &mut [f32],
@@ -139,7 +140,7 @@ fn write_blocks<S: Copy, const N: usize>(
     }
 }
 
-/// The coordinates of the points that a block stands for: all u, all v.
+/// The coordinates of the points that are made from a block: all u, all v.
 #[inline(always)]
 fn apart<S: Copy, const N: usize>(block: &[S; N], point: impl Fn(S) -> [f32; 2]) -> [[f32; N]; 2] {
     let [mut all_u, mut all_v] = [[0.0; N]; 2];
@@ -149,7 +150,7 @@ fn apart<S: Copy, const N: usize>(block: &[S; N], point: impl Fn(S) -> [f32; 2])
     [all_u, all_v]
 }
 
-/// As many points as the arrays and the source have, the last block cut.
+/// Writes as many points as the arrays and the source have, and cuts the last block.
 #[cold]
 #[inline(never)]
 fn write_cut<S: Copy, const N: usize>(

@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use tess_core::Counts;
 
 impl KernelTap {
-    /// The output of the last run, as words: of each type in turn.
+    /// The output of the last run as words, one type of output after another.
     #[must_use]
     pub fn words(&self) -> Vec<u32> {
         let Self { made, .. } = self;
@@ -31,7 +31,7 @@ impl KernelTap {
         }
         words
     }
-    /// The output of the front end, patch by patch, and totals.
+    /// Adds the output of the front end, patch by patch, then totals.
     fn add_front_end(&self, words: &mut Vec<u32>) {
         let Self { work, made, .. } = self;
         let (patches, factors) = (work.patches.len(), work.domain.factors());
@@ -68,7 +68,7 @@ impl KernelTap {
     }
 }
 
-/// The processed factors of a patch; of a culled one, zeros.
+/// The processed factors of a patch; zeros if it is culled.
 fn record<const L: usize, const F: usize>(
     Processed { fixed, odd, alive, minimum }: &Processed<L, F>,
     lane: usize,
@@ -81,7 +81,7 @@ fn record<const L: usize, const F: usize>(
     words
 }
 
-/// A patch as its packet has it; zeros if it is culled.
+/// The values that a packet stores for a patch; zeros if it is culled.
 fn patch_words(patch: PacketPatch<'_>) -> Vec<u32> {
     let shown = patch.points() != 0;
     let flags = [patch.is_minimum(), patch.is_compact()].map(u32::from);

@@ -16,7 +16,7 @@ use tess_core::Partitioning;
 use tess_core::fixed_point::ONE;
 use tess_core::stitch::Diagonals;
 
-/// Runs a stage whose input are numbers or raw factors; returns whether the kernel is one.
+/// Runs a stage whose input is numbers or raw factors; returns whether the kernel is such a stage.
 #[inline(always)]
 pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool {
     let (numbers, words) = (&work.numbers[..], &mut made.words);
@@ -60,8 +60,8 @@ pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) 
     true
 }
 
-/// Runs a stage whose input are raw factors. Loops, as a closure in `extend` would miss the level's
-/// instructions.
+/// Runs a stage whose input is raw factors; returns whether the kernel is such a stage. It has
+/// loops because a closure in `extend` would not get the level's instructions.
 #[inline(always)]
 fn of_raw(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool {
     let config = work.settings.config;
@@ -105,14 +105,14 @@ fn of_raw(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool {
     true
 }
 
-/// The bounds of an inside factor beside factors of 3.
+/// The bounds of an inside factor if all other factors are 3.
 const fn bounds(partitioning: Partitioning) -> (f32, f32) {
     let (low, high) = partitioning.range();
     let odd = matches!(partitioning, Partitioning::FractionalOdd);
     (if odd { f32::from_bits(0x3F80_0080) } else { low }, high)
 }
 
-/// `f` of each number, a vector of them at a time: all first results, then all second ones.
+/// The results of `f` for each number, a vector at a time: all first results, then all second ones.
 #[inline(always)]
 fn columns<const N: usize>(numbers: &[u32], words: &mut Vec<u32>, f: impl Fn(u32) -> [u32; N]) {
     let all = numbers.len();
@@ -131,7 +131,7 @@ fn columns<const N: usize>(numbers: &[u32], words: &mut Vec<u32>, f: impl Fn(u32
     }
 }
 
-/// The stitch of a number: see [`crate::Input::numbers`].
+/// The stitch that a number describes: see [`crate::Input::numbers`].
 #[inline(always)]
 pub(super) fn stitch(work: &TapInput, number: u32) -> Codes<'_> {
     let [kind, outer, inner, _] = number.to_be_bytes().map(u32::from);

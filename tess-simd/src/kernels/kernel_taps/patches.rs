@@ -18,7 +18,7 @@ use crate::stages::stitch::{Replaced, Rows};
 use crate::stages::template::{Templates, long};
 use tess_core::DomainPoint;
 
-/// Runs a stage of patches; returns whether the kernel is one.
+/// Runs a stage of patches; returns whether the kernel is such a stage.
 #[inline(always)]
 pub(crate) fn of_patches(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool {
     match kernel {
@@ -63,7 +63,7 @@ pub(crate) fn of_patches(kernel: Kernel, work: &TapInput, made: &mut TapOutput) 
     true
 }
 
-/// Copies what templates have.
+/// Copies the indices and points of the patches' templates.
 #[inline(always)]
 fn of_templates(kernel: Kernel, work: &TapInput, made: &mut TapOutput) {
     made.points.clear();

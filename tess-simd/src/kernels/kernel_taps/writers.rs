@@ -6,10 +6,10 @@ use crate::data::point_writer::PointWriter;
 use crate::data::writer::Writer;
 use tess_core::fixed_point::ONE;
 
-/// Elements that runs are made of, and those that blocks read behind them.
+/// Elements that runs are made from, including those that blocks read past a run.
 const SOURCE: usize = 1024;
 
-/// Runs of points by every method: see [`crate::Input::numbers`].
+/// Writes runs of points by every method: see [`crate::Input::numbers`].
 #[inline(always)]
 pub(crate) fn of_points<W: PointWriter>(work: &TapInput, mut out: W) {
     let source = source();
@@ -28,7 +28,7 @@ pub(crate) fn of_points<W: PointWriter>(work: &TapInput, mut out: W) {
     }
 }
 
-/// Runs of indices by every method: see [`crate::Input::numbers`].
+/// Writes runs of indices by every method: see [`crate::Input::numbers`].
 #[inline(always)]
 pub(crate) fn of_indices<I: IndexFormat>(work: &TapInput, indices: &mut [I]) {
     let (source, mut out) = (source(), Writer::new(indices));

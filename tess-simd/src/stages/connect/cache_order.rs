@@ -1,4 +1,4 @@
-//! The order in which a template's triangles are written.
+//! The order in which a patch's triangles are written.
 
 use crate::data::writer::Writer;
 use crate::stages::packet::PacketPatch;
@@ -7,7 +7,7 @@ use core::ops::Range;
 use tess_core::cache_order::CacheOrder;
 use tess_core::{Domain, Order, OutputPrimitive};
 
-/// Whether a patch's triangles are written in another order than the specification's.
+/// Whether a patch's triangles are written in an order other than the specification's.
 #[inline(always)]
 pub(crate) const fn reorders(settings: &Settings, patch: PacketPatch<'_>) -> bool {
     let triangles = matches!(
@@ -20,8 +20,8 @@ pub(crate) const fn reorders(settings: &Settings, patch: PacketPatch<'_>) -> boo
         && !patch.is_minimum()
 }
 
-/// All indices of a patch that is not culled, as ranges of their places in the specification's
-/// order, in the order in which they are written.
+/// Sends all indices of a patch that is not culled to `emit`, in the order in which they are
+/// written, as ranges of their places in the specification's order.
 pub(crate) fn runs(
     settings: &Settings,
     patch: PacketPatch<'_>,
@@ -43,8 +43,8 @@ pub(crate) fn runs(
     emit(written..patch.indices() as usize);
 }
 
-/// Writes a patch's indices, of which `specified` has those in the specification's order and then
-/// unspecified ones.
+/// Writes a patch's indices. `specified` has them in the specification's order, followed by
+/// unspecified elements.
 #[inline(always)]
 pub(crate) fn emit<I: Copy + Default>(
     settings: &Settings,
@@ -58,5 +58,5 @@ pub(crate) fn emit<I: Copy + Default>(
     });
 }
 
-/// Indices written at a time: a column's row has this many.
+/// Indices written at a time: the number that a column has of a ring stitch.
 const RUN: usize = 24;

@@ -7,7 +7,7 @@ use crate::data::writer::Writer;
 use crate::stages::stitch::{Replaced, Rows, Stitches};
 use tess_core::stitch::Diagonals;
 
-/// Edges u = 0 and u = 1 run along v, the others along u.
+/// Emits the triangles. Edges u = 0 and u = 1 run along v, the others along u.
 #[inline(always)]
 pub(super) fn emit<I: IndexFormat>(
     &[u0, v0, u1, v1, n_u, n_v]: &EdgePoints,
@@ -45,8 +45,8 @@ fn row_ring(points: u32) -> u32 {
     if is_odd(points) { 0 } else { points.div_ceil(2) - 1 }
 }
 
-/// The two sides of a centre strip (spec section 7.4): row A from its first index on, and row B,
-/// which comes back to the index before that one and may have another first entry.
+/// The two sides of a centre strip (spec section 7.4). Row A runs up from its first index. Row B
+/// runs down and ends next to row A's first entry; its first entry may be replaced.
 #[inline(always)]
 fn strip_rows(first: u32, quads: u32, first_of_b: Option<u32>) -> Rows {
     Rows {

@@ -12,13 +12,13 @@ pub(super) struct Rings<const EDGES: usize> {
     pub(super) outer: [u32; EDGES],
     /// For each edge, the inside point count of the axis that it runs along.
     pub(super) along: [u32; EDGES],
-    /// For each edge, the ring that is a row of points along it; 0 if none is.
+    /// For each edge, the ring that is a row of points along it; 0 if there is no such ring.
     pub(super) row_at: [u32; EDGES],
 }
 
 impl<const EDGES: usize> Rings<EDGES> {
-    /// Emits all rings of a patch whose first point is `base`; returns the first index of the
-    /// innermost ring, modulo 2^32.
+    /// Emits the stitches of all rings of a patch whose first point is number `base`; returns the
+    /// first index of the innermost ring, modulo 2^32.
     #[inline(always)]
     pub(super) fn emit<I: IndexFormat>(
         &self,

@@ -8,7 +8,8 @@ use crate::stages::stitch::Stitches;
 use tess_core::OutputPrimitive;
 use tess_core::stitch::centre_triangle;
 
-/// The innermost ring of an even inside factor is a single point, not a row of points.
+/// Emits the triangles. The innermost ring of an even inside factor is a single point, not a row of
+/// points.
 #[inline(always)]
 pub(super) fn emit<I: IndexFormat>(
     &[u0, v0, w0, inside, ..]: &EdgePoints,

@@ -1,26 +1,28 @@
-//! The front end of one patch: its factors are side by side, as patches are in a packet.
+//! The front end of one patch: the elements of a vector are its factors, not sixteen patches.
 //!
-//! A packet of one patch would cost what sixteen cost. Here each stage is one short vector with an
-//! element for each factor, and the results go to one lane of a packet, so that every later stage
-//! finds a patch as usual. `threads/part` calls it for one patch per call, `kernels/front_end` for
-//! a few patches or for one that repeats.
+//! A packet of one patch would cost as much as one of sixteen. Here each stage is one short vector
+//! with an element for each factor. The results go to one lane of a packet, so that later stages
+//! need not know the difference. `threads/part` calls this for one patch per call,
+//! `kernels/front_end` for a few patches or for one that repeats.
 //!
 //! # Data
 //!
 //! The factors have three forms, each made from the one before:
 //!
 //! ```text
-//! PatchFactors       what callers have
+//! PatchFactors       the caller's factors
 //! RawPairs           3 numbers of 64 bits, in registers      [v0 u0] [v1 u1] [inside_v inside_u]
 //! RawFactors         a vector of 8, if the patch is new      u0 v0 u1 v1 inside_u inside_v 0 0
 //! ```
 //!
 //! # What must hold
 //!
-//! - Factors reach the kernel in registers ([`pairs`]). A vector loaded from memory would wait for
-//!   factors that were written in pieces: 7 to 17 % of a call.
-//! - [`OnePatch`] is the only writer of its packet, so equal factors leave it as it is.
-//! - Everything that the packet and the sizes follow from is in [`kept`]: equal ones skip the rest.
+//! - Factors reach the kernel in registers ([`pairs`]). A vector load from memory would wait until
+//!   the separately stored factors arrive: 7 to 17 % of a call.
+//! - [`OnePatch`] is the only writer of its packet, so the packet is still right when equal factors
+//!   come again.
+//! - [`kept`] has everything that the packet and the sizes depend on: if it is equal, the rest is
+//!   skipped.
 
 use super::Packet;
 use crate::data::lanes::{MAX_FACTORS, set};
@@ -29,30 +31,30 @@ use crate::stages::factor_context::point_counts;
 use crate::stages::factors::{Processed, all, process};
 use tess_core::{Config, Counts, Domain, PatchFactors, QuadFactors, TriangleFactors};
 
-/// A patch that came alone, and a packet that has it in its first lane.
+/// A single patch, in the first lane of a packet.
 #[derive(Clone, Debug)]
 pub(crate) struct OnePatch {
-    /// As the patch that was processed last made it; nothing else writes to it.
+    /// The packet of the patch that was processed last; nothing else writes to it.
     packet: Packet,
     raw: RawPairs,
-    /// [`kept`] of its processed factors: what the packet and the sizes follow from.
+    /// [`kept`] of the patch's processed factors, which the packet and the sizes depend on.
     kept: [u32; ROWS],
     domain: Domain,
     counts: Counts,
 }
 
-/// Rows of a patch's factors: they fill a short vector.
+/// Rows for a patch's factors: enough to fill a short vector.
 pub(crate) const ROWS: usize = 8;
 
-/// The raw factors of a patch side by side; zeros follow those that its domain has.
+/// The raw factors of a patch, followed by zeros.
 type RawFactors = [[f32; 1]; ROWS];
 
-/// Pairs of raw factors, the first of each pair in the lower half, then zeros. They travel
-/// in registers: a vector that is loaded from memory would wait for factors written in pieces.
+/// Pairs of raw factors, the first of each pair in the lower half, then zeros. They are passed in
+/// registers.
 type RawPairs = [u64; MAX_FACTORS / 2];
 
 impl OnePatch {
-    /// A patch that is culled, as all its factors are 0.
+    /// A patch that is culled because all its factors are 0.
     pub(crate) const CULLED: Self = Self {
         packet: Packet::EMPTY,
         raw: [0; _],
@@ -71,14 +73,14 @@ impl OnePatch {
         self.counts
     }
 
-    /// Whether this is the patch that was processed last, and it is not compact.
+    /// Whether the patch that was processed last has these factors and is not compact.
     pub(crate) fn is_large_and_has(&self, domain: Domain, raw: RawPairs) -> bool {
         !self.packet.patch(0).is_compact() && self.domain == domain && self.raw == raw
     }
 
-    /// Processes the raw factors of one patch, unless they are those of the patch before. Returns
-    /// its output sizes, zeros if it is culled. The configuration is the same in each call. The
-    /// factors come in [`pairs`].
+    /// Processes the raw factors of one patch, given as [`pairs`], unless they equal those of the
+    /// previous patch. Returns the output sizes, zeros if the patch is culled. The configuration
+    /// must be the same in every call.
     #[inline(always)]
     pub(crate) fn process(
         &mut self,
@@ -90,7 +92,7 @@ impl OnePatch {
     ) -> Counts {
         use Domain::{Isoline, Quad, Triangle};
         let raw = [a, b, c];
-        // All factors in one comparison: which is the first to differ is hard to predict.
+        // All factors in one comparison, because it is hard to predict which one differs first.
         let differences = (0..raw.len()).fold(0, |any, i| any | (raw[i] ^ self.raw[i]));
         let other = domain != self.domain;
         if differences != 0 || other {
@@ -106,13 +108,13 @@ impl OnePatch {
         self.counts
     }
 
-    /// Whether the patch is a minimum patch that is not culled.
+    /// Whether the patch is a minimum patch and not culled.
     #[inline(always)]
     const fn is_minimum(&self) -> bool {
         self.kept[0] != 0 && self.packet.patch(0).is_minimum()
     }
 
-    /// Makes the packet from raw factors, unless it has the processed ones.
+    /// Makes the packet from raw factors, unless it was made from the same processed factors.
     #[inline(always)]
     fn process_as(&mut self, config: Config, domain: Domain, raw: &RawFactors, other: bool) {
         if !other && self.is_minimum() && are_at_most_one(&raw[..domain.factors()]) {
@@ -128,15 +130,16 @@ impl OnePatch {
     }
 }
 
-/// Whether all factors are in (0, 1]: where there are minimum patches, they make one.
+/// Whether all factors are in (0, 1]. In a configuration that has minimum patches, such factors
+/// make one.
 #[inline(always)]
 fn are_at_most_one(raw: &[[f32; 1]]) -> bool {
     all(raw, |factor| factor.to_bits().wrapping_sub(1) < 1.0_f32.to_bits()) == [1]
 }
 
-/// Processed factors in one vector: zeros if the patch is culled, as the others are at least 1. In
-/// one configuration and domain, parities and whether it is a minimum patch follow from the
-/// factors.
+/// The processed factors in one vector; zeros if the patch is culled, which no other patch has,
+/// because processed factors are at least 1. Within one configuration and domain, the parities and
+/// whether it is a minimum patch depend only on these.
 #[inline(always)]
 fn kept(processed: &Processed<1, ROWS>) -> [u32; ROWS] {
     let mask = 0_u32.wrapping_sub(processed.alive[0]);
@@ -158,7 +161,7 @@ pub(crate) fn pairs(factors: &PatchFactors) -> RawPairs {
     }
 }
 
-/// The factors of which [`pairs`] made these, as vectors of one lane.
+/// The factors from which [`pairs`] made these pairs, as vectors of one lane.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
 fn apart(raw: RawPairs) -> RawFactors {
@@ -167,8 +170,8 @@ fn apart(raw: RawPairs) -> RawFactors {
 }
 
 impl Packet {
-    /// Processes the raw factors of one patch; the other lanes stay as they are. Returns its output
-    /// sizes, zeros if it is culled.
+    /// Processes the raw factors of one patch; the other lanes keep their contents. Returns the
+    /// output sizes, zeros if the patch is culled.
     #[inline(always)]
     pub(crate) fn process_one(
         &mut self,
@@ -189,7 +192,7 @@ impl Packet {
         }
     }
 
-    /// Makes a lane from processed factors.
+    /// Sets a lane, including its sizes, from processed factors.
     #[inline(always)]
     fn keep_one(
         &mut self,
@@ -228,7 +231,7 @@ mod tests {
     use alloc::vec::Vec;
     use tess_core::{OutputPrimitive, Partitioning};
 
-    /// A domain, and patches of it whose factors are alike but for one.
+    /// Patches of a domain whose factors are equal except for one.
     fn near_minimum(domain: Domain) -> Vec<PatchFactors> {
         let factors = [0.0, f32::from_bits(1), 0.5, 1.0, 1.0_f32.next_up(), 2.0, -1.0, f32::NAN];
         let mut patches = Vec::new();
@@ -242,7 +245,8 @@ mod tests {
         patches
     }
 
-    /// Whatever came before, minimum patches that were culled or have other factors included.
+    /// The counts do not depend on the previous patch, even if that was a minimum patch that was
+    /// culled or had other factors.
     #[test]
     fn minimum_patches_follow_from_their_factors() {
         use Partitioning::{FractionalEven, FractionalOdd, Integer, Pow2};

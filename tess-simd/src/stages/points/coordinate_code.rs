@@ -1,15 +1,15 @@
 //! Codes of the points of compact patches with fractional factors.
 //!
-//! Such patches share topologies but no coordinates. Each topology therefore keeps one flat list of
-//! codes, which say how to compute each coordinate, and writing a patch needs no branch per run of
-//! points. [`codes`] makes the list once per topology, for `stages/template`; `permute` and
+//! Such patches share topologies, but not coordinates. Each topology therefore has one flat list of
+//! codes that say how to compute each coordinate, so that writing a patch needs no branch per run
+//! of points. [`codes`] makes the list once per topology, for `stages/template`; `permute` and
 //! `lookup` make points from it.
 //!
 //! # Data
 //!
-//! Two codes a point, `[u, v]`. A coordinate is `term + location`, or `term - location` if the bit
-//! `minus` is set. Locations are those on the first half of an edge; seen from the other end a
-//! location is `ONE` minus it.
+//! A point has two codes, `[u, v]`. A coordinate is `term + location`, or `term - location` if the
+//! bit `minus` is set. Locations are those on the first half of an edge; on the second half, a
+//! location is `ONE` minus its mirror image.
 //!
 //! ```text
 //! bit   15      14..11   10 .. 5                 4 .. 0
@@ -26,7 +26,7 @@
 //!                                                 5 (ring 0) centre ONE_THIRD
 //! ```
 //!
-//! Quads have no terms: `minus` alone means `ONE - location`.
+//! Quads have no terms: for them `minus` means `ONE - location`.
 //!
 //! # One patch
 //!
@@ -46,19 +46,20 @@
 //!
 //! # What must hold
 //!
-//! - Position 0 of any factor lies at 0, so the code 0 is the coordinate 0 and `minus` alone is
-//!   `ONE`.
-//! - An edge has at most [`COMPACT_EDGE`] points: a position has three bits.
-//! - A triangle's inside factor has at most [`COMPACT_TRIANGLE_INSIDE`] points, so it has at most 6
-//!   rings: with more, the number of a term would run into the location's bits.
-//! - Codes follow from point counts alone. If they depended on a location, patches of one topology
+//! - Position 0 of any factor is at 0, so the code 0 is the coordinate 0, and the code that has
+//!   only `minus` is `ONE` for a quad.
+//! - An edge has at most [`COMPACT_EDGE`] points, because a position has three bits.
+//! - A triangle's inside factor has at most [`COMPACT_TRIANGLE_INSIDE`] points and so at most 6
+//!   rings, the outer one included. With more, the number of a term would run into the location's
+//!   bits.
+//! - Codes depend only on point counts. If they depended on a location, patches of one topology
 //!   would get each other's points.
 //!
 //! # The simpler form
 //!
 //! Copying runs of locations, as larger patches do, begins and ends a loop for each edge of each
-//! ring, and each end is a branch that is predicted wrongly. With AVX2, codes took `mosaic-even`
-//! from 114 to 67 ns a patch and `character` from 74 to 59 ns (`docs/experiments.md`).
+//! ring, and each end is a mispredicted branch. With AVX2, codes took `mosaic-even` from 114 to 67
+//! ns per patch and `character` from 74 to 59 ns (`docs/experiments.md`).
 
 use super::quad::{self, AxisPoint, Coordinate, QuadWalker};
 use super::triangle::{self, TriangleWalker};
@@ -77,16 +78,15 @@ pub(super) const RINGS: usize = COMPACT_TRIANGLE_INSIDE / 2;
 /// The codes of a point's two coordinates.
 pub(crate) type Code = [u16; 2];
 
-/// Where in a code the number of a location stands: the factor's number, times [`HALF_EDGE`], plus
-/// the position. Below it stands the number of what is added, above it [`MINUS`].
+/// The lowest bit of a location's number in a code. The number is the factor's number, times
+/// [`HALF_EDGE`], plus the position. Below it is the number of the term, above it [`MINUS`].
 pub(super) const LOCATION: u32 = 5;
 
-/// Set if the location is subtracted.
+/// The bit that is set if the location is subtracted.
 pub(super) const MINUS: u16 = 1 << 15;
 
-/// The number that is added to a coordinate of a triangle: this, times [`RINGS`], plus the ring's
-/// number. The coordinates of quads have no such number: their [`MINUS`] is `ONE` minus the
-/// location.
+/// The kind of term that is added to a location of a triangle. The number of a term is its kind,
+/// times [`RINGS`], plus the ring's number. Coordinates of quads have no term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Term {
     /// `perpendicular`.
@@ -101,11 +101,11 @@ pub(super) enum Term {
     LastThird,
 }
 
-/// The terms, by number.
+/// The kinds of term, by number.
 pub(super) const TERMS: [Term; 5] =
     [Term::Perpendicular, Term::Back, Term::Last, Term::Third, Term::LastThird];
 
-/// The term `ONE_THIRD`, which has no ring.
+/// The number of the term `ONE_THIRD`, which has no ring.
 #[expect(clippy::cast_possible_truncation, reason = "30")]
 pub(super) const CENTRE: u16 = (TERMS.len() * RINGS) as u16;
 
@@ -118,8 +118,8 @@ const _: () = {
     assert!((COMPACT_EDGE - 1) / 2 < HALF_EDGE, "every position of half an edge has a number");
 };
 
-/// Writes the codes of a compact regular patch's points to the beginning of `codes`, which has
-/// room.
+/// Writes the codes of a compact regular patch's points to the beginning of `codes`, which must
+/// have room for them.
 pub(crate) fn codes(domain: Domain, edges: &EdgePoints, codes: &mut [Code]) {
     let codes = codes.iter_mut();
     match domain {
@@ -129,7 +129,7 @@ pub(crate) fn codes(domain: Domain, edges: &EdgePoints, codes: &mut [Code]) {
     }
 }
 
-/// The code of a corner of a minimum patch. Position 0 lies at 0.
+/// The code of a corner of a minimum patch. Position 0 is at 0.
 pub(crate) fn corner(domain: Domain, corner: DomainPoint) -> Code {
     [corner.u, corner.v].map(|coordinate| match (domain, coordinate.to_bits() == ONE) {
         (Domain::Triangle, true) => plus(Term::Last, 0),
@@ -138,13 +138,13 @@ pub(crate) fn corner(domain: Domain, corner: DomainPoint) -> Code {
     })
 }
 
-/// The code of a term without a location: with position 0.
+/// The code of a term with the location 0 (factor 0, position 0).
 #[expect(clippy::cast_possible_truncation, reason = "below 30")]
 const fn plus(term: Term, ring: u32) -> u16 {
     term as u16 * RINGS as u16 + ring as u16
 }
 
-/// The code of point `point` of a factor, or of the same seen from the other end, without a term.
+/// The code, without a term, of a point of a factor, or of the same point seen from the other end.
 #[expect(clippy::cast_possible_truncation, reason = "below 16 points of 6 factors")]
 fn location(edges: &EdgePoints, AxisPoint { factor, point, mirrored }: AxisPoint) -> u16 {
     let opposite = edges[factor] - 1 - point;
@@ -154,7 +154,7 @@ fn location(edges: &EdgePoints, AxisPoint { factor, point, mirrored }: AxisPoint
     (number << LOCATION) | if beyond_half == mirrored { 0 } else { MINUS }
 }
 
-/// Notes the codes of a quad's runs.
+/// Writes the codes of a quad's runs.
 struct QuadCodes<'a> {
     edges: &'a EdgePoints,
     codes: IterMut<'a, Code>,
@@ -185,7 +185,7 @@ impl QuadWalker for QuadCodes<'_> {
     }
 }
 
-/// Notes the codes of a triangle's runs.
+/// Writes the codes of a triangle's runs.
 struct TriangleCodes<'a> {
     edges: &'a EdgePoints,
     codes: IterMut<'a, Code>,
@@ -194,8 +194,8 @@ struct TriangleCodes<'a> {
 impl TriangleWalker for TriangleCodes<'_> {
     fn run(&mut self, triangle::Run { edge, ring, factor, length }: triangle::Run) {
         // With `x` the location, the coordinates along an edge are `x - shift`, `ONE - shift - x`,
-        // and on the last edge `x + shift - perpendicular`; `x` itself may be `ONE` minus a
-        // location.
+        // and on the last edge `x + shift - perpendicular`. `x` may itself be `ONE` minus a
+        // location of the first half.
         let along = |point, mirrored, plain, opposite| {
             let location = location(self.edges, AxisPoint { factor, point, mirrored });
             location | plus(if location & MINUS == 0 { plain } else { opposite }, ring)
@@ -235,7 +235,7 @@ mod tests {
         assert_eq!(codes[22], [0x0420, 0x8520], "the first point of ring 1");
     }
 
-    /// The corners of a minimum patch are coordinates of position 0.
+    /// The corners of a minimum patch have codes of position 0.
     #[test]
     fn corners() {
         let far = DomainPoint::from_bits(ONE, 0);

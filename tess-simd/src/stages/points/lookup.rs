@@ -1,13 +1,13 @@
 //! Points of compact patches by look-up, for levels without the permutes of AVX-512.
 //!
-//! All coordinates that a patch's codes can name are computed at once into a table, in the output's
-//! format. A point is then two loads and a store. `levels` gives this to `kernels/emit` at the
+//! All coordinates that a patch's codes can name are computed into a table first, in the output's
+//! format. A point is then two loads and a store. `levels` passes this to `kernels/emit` at the
 //! levels baseline and AVX2.
 //!
 //! # Data
 //!
-//! The table has 256 entries in rows of eight, one entry a position. A template keeps, instead of a
-//! code, the number of its entry, which is a byte in a `u16`.
+//! The table has 256 entries in rows of eight, one entry per position. Instead of a code, a
+//! template stores the number of the code's entry, which is a byte in a `u16`.
 //!
 //! ```text
 //! quads                                 triangles
@@ -35,17 +35,18 @@
 //!
 //! # What must hold
 //!
-//! - A template's entries were made by [`Lookup::kept`] and are read by [`Lookup::emit`]:
-//!   [`CompactPoints`] ties them.
+//! - A template's entries were made by [`Lookup::kept`] and are read by [`Lookup::emit`];
+//!   [`CompactPoints`] keeps the two together.
 //! - Entries are below 256, so that `% ENTRIES` costs nothing and no check remains in the loop.
-//! - Rows that a patch does not fill hold the patch before. No entry of its topology names them.
-//! - `positions` stays unknown to the compiler (`black_box`). If it knows them, it unrolls eight
-//!   different formulas instead of one vector.
+//! - Rows that a patch does not fill have values of earlier patches. No entry of the patch's
+//!   topology names them.
+//! - The compiler does not know `positions` (`black_box`). If it did, it would unroll eight
+//!   different formulas instead of making one vector.
 //!
 //! # The simpler form
 //!
-//! Copying runs of points: 129 ns a patch of `character` at the baseline, 94 with look-ups; 74 and
-//! 59 with AVX2 (`docs/experiments.md`).
+//! Copying runs of points: a patch of `character` takes 129 ns at the baseline, and 94 ns with
+//! look-ups; with AVX2 it takes 74 and 59 ns (`docs/experiments.md`).
 
 use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, MINUS, RINGS, TERMS, Term};
 use super::triangle::Inset;
@@ -61,18 +62,18 @@ use tess_core::fixed_point::{ONE, ONE_THIRD};
 /// A row of the table: coordinates at the eight positions of one factor.
 type EntryRow = [u32; HALF_EDGE];
 
-/// The first rows: one of locations for each factor of a quad or each outer one of a triangle, then
-/// one of opposites for each of them.
+/// Number of the first rows: a row of locations for each factor of a quad or each outer factor of a
+/// triangle. As many rows of `ONE` minus these follow.
 const QUAD_FACTORS: usize = Domain::Quad.factors();
 const TRIANGLE_OUTER: usize = Domain::Triangle.outer_factors();
-/// Where the rows of a triangle's inner rings begin: four for each, one for every term that has a
-/// location.
+/// The first row of a triangle's inner rings. Each ring has four rows, one for every kind of term
+/// that is added to a location.
 const INNER: usize = 2 * TRIANGLE_OUTER;
 const ROWS_OF_RING: usize = TERMS.len() - 1;
-/// The row of a triangle's coordinates without a location: one for each ring, 0 for the outer one,
-/// then the centre's.
+/// The row of a triangle's coordinates without a location: one for each ring, beginning with 0 for
+/// the outer ring, then the centre's.
 const HELD: usize = INNER + ROWS_OF_RING * (RINGS - 1);
-/// As many coordinates as a byte can number, so that none is out of range.
+/// The number of coordinates: as many as a byte can address, so that no entry is out of range.
 const ENTRIES: usize = 256;
 const ROWS: usize = ENTRIES / HALF_EDGE;
 
@@ -82,12 +83,11 @@ const _: () = assert!(HELD < ROWS && RINGS < HALF_EDGE && 2 * QUAD_FACTORS <= RO
 #[derive(Clone, Debug)]
 pub(crate) struct Lookup {
     rows: [EntryRow; ROWS],
-    /// The positions of half an edge, unknown to the compiler: it would unroll known ones instead
-    /// of making vectors.
+    /// The positions of half an edge, hidden from the compiler.
     positions: EntryRow,
 }
 
-/// Where the coordinate of a code stands in [`Lookup`].
+/// The entry of a code's coordinate in [`Lookup`].
 #[expect(clippy::cast_possible_truncation, reason = "below 256")]
 fn entry_of(domain: Domain, code: u16) -> u16 {
     let number = usize::from((code & !MINUS) >> LOCATION);
@@ -123,8 +123,8 @@ impl<W: PointWriter> CompactPoints<W> for Lookup {
         entry_of(domain, code)
     }
 
-    // Only what is inlined has a level's instructions. WebAssembly has one level, and a page to
-    // load.
+    // Only inlined code gets a level's instructions. WebAssembly has one level, and its pages must
+    // load fast.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[cfg_attr(target_arch = "wasm32", inline(never))]
     fn emit(&mut self, patch: PacketPatch<'_>, entries: &[Code], out: &mut W) {
@@ -145,12 +145,12 @@ impl<W: PointWriter> CompactPoints<W> for Lookup {
 }
 
 impl Lookup {
-    /// A table of no patch yet.
+    /// A table that no patch has filled yet.
     pub(crate) fn new() -> Self {
         Self { rows: [[0; HALF_EDGE]; ROWS], positions: black_box([0, 1, 2, 3, 4, 5, 6, 7]) }
     }
 
-    /// Computes the coordinates of the first factors' locations and of their opposites.
+    /// Computes the coordinates of the first factors' locations, and of `ONE` minus these.
     #[inline(always)]
     fn fill_edges<P: OutputPoint, const FACTORS: usize>(&mut self, patch: PacketPatch<'_>) {
         for factor in 0..FACTORS {
@@ -172,7 +172,7 @@ impl Lookup {
         for ring in 1..end {
             let Inset { perpendicular, shift } = insets[ring];
             let (last, third) = (ONE - shift, shift.wrapping_sub(perpendicular));
-            // The terms in their order.
+            // In the order of the terms.
             rings[ring - 1] = [
                 row::<P>(inside, |x| x.wrapping_sub(shift)),
                 row::<P>(inside, |x| last.wrapping_sub(x)),

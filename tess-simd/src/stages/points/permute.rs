@@ -1,12 +1,12 @@
 //! Points of compact patches by permutes of AVX-512, eight points at a time.
 //!
 //! All locations and terms that a patch's codes name fit a few vectors, and the instruction
-//! `vpermi2d` picks 16 of 32 numbers at once. `levels` gives this to `kernels/emit` at the level
+//! `vpermi2d` picks 16 of 32 numbers at once. `levels` passes this to `kernels/emit` at the level
 //! AVX-512.
 //!
 //! # Data
 //!
-//! Each vector has sixteen 32-bit numbers; a location vector has the first half edges of two
+//! Each vector has sixteen 32-bit numbers. A vector of locations has the first half edges of two
 //! factors.
 //!
 //! ```text
@@ -42,16 +42,15 @@
 //!   function can be called without `unsafe` only from another one, or from a closure in one
 //!   ([`Permutes`]).
 //! - Inside factors of quads have numbers 4 and 5: bit 10 of a code tells them from outer ones.
-//! - There are at most 31 terms: two vectors.
-//! - Codes are padded to [`LEAST`] and to whole blocks of eight, and what stands behind a patch's
-//!   codes may be anything: it makes points behind the patch's points, which the next patch
-//!   overwrites.
+//! - There are at most 31 terms, which fit two vectors.
+//! - Codes are padded to multiples of [`LEAST`]. The padding may be anything: the points made from
+//!   it follow the patch's points, and the next patch overwrites them.
 //!
 //! # The simpler form
 //!
-//! Gathers from memory take 1.4 to 1.6 times as long for triangles. Copies of runs, as larger
-//! patches have them: `character` wrote at 0.17 of a fill, and writes at 0.24 with permutes and the
-//! stages' order of `kernels/emit` (`docs/experiments.md`).
+//! Gathers from memory take 1.4 to 1.6 times as long for triangles. With copies of runs, as for
+//! larger patches, `character` was written at 0.17 of a fill; with permutes and the stages' order
+//! of `kernels/emit` it is written at 0.24 (`docs/experiments.md`).
 
 use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, RINGS, TERMS, Term};
 use super::{CompactPoints, POINTS_AT_ONCE};
@@ -70,10 +69,10 @@ use core::arch::x86_64::{
 use tess_core::Domain;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
 
-/// As many points are made of any patch: most compact ones have no more.
+/// Points are made in multiples of this number. Most compact patches have at most this many.
 const LEAST: usize = 32;
 
-/// Set in a code whose location is of a quad's inside factor: the fifth or sixth.
+/// The bit that is set in a code if the location belongs to a quad's inside factor, number 4 or 5.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,
@@ -81,13 +80,13 @@ const LEAST: usize = 32;
 )]
 const INSIDE: i32 = (Domain::Quad.outer_factors() * HALF_EDGE) as i32 * (1 << LOCATION);
 
-/// Takes [`emit`] to where it is needed: a closure that calls it.
+/// A closure that calls [`emit`], to be passed to functions that need [`CompactPoints`].
 pub(crate) struct Permutes<F>(pub(crate) F);
 
 impl<W, F: Fn(PacketPatch<'_>, &[Code], &mut W)> CompactPoints<W> for Permutes<F> {
     const LONG_BLOCKS: bool = true;
 
-    /// The code itself.
+    /// Returns the code itself.
     fn kept(_: Domain, code: u16) -> u16 {
         code
     }
@@ -98,7 +97,8 @@ impl<W, F: Fn(PacketPatch<'_>, &[Code], &mut W)> CompactPoints<W> for Permutes<F
     }
 }
 
-/// How sixteen terms are made.
+/// How to make sixteen terms: the lane of each term's location, its constant, and masks of the
+/// lanes that add or subtract `perpendicular` and `shift`.
 #[derive(Clone, Copy)]
 struct Recipe {
     location: [u32; 16],
@@ -109,7 +109,7 @@ struct Recipe {
     less_shift: u16,
 }
 
-/// All terms, in the order of their numbers.
+/// The recipes of all terms, in the order of their numbers.
 #[expect(clippy::cast_possible_truncation, reason = "numbers of lanes")]
 const RECIPES: [Recipe; 2] = {
     let mut all = [Recipe {
@@ -176,7 +176,7 @@ with_avx512! {
         }
     }
 
-    /// The codes of eight points, their signs extended.
+    /// The codes of eight points, with their signs extended.
     fn extended(codes: &[Code; POINTS_AT_ONCE]) -> __m512i {
         _mm512_cvtepi16_epi32(must_cast::<_, __m256i>(*codes))
     }
@@ -205,7 +205,8 @@ with_avx512! {
         [half_of_terms::<0>(inside), half_of_terms::<1>(inside)]
     }
 
-    /// One vector of terms: `constant`, plus and minus what the masks keep of two numbers.
+    /// One vector of terms: `constant`, with `perpendicular` and `shift` added and subtracted in
+    /// the lanes of the masks.
     fn half_of_terms<const HALF_OF: usize>(inside: __m512i) -> __m512i {
         let recipe = const { &RECIPES[HALF_OF] };
         let location = _mm512_permutexvar_epi32(must_cast(recipe.location), inside);

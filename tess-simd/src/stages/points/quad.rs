@@ -16,7 +16,7 @@ const V: usize = 5;
 pub(super) enum Coordinate<H> {
     /// The same for all of them.
     Held(H),
-    /// The locations from here on, one for each point.
+    /// The locations that begin here, one for each point.
     Along(AxisPoint),
 }
 
@@ -25,11 +25,12 @@ pub(super) enum Coordinate<H> {
 pub(super) struct AxisPoint {
     pub(super) factor: usize,
     pub(super) point: u32,
-    /// Whether it is seen from the other end: its location is `ONE` minus the one in the table.
+    /// Whether the point is seen from the other end: its location is `ONE` minus the one in the
+    /// table.
     pub(super) mirrored: bool,
 }
 
-/// The locations from point `point` of a factor on.
+/// The locations of a factor, beginning with point `point`.
 pub(super) const fn along<H>(factor: usize, point: u32) -> Coordinate<H> {
     Coordinate::Along(AxisPoint { factor, point, mirrored: false })
 }
@@ -39,22 +40,22 @@ pub(super) const fn back<H>(factor: usize, point: u32) -> Coordinate<H> {
     Coordinate::Along(AxisPoint { factor, point, mirrored: true })
 }
 
-/// Takes the runs of points that a quad has, in order.
+/// Receives the runs of a quad's points, in order.
 pub(super) trait QuadWalker {
-    /// A coordinate that all points of a run have.
+    /// A coordinate that all points of a run share.
     type Held: Copy;
 
-    /// A 16.16 number that every patch has: 0, `ONE` or `HALF`.
+    /// A 16.16 number that is the same in every patch: 0 or `ONE`.
     fn fixed(&self, number: u32) -> Coordinate<Self::Held>;
 
     /// The location of a point.
     fn at(&self, point: AxisPoint) -> Coordinate<Self::Held>;
 
-    /// Takes a run of `length` points. One coordinate is held.
+    /// Receives a run of `length` points. One coordinate is held.
     fn run(&mut self, length: u32, u: Coordinate<Self::Held>, v: Coordinate<Self::Held>);
 }
 
-/// Takes a walker over the runs of a patch.
+/// Sends the runs of a patch to `walker`, in order.
 #[inline(always)]
 pub(super) fn walk(&[u0, v0, u1, v1, n_u, n_v]: &EdgePoints, walker: &mut impl QuadWalker) {
     let [zero, one] = [0, ONE].map(|number| walker.fixed(number));
@@ -122,7 +123,7 @@ impl<W: PointWriter> QuadWalker for Runs<'_, W> {
     }
 }
 
-/// A location, perhaps seen from the other end.
+/// A location, or `ONE` minus it if it is seen from the other end.
 #[inline(always)]
 const fn seen(x: u32, mirrored: bool) -> u32 {
     if mirrored { ONE.wrapping_sub(x) } else { x }

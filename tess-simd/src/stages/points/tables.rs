@@ -10,15 +10,15 @@ const COUNTS: usize = 66;
 /// A table for each factor, then one for each point count.
 const SLOTS: usize = MAX_FACTORS + COUNTS;
 
-/// The tables of locations that points are read from.
+/// The tables from which the locations of points are read. Up to 32 KiB.
 ///
-/// Where factors are integers there is a table for each point count; otherwise one for each factor
-/// of a patch, computed again only where that factor differs from the patch before. Up to 32 KiB.
+/// With integer factors there is a table for each point count. Otherwise there is one for each
+/// factor of a patch, computed again only if the factor differs from the previous patch's.
 #[derive(Clone, Debug)]
 pub(crate) struct LocationTables {
-    /// Each table's key: a point count or [`PacketPatch::key`]; 0 at first.
+    /// Each table's key: a point count or [`PacketPatch::key`]; 0 if the table is unused.
     keys: [u32; SLOTS],
-    /// As many as slots are in use; empty at first.
+    /// The tables up to the last slot in use.
     tables: Vec<Locations>,
 }
 
@@ -28,17 +28,17 @@ pub(crate) type FactorLocations<'a> = [&'a Locations; MAX_FACTORS];
 impl LocationTables {
     pub(crate) const EMPTY: Self = Self { keys: [0; SLOTS], tables: Vec::new() };
 
-    /// Bytes of memory that they take on the heap.
+    /// Bytes of heap memory.
     pub(crate) const fn bytes(&self) -> usize {
         self.tables.capacity() * size_of::<Locations>()
     }
 
-    /// Takes the memory of all tables.
+    /// Allocates the memory of all tables.
     pub(crate) fn reserve(&mut self) {
         self.tables.resize(SLOTS, Locations::EMPTY);
     }
 
-    /// The locations of a patch, computed where they are not there yet.
+    /// The locations of a patch, computed if they are not in a table yet.
     #[inline(always)]
     pub(crate) fn of(&mut self, patch: PacketPatch<'_>) -> FactorLocations<'_> {
         let integer = patch.integer();

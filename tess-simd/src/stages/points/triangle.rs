@@ -6,25 +6,25 @@ use crate::data::lanes::{EdgePoints, is_odd};
 use crate::data::point_writer::PointWriter;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
 
-/// The points of one edge of a ring: all but its last.
+/// The points of one edge of a ring, without the last one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
     pub(super) edge: usize,
-    /// The ring, and the point of the factor that it begins with.
+    /// The ring's number, which is also the number of the factor's point that the run begins with.
     pub(super) ring: u32,
-    /// The factor whose locations it takes.
+    /// The factor that the locations belong to.
     pub(super) factor: usize,
     pub(super) length: u32,
 }
 
-/// Takes the runs of points that a triangle has, in order.
+/// Receives the runs of a triangle's points, in order.
 pub(super) trait TriangleWalker {
     fn run(&mut self, run: Run);
-    /// Takes the point in the middle.
+    /// Receives the point in the middle.
     fn centre(&mut self);
 }
 
-/// How far a ring is inside, in two coordinates.
+/// The distance of a ring from the patch's edges, in two coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inset {
     /// The coordinate that is the same along an edge of the ring.
@@ -34,8 +34,8 @@ pub(super) struct Inset {
 }
 
 impl Inset {
-    /// The inset of the ring that has this location in the inside factor; none of the outer ring,
-    /// 0. Unspecified for a number that is no location of half an edge.
+    /// The inset of the ring whose location along the inside factor is `location`: 0 for the outer
+    /// ring. Unspecified for a number that is not a location of half an edge.
     #[inline(always)]
     pub(super) const fn new(location: u32) -> Self {
         let perpendicular = location.wrapping_mul(TWO_THIRDS).wrapping_add(HALF) >> 16;
@@ -43,7 +43,7 @@ impl Inset {
     }
 }
 
-/// Takes a walker over the runs of a patch.
+/// Sends the runs of a patch to `walker`, in order.
 #[inline(always)]
 pub(super) fn walk(&[u0, v0, w0, inside, ..]: &EdgePoints, walker: &mut impl TriangleWalker) {
     for (edge, points) in [u0, v0, w0].into_iter().enumerate() {

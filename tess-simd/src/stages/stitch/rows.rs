@@ -4,16 +4,16 @@ use super::step_code::{self, CODES_AT_ONCE, NOWHERE};
 use crate::data::format::IndexFormat;
 use crate::data::writer::Writer;
 
-/// The codes of one stitch, padded so that whole blocks of them can be read, and how many of them
-/// count.
+/// The codes of one stitch, padded so that whole blocks of them can be read, and their number
+/// without the padding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Codes<'a> {
     pub(crate) codes: &'a [i8],
     pub(crate) length: usize,
 }
 
-/// The two sides of a stitch. Entry `k` is `first + k` modulo 2^32, except that the inner row may
-/// run down and that an entry of each row may be replaced by another index.
+/// The two sides of a stitch. Entry `k` of a row is its first index plus `k`, modulo 2^32. The
+/// inner row may run down instead, and one entry of each row may be replaced by another index.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rows {
     /// First index of the outer row.
@@ -28,7 +28,7 @@ pub(crate) struct Rows {
     pub(crate) inner_replaced: Option<Replaced>,
 }
 
-/// Entry `at` of a row is `index` instead.
+/// A replaced entry: entry `at` of a row is `index`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Replaced {
     pub(crate) at: u32,
@@ -54,8 +54,8 @@ impl Codes<'_> {
     /// Emits the stitch between any two rows.
     #[inline(always)]
     pub(crate) fn emit<I: IndexFormat>(self, rows: &Rows, out: &mut Writer<'_, I>) {
-        // Running down, entry k is first - k = first + 1 + !k = (first - 127) + !(code), as ~k is
-        // ~(code + 128) = ~code - 128.
+        // In a row that runs down, entry k is first - k = first + 1 + !k = (first - 127) + !code,
+        // because !k = !(code + 128) = !code - 128.
         let (flip, inner) = if rows.descending {
             (I::from_code(-1), rows.inner.wrapping_sub(127))
         } else {

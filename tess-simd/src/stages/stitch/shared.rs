@@ -1,8 +1,8 @@
-//! Stitch tables that tessellators share: they follow from the configuration alone.
+//! Stitch tables that tessellators share, because they depend only on the configuration.
 //!
-//! With the standard library each is made once for the process, by the first tessellator that asks
-//! for it. Without it nothing in safe code can wait for another thread's tables, so a tessellator
-//! makes its own and shares them with its clones.
+//! With the standard library, each configuration's tables are made once per process, by the first
+//! tessellator that needs them. Without it, safe code has no way to wait for another thread's
+//! tables, so a tessellator makes its own and shares them with its clones.
 
 use super::Stitches;
 use core::ops::Deref;
@@ -18,7 +18,7 @@ type Tables = &'static Stitches;
 type Tables = alloc::sync::Arc<Stitches>;
 
 impl SharedStitches {
-    /// The tables of a configuration, made if they are not there yet.
+    /// The tables of a configuration, made if they do not exist yet.
     #[cfg(feature = "std")]
     pub(crate) fn of(config: Config) -> Self {
         use std::sync::OnceLock;
@@ -50,8 +50,8 @@ impl SharedStitches {
         Self(alloc::sync::Arc::new(Stitches::new(config)))
     }
 
-    /// Bytes of the tables and of the counters of their owners if they belong to this tessellator
-    /// and its clones, 0 if to the process.
+    /// Bytes of the tables and their reference counts if they belong to this tessellator and its
+    /// clones; 0 if they belong to the process.
     pub(crate) fn bytes(&self) -> usize {
         const COUNTERS: usize = 2 * size_of::<usize>();
         if cfg!(feature = "std") { 0 } else { COUNTERS + self.0.bytes() }

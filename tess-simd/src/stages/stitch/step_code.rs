@@ -6,10 +6,10 @@
 /// Codes turned into indices at a time; tables are padded to it.
 pub(crate) const CODES_AT_ONCE: usize = 32;
 
-/// Added to a position of the inner row.
+/// The number that is added to an entry of the inner row.
 const INNER: i8 = i8::MIN;
 
-/// No position of any row.
+/// A code that no entry of any row has.
 pub(crate) const NOWHERE: i8 = i8::MAX;
 
 /// The code of an entry of the outer row, at most 64.

@@ -8,36 +8,37 @@ use tess_core::{Config, OutputPrimitive, Partitioning, Side, Step};
 
 /// The most points of an edge.
 const MAX_POINTS: u32 = 65;
-/// That, and one more.
+/// Length of a table by point count.
 const COUNTS: usize = MAX_POINTS as usize + 1;
-/// The most points of an inner row between two rings, and one more.
+/// Length of a table by the points of an inner row between two rings, of which there are at most
+/// 61.
 const RINGS: usize = 62;
-/// The most quads of a centre strip.
+/// No centre strip has more quads.
 const MAX_STRIP: u32 = 63;
-/// That, and one more.
+/// Length of a table by quads.
 const STRIPS: usize = MAX_STRIP as usize + 1;
 
-/// Where a stitch's codes begin, and how many there are without the padding.
+/// The place of a stitch's codes, and their number without the padding.
 #[derive(Clone, Copy, Debug, Default)]
 struct Table {
     first: u32,
     length: u32,
 }
 
-/// Every stitch that a configuration can ask for.
+/// Every stitch that a configuration can need.
 ///
-/// About 870 KiB for integer partitionings and 200 to 290 KiB for fractional ones; configurations
+/// About 870 KiB for integer partitionings and 200 to 290 KiB for fractional ones. Configurations
 /// that make no triangles have empty tables.
 #[derive(Clone, Debug)]
 pub(crate) struct Stitches {
     codes: Vec<i8>,
-    /// By the point counts of the outer edge and of the inside factor.
+    /// Indexed by the point counts of the outer edge and of the inside factor: [`transition`].
     transitions: Vec<Table>,
-    /// By the point count of the inner row.
+    /// Indexed by the point count of the inner row.
     rings: [Table; RINGS],
-    /// The longest strip of forward diagonals; shorter ones begin like it.
+    /// The longest strip of forward diagonals; shorter strips are its beginning.
     forward: Table,
-    /// The strips whose middle diagonal is not forward, by their number of quads.
+    /// The strips whose middle diagonal is not forward, indexed by their number of quads.
     except_middle: [Table; STRIPS],
 }
 
@@ -78,8 +79,7 @@ impl Stitches {
         self.codes.shrink_to_fit();
     }
 
-    /// Adds the codes of the stitch whose steps `stitch` sends, padded so that reading it in whole
-    /// blocks stays within it.
+    /// Adds the codes of the stitch whose steps `stitch` sends, padded to whole blocks.
     fn add(&mut self, output: OutputPrimitive, stitch: impl FnOnce(&mut dyn FnMut(Step))) -> Table {
         let first = self.codes.len();
         stitch(&mut |step| self.codes.extend(codes(step, output)));
@@ -129,13 +129,13 @@ impl Stitches {
     }
 }
 
-/// The number of a transition's table.
+/// The index of a transition's table.
 #[inline(always)]
 const fn transition(outer: u32, inside: u32) -> usize {
     outer as usize * COUNTS + inside as usize
 }
 
-/// Whether an edge can have this many points: its segments are one fewer.
+/// Whether an edge can have this many points, which is one more than its segments.
 const fn can_have(partitioning: Partitioning, points: u32) -> bool {
     match partitioning {
         Partitioning::Integer | Partitioning::Pow2 => true,
@@ -157,7 +157,7 @@ fn codes(step: Step, output: OutputPrimitive) -> [i8; 3] {
 mod tests {
     use super::*;
 
-    /// The figures that [`Stitches`], [`Tessellator`](crate::Tessellator) and the README give.
+    /// The sizes that [`Stitches`], [`Tessellator`](crate::Tessellator) and the README state.
     #[test]
     fn tables_take_what_is_said() {
         for partitioning in Partitioning::ALL {

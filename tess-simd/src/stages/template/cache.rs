@@ -1,40 +1,40 @@
-//! Where templates are found: topologies, in sets of four, and the places of their indices and
-//! points.
+//! The search for templates: sets of four topologies, with the places of their indices and points.
 //!
 //! `template.rs` has the picture and the worked patch.
 
 use super::room::TemplateRoom;
 use alloc::vec::Vec;
 
-/// Sets at first, and by how much they become more.
+/// The first number of sets, and the factor by which it grows.
 const FIRST_SETS: usize = 32;
 const MORE_SETS: usize = 8;
-/// Slots of a set. Topologies that find none free replace each other.
+/// Slots of a set. A topology that finds no free slot replaces another.
 const WAYS: usize = 4;
 
-/// At most `SETS` sets of topologies, and room for so many indices and points of their templates.
+/// At most `SETS` sets of topologies, with room for `INDICES` indices and `POINTS` points of their
+/// templates.
 #[derive(Clone, Debug)]
 pub(super) struct Cache<I, P, const SETS: usize, const INDICES: usize, const POINTS: usize> {
-    /// None before the first template, then a power of two.
+    /// Empty before the first template; afterwards a power of two of sets.
     sets: Vec<Set>,
-    /// Bits of a topology's number that say nothing about its set.
+    /// The number of low bits of [`number`] that are not part of the set's number.
     other_bits: u32,
-    /// The slot that is filled next, of any set that is full.
+    /// The slot that is replaced next if a set is full.
     way: usize,
     pub(super) indices: TemplateRoom<I, INDICES>,
     pub(super) points: TemplateRoom<P, POINTS>,
 }
 
-/// Where the templates of some topologies begin.
+/// The starts of up to four topologies' templates.
 #[derive(Clone, Copy, Debug)]
 struct Set {
-    /// See [`PacketPatch::topology`](crate::stages::packet::PacketPatch::topology); 0 if there is
-    /// none.
+    /// See [`PacketPatch::topology`](crate::stages::packet::PacketPatch::topology); 0 if the slot
+    /// is free.
     topologies: [u64; WAYS],
     starts: [Start; WAYS],
 }
 
-/// Where a template begins.
+/// The place where a template begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Start {
     point: u16,
@@ -46,16 +46,16 @@ pub(crate) struct Start {
 pub(super) const INDEX_STEP: usize = 4;
 
 impl Start {
-    /// No template begins here.
+    /// The start of no template.
     pub(super) const NONE: Self = Self { point: u16::MAX, index: u16::MAX };
 }
 
 /// One patch's template.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Template<'a, I, P> {
-    /// Indices counted from the patch's first point, and then unspecified ones.
+    /// Indices counted from the patch's first point, followed by unspecified elements.
     pub(crate) indices: &'a [I],
-    /// Points, and then unspecified ones.
+    /// Points, followed by unspecified elements.
     pub(crate) points: &'a [P],
 }
 
@@ -73,7 +73,7 @@ impl Set {
         found.trailing_zeros() as usize
     }
 
-    /// A slot that no topology has.
+    /// The first slot that no topology has.
     fn free(&self) -> Option<usize> {
         self.topologies.iter().position(|&topology| topology == 0)
     }
@@ -97,12 +97,12 @@ where
         }
     }
 
-    /// Bytes of memory that they take on the heap.
+    /// Bytes of heap memory.
     pub(super) const fn bytes(&self) -> usize {
         self.sets.capacity() * size_of::<Set>() + self.indices.bytes() + self.points.bytes()
     }
 
-    /// Takes all the memory that they may ever need.
+    /// Allocates all the memory that the cache may ever need.
     pub(super) fn reserve(&mut self) {
         while self.sets.len() < SETS {
             self.make_sets();
@@ -111,8 +111,8 @@ where
         self.points.reserve();
     }
 
-    /// Makes room for templates of these sizes; if there is none, all others are forgotten. Returns
-    /// whether they were.
+    /// Makes room for templates of these sizes. If there is none, all templates are forgotten.
+    /// Returns whether they were.
     #[inline(always)]
     pub(super) fn make_room(&mut self, points: usize, indices: usize) -> bool {
         let full = !(self.indices.fits(indices) && self.points.fits(points));
@@ -122,7 +122,7 @@ where
         full
     }
 
-    /// Whether there are more sets than at first.
+    /// Whether the number of sets has grown.
     pub(super) const fn has_many(&self) -> bool {
         self.sets.len() > FIRST_SETS
     }
@@ -134,21 +134,21 @@ where
         self.points.clear();
     }
 
-    /// Where a topology's template begins, if it has one.
+    /// The start of a topology's template, if it has one.
     #[inline(always)]
     pub(super) fn find(&self, topology: u64) -> Option<Start> {
         let set = self.sets.get(self.set(topology))?;
         set.starts.get(set.find(topology)).copied()
     }
 
-    /// The set of a topology, if there are sets.
+    /// The number of a topology's set.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "the upper eleven bits at most")]
     const fn set(&self, topology: u64) -> usize {
         (number(topology) >> self.other_bits) as usize
     }
 
-    /// The template of a `start`, which is valid only if it was found after the last `make_room`.
+    /// The template at a start that was found after the last `make_room`.
     #[inline(always)]
     pub(super) fn get(&self, Start { point, index }: Start) -> Template<'_, I, P> {
         Template {
@@ -157,7 +157,7 @@ where
         }
     }
 
-    /// Makes the first free points and indices the template of a topology, which has none.
+    /// Makes the first free points and indices the template of a topology that has none.
     #[expect(clippy::cast_possible_truncation, reason = "at most 64 Ki places of either kind")]
     pub(super) fn add(&mut self, topology: u64, points: usize, indices: usize) -> Start {
         let index = self.indices.take(indices.next_multiple_of(INDEX_STEP)) / INDEX_STEP;
@@ -166,8 +166,7 @@ where
         start
     }
 
-    /// Enters a topology that has no slot. There are more sets afterwards if its set is full and
-    /// there can be.
+    /// Enters a topology that has no slot. If its set is full, adds sets, up to the most.
     fn enter(&mut self, topology: u64, start: Start) {
         let free = loop {
             let set = self.sets.get(self.set(topology));
@@ -184,7 +183,7 @@ where
         self.sets[set].starts[way] = start;
     }
 
-    /// Makes the first sets, or more of them, and enters the topologies that there are.
+    /// Makes the first sets, or more of them, and enters the existing topologies again.
     fn make_sets(&mut self) {
         let sets = (self.sets.len() * MORE_SETS).max(FIRST_SETS);
         let before = core::mem::replace(&mut self.sets, alloc::vec![Set::EMPTY; sets]);
@@ -198,10 +197,10 @@ where
     }
 }
 
-/// The number of which a topology's set is the upper bits: a product with 2^64 over the golden
-/// ratio, into which the outer factors' bits are folded first. Of 14 to 43 bits, a fold by 24
-/// leaves the fewest topologies without a slot: at most 61 of 4096 quads or triangles of small
-/// factors, where 21 bits left 481.
+/// The number whose upper bits are a topology's set. The bits of the outer factors are folded down,
+/// then the result is multiplied by 2^64 over the golden ratio. Of folds by 14 to 43 bits, a fold
+/// by 24 leaves the fewest topologies without a slot: at most 61 of 4096 quads or triangles with
+/// small factors, where 21 bits left 481.
 #[inline(always)]
 const fn number(topology: u64) -> u64 {
     (topology ^ (topology >> 24)).wrapping_mul(0x9E37_79B9_7F4A_7C15)
@@ -212,7 +211,7 @@ mod tests {
     use super::*;
     use crate::tour;
 
-    /// The sets at the head of `template.rs`.
+    /// The sets in the head of `template.rs`.
     #[test]
     fn the_worked_patch() {
         let topology = tour::packet().patch(0).topology();

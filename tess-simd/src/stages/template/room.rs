@@ -1,11 +1,11 @@
-//! Where templates lie: one after another, in memory that grows with them.
+//! The memory of templates: one after another, growing with them.
 
 use alloc::vec::Vec;
 
 /// Elements that can be read after the last template, so that whole blocks are copied.
 pub(super) const PADDING: usize = 128;
 
-/// Elements that the first template takes memory for, and as many again are taken as there are.
+/// Elements that are allocated for the first template. Later the memory doubles.
 const LEAST: usize = 1024;
 
 /// The indices or the points of all templates, at most `MOST` elements with the padding.
@@ -21,12 +21,12 @@ impl<T: Copy + Default, const MOST: usize> TemplateRoom<T, MOST> {
         Self { all: Vec::new(), used: 0 }
     }
 
-    /// Bytes of memory that it takes on the heap.
+    /// Bytes of heap memory.
     pub(super) const fn bytes(&self) -> usize {
         self.all.capacity() * size_of::<T>()
     }
 
-    /// Takes the memory of all elements.
+    /// Allocates the memory of all elements.
     pub(super) fn reserve(&mut self) {
         self.grow(MOST);
     }
@@ -48,8 +48,7 @@ impl<T: Copy + Default, const MOST: usize> TemplateRoom<T, MOST> {
         self.used = 0;
     }
 
-    /// The free elements, at least this many and the padding, for which there must be room
-    /// ([`Self::fits`]).
+    /// The free elements: at least this many, plus the padding. They must fit ([`Self::fits`]).
     pub(super) fn free(&mut self, elements: usize) -> &mut [T] {
         let needed = self.used + elements + PADDING;
         debug_assert!(needed <= MOST, "{needed} elements do not fit");
@@ -59,14 +58,14 @@ impl<T: Copy + Default, const MOST: usize> TemplateRoom<T, MOST> {
         &mut self.all[self.used..]
     }
 
-    /// Makes the first free elements part of the templates; returns the place of the first.
+    /// Marks the first `elements` free elements as used; returns the place of the first.
     pub(super) const fn take(&mut self, elements: usize) -> usize {
         let first = self.used;
         self.used += elements;
         first
     }
 
-    /// The elements from a place on.
+    /// The elements that begin at a place.
     #[inline(always)]
     pub(super) fn from(&self, place: usize) -> &[T] {
         self.all.get(place..).unwrap_or_default()
@@ -82,7 +81,7 @@ impl<T: Copy + Default, const MOST: usize> TemplateRoom<T, MOST> {
 mod tests {
     use super::*;
 
-    /// Memory comes with the first elements, doubles, and ends where the room does.
+    /// Memory is allocated with the first elements, doubles, and stops at the room's limit.
     #[test]
     fn memory_follows_the_elements() {
         let mut room = TemplateRoom::<u16, 4000>::new();
