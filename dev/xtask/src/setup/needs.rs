@@ -74,7 +74,6 @@ pub(crate) const SYSTEMC: Need = Need {
 };
 
 /// Synthesis of the circuit, and what proofs are made of.
-#[cfg(feature = "kit")]
 pub(crate) const YOSYS: Need = Need {
     what: "Yosys (synthesis and proofs of the circuit)",
     packages: &["yosys"],
@@ -82,7 +81,6 @@ pub(crate) const YOSYS: Need = Need {
 };
 
 /// The library of cells that a netlist of the circuit is made of.
-#[cfg(feature = "kit")]
 pub(crate) const CELLS: Need = Need {
     what: "the OSU 0.18 um cells (the circuit as gates)",
     packages: &["qflow-tech-osu018"],
