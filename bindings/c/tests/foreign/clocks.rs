@@ -28,8 +28,8 @@ const HEAD: &str = "\
 const BETWEEN: u64 = 8;
 const LATENCY: u64 = 30;
 
-/// Prints latencies, then a row of a table for each workload; docs/rtl.md has both. No stream stands
-/// still within a patch, and no bar is missed.
+/// Prints latencies, then a row of a table for each workload; docs/rtl.md has both. No stream
+/// stands still within a patch, and no bar is missed.
 #[expect(clippy::print_stdout, reason = "the rows of the document")]
 pub(crate) fn are_those_of_the_document() -> Result<(), Failed> {
     let document = std::fs::read_to_string(repository().join("docs/rtl.md"))?;
