@@ -6,13 +6,14 @@
 
 mod foreign {
     pub(crate) mod c;
+    pub(crate) mod clocks;
     pub(crate) mod mesa;
     pub(crate) mod rtl;
     pub(crate) mod tools;
     pub(crate) mod uvm;
 }
 
-use foreign::{c, mesa, rtl, tools, uvm};
+use foreign::{c, clocks, mesa, rtl, tools, uvm};
 use libtest_mimic::{Arguments, Failed, Trial};
 
 type Test = fn() -> Result<(), Failed>;
@@ -33,6 +34,11 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("mesa_draws_equal_model", &["cc"], mesa::draws_equal_model),
     ("rules_example_judges_the_model", &["cc"], c::rules_example_judges_the_model),
     ("rtl_equals_model", &["c++", "make", "verilator"], rtl::equals_model),
+    (
+        "rtl_clocks_are_those_of_the_document",
+        &["c++", "make", "verilator"],
+        clocks::are_those_of_the_document,
+    ),
     ("rtl_faults_are_caught", &["c++", "make", "verilator"], rtl::faults_are_caught),
     ("rtl_stages_equal_model", &["c++", "make", "verilator"], rtl::stages_equal_model),
     ("rtl_stages_faults_are_caught", &["c++", "make", "verilator"], rtl::stages_faults_are_caught),

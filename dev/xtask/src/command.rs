@@ -123,16 +123,18 @@ pub(crate) fn output(command: &mut Command) -> Result<String, String> {
     said(command.stderr(Stdio::inherit()))
 }
 
-/// Does what [`output()`] does, but discards the standard error.
+/// As [`output()`], with the standard error only in the message of a failure.
 pub(crate) fn quiet_output(command: &mut Command) -> Result<String, String> {
-    said(command.stderr(Stdio::null()))
+    said(command.stderr(Stdio::piped()))
 }
 
 fn said(command: &mut Command) -> Result<String, String> {
     let output =
         command.output().map_err(|error| format!("cannot run `{}`: {error}", shown(command)))?;
     if !output.status.success() {
-        return Err(format!("`{}` ended with {}", shown(command), output.status));
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        let message = format!("`{}` ended with {}\n{stderr}", shown(command), output.status);
+        return Err(message.trim_end().to_owned());
     }
     String::from_utf8(output.stdout).map_err(|error| format!("`{}`: {error}", shown(command)))
 }

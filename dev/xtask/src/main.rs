@@ -7,7 +7,7 @@
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! scripts in Python          script (checks of texts; records of measurements, tables and charts)
 //! for users                  install (header, libraries, tess.pc), dist (a release's archives), examples (of tess-wgpu)
-//! with the kit compiled in   rtl (the circuit: bench, stages, faults, proofs, cost)
+//! the circuit                rtl (ports, tests of bindings/c, proofs, costs; with the kit long comparisons)
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
 //! ```
 //!
@@ -33,7 +33,6 @@ mod packages;
 mod ports;
 mod publish;
 mod python;
-#[cfg(feature = "kit")]
 mod rtl;
 mod script;
 mod setup;
@@ -173,7 +172,8 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["integrations"] => after_setup(&integrations::run),
         ["rtl", "--plant", folder] => mutants::plant_in_circuit(folder, None),
         ["rtl", "--plant", folder, number] => mutants::plant_in_circuit(folder, Some(number)),
-        ["rtl", ..] => return with_kit(words),
+        ["rtl", "--long"] => return with_kit(words),
+        ["rtl", ..] => return rtl::run(words),
         ["install", "--prefix", folder] => install::run(folder, None),
         ["install", "--prefix", folder, "--target", target] => install::run(folder, Some(target)),
         ["mesa", ref words @ ..] => mesa::run(words),

@@ -3,28 +3,31 @@
 
 mod bench;
 mod budgets;
-mod clocks;
 mod cost;
 mod gates;
+#[cfg(feature = "kit")]
 mod long;
 mod names;
 mod place;
 mod ports;
 mod proofs;
+#[cfg(feature = "kit")]
 mod stages;
 
 use crate::command;
 use crate::setup;
-use bench::{Bench, Design};
-use std::fmt::Write as _;
 use std::path::PathBuf;
-use tess_verify::Case;
+
+/// The arguments of `cargo` that build the tests of the C interface, and with them the library that
+/// benches link. Only this package: the workspace has twice as many to compile.
+const CAPI: &str = "test --package tess-capi --all-features --test foreign";
 
 /// Runs the command; `None` if it does not exist.
 pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
     Some(match *words {
         ["rtl"] => compare(),
-        ["rtl", "--long"] => Bench::built(Design::Sources).and_then(|bench| long::run(&bench)),
+        #[cfg(feature = "kit")]
+        ["rtl", "--long"] => long::run(),
         ["rtl", "--prove"] => proofs::run().and_then(|()| gates::run()),
         ["rtl", "--synth"] => cost::run(),
         ["rtl", "--place"] => place::run(),
@@ -33,35 +36,22 @@ pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
     })
 }
 
-/// Checks the ports, compares the circuit with the model and plants its faults, as the tests of the
-/// C interface do, and finally counts clocks.
+/// Checks the ports, then runs the circuit's tests of the C interface: comparisons with the model,
+/// planted faults, clocks.
 ///
 /// # Errors
-/// A tool is missing, the lint warns, an output depends on an input, an element differs, or a
-/// planted fault is not detected.
+/// A tool is missing, the lint warns, an output depends on an input, an element or a number of
+/// clocks differs, or a planted fault is not found.
 fn compare() -> Result<(), String> {
     setup::provide(&[setup::VERILATOR, setup::SYSTEMC, setup::YOSYS])?;
     ports::run()?;
-    // Only this package is built, because the workspace has twice as much to compile. A test fails
-    // if its tool is missing.
-    let mut tests = command::cargo(bench::CAPI);
-    tests.args(["--", "rtl_"]).env("TESS_CAPI_BUILD", bench::CAPI).env("CI", "1");
-    command::run(&mut tests)?;
-    clocks::run(&Bench::built(Design::Sources)?)
+    // A test whose tool is missing fails.
+    let mut tests = command::cargo(CAPI);
+    tests.args(["--", "rtl_"]).env("TESS_CAPI_BUILD", CAPI).env("CI", "1");
+    command::run(&mut tests)
 }
 
 /// The folder of the circuit.
 fn sources() -> PathBuf {
     command::workspace().join("rtl")
-}
-
-/// Cases in the form that the bench reads, one per line.
-fn lines(cases: &[Case]) -> String {
-    let mut text = String::new();
-    for case in cases {
-        let line = case.to_string();
-        // Writing to a String does not fail.
-        _ = writeln!(text, "{}", line.strip_prefix("case ").unwrap_or(&line));
-    }
-    text
 }

@@ -3,9 +3,7 @@
 mod needs;
 
 use crate::command;
-#[cfg(feature = "kit")]
-pub(crate) use needs::{CELLS, SYSTEMC, VERILATOR, YOSYS};
-pub(crate) use needs::{ICARUS, NODE, PYTHON};
+pub(crate) use needs::{CELLS, ICARUS, NODE, PYTHON, SYSTEMC, VERILATOR, YOSYS};
 use std::path::Path;
 use std::process::{Command, Stdio};
 

@@ -1,5 +1,6 @@
 //! The circuit in `rtl/` against the model, in Verilator, with the script that its users run.
 
+use super::clocks::isolines;
 use super::tools::{build_folder, crate_folder, libraries, output, repository, run, text};
 use libtest_mimic::Failed;
 use std::fmt::Write as _;
@@ -10,6 +11,7 @@ use std::time::Instant;
 use tess_testkit::circuit;
 use tess_testkit::listed::ListedFault;
 use tess_testkit::verdict::BenchVerdict;
+use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection};
 
 /// Random patches that find every fault, and those by whose clocks the slow ones are found.
@@ -17,9 +19,6 @@ const ALL: [&str; 4] = ["+random=20000", "+gaps", "+resets=200", POWER_UP];
 const TIMED: [&str; 1] = ["+random=500"];
 /// Registers without reset hold anything at first.
 const POWER_UP: &str = "+verilator+rand+reset+2";
-/// Isolines, back to back: random patches have too few in a row to show a clock that is lost
-/// between them.
-const ISOLINE: &str = "isoline integer line ruler 40800000 41000000\n";
 
 /// The script that builds and runs the benches.
 fn script() -> Result<Command, String> {
@@ -29,7 +28,7 @@ fn script() -> Result<Command, String> {
 }
 
 /// Lints the design and builds the bench, once.
-fn bench() -> Result<PathBuf, String> {
+pub(crate) fn bench() -> Result<PathBuf, String> {
     static BUILT: OnceLock<Result<PathBuf, String>> = OnceLock::new();
     BUILT.get_or_init(build).clone()
 }
@@ -42,22 +41,26 @@ fn build() -> Result<PathBuf, String> {
     Ok(folder.join("Vtb_tess"))
 }
 
-/// Level 1, then random patches, with random gaps and back-pressure.
-pub(crate) fn equals_model() -> Result<(), Failed> {
+/// Writes cases to a file, one a line; the argument that has the bench read it.
+pub(crate) fn stimuli(name: &str, cases: &[Case]) -> Result<String, Failed> {
     let mut lines = String::new();
-    let mut count = 20_000;
-    for case in Selection::level(GenLevel::One, 1).cases() {
+    for case in cases {
         let case = case.to_string();
         writeln!(lines, "{}", case.strip_prefix("case ").ok_or("a case line")?)?;
-        count += 1;
     }
-    let file = build_folder().join("rtl-level-1.txt");
+    let file = build_folder().join(format!("rtl-{name}.txt"));
     std::fs::write(&file, lines)?;
-    let stimuli = format!("+stimuli={}", file.display());
+    Ok(format!("+stimuli={}", file.display()))
+}
+
+/// Level 1, then random patches, with random gaps and back-pressure.
+pub(crate) fn equals_model() -> Result<(), Failed> {
+    let cases: Vec<Case> = Selection::level(GenLevel::One, 1).cases().collect();
+    let stimuli = stimuli("level-1", &cases)?;
     let mut bench = Command::new(bench()?);
     bench.args([&stimuli, "+random=20000", "+gaps", "+resets=800", "+covered", POWER_UP]);
     let said = run(&mut bench)?;
-    BenchVerdict::read(&said, count)?;
+    BenchVerdict::read(&said, 20_000 + cases.len() as u64)?;
     Ok(())
 }
 
@@ -72,9 +75,7 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
         bench.arg(format!("+fault={fault}")).args(arguments);
         bench
     };
-    let isolines = folder.join("isolines.txt");
-    std::fs::write(&isolines, ISOLINE.repeat(100))?;
-    let isolines = format!("+stimuli={}", isolines.display());
+    let isolines = stimuli("isolines-100", &isolines(100)?)?;
     let timed = [isolines.as_str(), TIMED[0]];
     BenchVerdict::read(&run(&mut bench(0, &ALL))?, 20_000)?;
     let clocks = BenchVerdict::read(&run(&mut bench(0, &timed))?, 600)?.clocks;

@@ -1,17 +1,12 @@
 //! The bench of the circuit in Verilator. `rtl/dv/run` builds it; this module runs it and reads its
 //! verdict.
 
-use super::{lines, sources};
+use super::{CAPI, sources};
 use crate::command::{self, cargo, in_file, target};
 use crate::{install, setup};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tess_testkit::verdict::BenchVerdict;
-use tess_verify::Case;
-
-/// The arguments of `cargo` that build the tests of the C interface, and the library that benches
-/// link.
-pub(crate) const CAPI: &str = "test --package tess-capi --all-features --test foreign";
 
 /// A program that Verilator built, and its folder.
 pub(crate) struct Bench {
@@ -32,41 +27,30 @@ pub(crate) fn library() -> Result<PathBuf, String> {
     found.ok_or_else(|| format!("`cargo {CAPI}` builds no libtess_capi.a"))
 }
 
-/// The variants of the design for which `rtl/dv/run` builds a bench.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Design {
-    /// The sources.
-    Sources,
-    /// The netlist of the design with register stages and padded ports.
-    Gates,
-}
-
 impl Bench {
-    /// Lints the design and builds the bench, in the folder of the tests' bench, so that the same
-    /// sources are not compiled twice.
+    /// Has `rtl/dv/run` lint the design and build the bench, with these options and in this folder of
+    /// the tests' benches: the same sources are not compiled twice.
     ///
     /// # Errors
     /// A tool is missing, the lint warns, or a build fails.
-    pub(crate) fn built(design: Design) -> Result<Self, String> {
+    pub(crate) fn built(options: &[&str], folder: &str) -> Result<Self, String> {
         setup::provide(&[setup::VERILATOR])?;
         let all = target().join("tmp/rtl");
-        let (options, folder): (&[&str], _) = match design {
-            Design::Sources => (&["--build"], all.clone()),
-            Design::Gates => (&["--gates", "--build"], all.join("gates/bench")),
-        };
+        let folder = all.join(folder);
         let mut script = Command::new(sources().join("dv/run"));
-        script.args(options).env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", &all);
+        script.args(options).arg("--build");
+        script.env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", &all);
         command::run(&mut script)?;
         Ok(Self { program: folder.join("Vtb_tess"), folder })
     }
 
-    /// Writes cases to a file of this name, and returns the argument that makes the bench read it.
+    /// Writes patches, one a line, to a file of this name; the argument that has the bench read it.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub(crate) fn stimuli(&self, name: &str, cases: &[Case]) -> Result<String, String> {
+    pub(crate) fn stimuli(&self, name: &str, lines: &str) -> Result<String, String> {
         let file = self.folder.join(format!("{name}.txt"));
-        std::fs::write(&file, lines(cases)).map_err(|error| in_file(&file, &error))?;
+        std::fs::write(&file, lines).map_err(|error| in_file(&file, &error))?;
         Ok(format!("+stimuli={}", file.display()))
     }
 

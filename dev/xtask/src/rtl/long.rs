@@ -5,6 +5,7 @@ use super::bench::Bench;
 use super::sources;
 use super::stages::{self, Inputs, Stages};
 use crate::command::in_file;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -35,9 +36,10 @@ enum Shard {
 /// Runs all shards, one per core at a time.
 ///
 /// # Errors
-/// Something differs; the error has the shard's name and the bench's output. Shards that are
-/// already running are finished first.
-pub(crate) fn run(bench: &Bench) -> Result<(), String> {
+/// Something differs: the shard's name and what the bench printed. The shards in work are ended
+/// first.
+pub(crate) fn run() -> Result<(), String> {
+    let bench = &Bench::built(&[], "")?;
     let level_2: Vec<Case> = Selection::level(GenLevel::Two, 1).cases().collect();
     let (stages, shards) = (Stages::built(&bench.folder)?, shards(level_2.len()));
     let done = bench.folder.join("long").join(format!("{:016x}", digest()?));
@@ -127,7 +129,7 @@ impl Work<'_> {
                 Selection { random: Some(PATCHES), ..level }.cases().collect::<Vec<_>>()
             }
         };
-        let stimuli = self.bench.stimuli(name, &cases)?;
+        let stimuli = self.bench.stimuli(name, &lines(&cases))?;
         let seed = format!("+seed={}", 1 + name.len());
         let arguments = [&stimuli, &seed, "+gaps", "+resets=10"];
         let (verdict, _) = self.bench.compare(&arguments, cases.len())?;
@@ -136,6 +138,17 @@ impl Work<'_> {
         fs::remove_file(file).map_err(|error| in_file(file, &error))?;
         Ok(verdict.to_string())
     }
+}
+
+/// Cases as the bench reads them, one a line.
+fn lines(cases: &[Case]) -> String {
+    let mut text = String::new();
+    for case in cases {
+        let line = case.to_string();
+        // Writing to a String does not fail.
+        _ = writeln!(text, "{}", line.strip_prefix("case ").unwrap_or(&line));
+    }
+    text
 }
 
 impl Shard {

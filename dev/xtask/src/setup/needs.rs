@@ -73,16 +73,14 @@ pub(crate) const SYSTEMC: Need = Need {
     is_there: || Path::new("/usr/include/systemc").exists(),
 };
 
-/// The synthesis tool, which also prepares proofs.
-#[cfg(feature = "kit")]
+/// Synthesis of the circuit, and what proofs are made of.
 pub(crate) const YOSYS: Need = Need {
     what: "Yosys (synthesis and proofs of the circuit)",
     packages: &["yosys"],
     is_there: || has_program("yosys") && has_program("yosys-smtbmc"),
 };
 
-/// The cell library for netlists of the circuit.
-#[cfg(feature = "kit")]
+/// The library of cells that a netlist of the circuit is made of.
 pub(crate) const CELLS: Need = Need {
     what: "the OSU 0.18 um cells (the circuit as gates)",
     packages: &["qflow-tech-osu018"],

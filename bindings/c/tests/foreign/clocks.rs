@@ -1,0 +1,118 @@
+//! The clocks that isolines and the workloads of `tess bench` take, without back-pressure.
+
+use super::rtl;
+use super::tools::{repository, run};
+use libtest_mimic::Failed;
+use std::process::Command;
+use tess_testkit::verdict::BenchVerdict;
+use tess_verify::Case;
+use tess_verify::workloads::{Calls, Workload};
+
+/// The number of points of a workload that is enough; the patches after them are left out.
+const POINTS: u64 = 100_000;
+
+/// Four lines of eight segments: no workload of `tess bench` has isolines, and random patches have
+/// too few in a row to show a clock that is lost between them.
+const ISOLINE: &str = "case isoline integer line ruler 40800000 41000000";
+
+/// The bench's text about streams that offer an element in each clock, from the first element of a
+/// patch to its last.
+const UNBROKEN: &str = "0 clocks without a point, 0 without a primitive";
+
+/// The head of the table.
+const HEAD: &str = "\
+| workload | patches | points | primitives | clocks | points per clock | primitives per clock | clocks between patches |
+| --- | --- | --- | --- | --- | --- | --- | --- |";
+
+/// Clocks between two patches, and from a patch to its first element, at most.
+const BETWEEN: u64 = 8;
+const LATENCY: u64 = 30;
+
+/// Prints latencies, then a row of a table for each workload; docs/rtl.md has both. No stream
+/// stands still within a patch, and no bar is missed.
+#[expect(clippy::print_stdout, reason = "the rows of the document")]
+pub(crate) fn are_those_of_the_document() -> Result<(), Failed> {
+    let document = std::fs::read_to_string(repository().join("docs/rtl.md"))?;
+    let bench = rtl::bench()?;
+    let said = run(Command::new(&bench).args(["+random=1000", "+alone"]))?;
+    BenchVerdict::read(&said, 1000)?;
+    let latency = line(&said, "latency: ")?;
+    println!("\nclocks, one patch alone: {latency}");
+    let latencies: Vec<u64> = latency.split(' ').filter_map(|word| word.parse().ok()).collect();
+    let [point, primitive] = latencies[..] else { return Err(latency.into()) };
+    let documented = format!("{point} clocks for a point and {primitive} for a primitive");
+    let mut wrong = Vec::new();
+    if point.max(primitive) > LATENCY || !document.contains(&documented) {
+        wrong.push(latency.to_owned());
+    }
+    println!("{HEAD}");
+    for (name, cases) in workloads()? {
+        let stimuli = rtl::stimuli(&name.replace('/', "-"), &cases)?;
+        let said = run(Command::new(&bench).arg(&stimuli))?;
+        let verdict = BenchVerdict::read(&said, cases.len() as u64)?;
+        let between = line(&said, "between patches: at most ")?.replace(" clocks", "");
+        let row = row(&name, verdict, &between);
+        println!("{row}");
+        let within = line(&said, "within patches: ")?;
+        if within != UNBROKEN {
+            wrong.push(format!("`{name}`, within patches: {within}"));
+        }
+        if !between.parse().is_ok_and(|clocks: u64| clocks <= BETWEEN) || !document.contains(&row) {
+            wrong.push(row);
+        }
+    }
+    let wrong = wrong.join("\n");
+    if wrong.is_empty() {
+        return Ok(());
+    }
+    Err(format!("docs/rtl.md says otherwise, or a bar is missed:\n{wrong}").into())
+}
+
+/// Names and patches, with enough points each. Those of `tess bench` that come in batches: the
+/// circuit does not know the size of a call.
+fn workloads() -> Result<Vec<(String, Vec<Case>)>, Failed> {
+    let batches = Workload::all().into_iter().filter(|workload| workload.calls == Calls::Batch);
+    let mut all: Vec<_> =
+        batches.map(|workload| (workload.name.clone(), beginning(&workload))).collect();
+    let patches = POINTS.div_ceil(isolines(1)?[0].patch().counts().points.into());
+    all.push(("isolines".to_owned(), isolines(usize::try_from(patches)?)?));
+    Ok(all)
+}
+
+/// So many patches of isolines.
+pub(crate) fn isolines(patches: usize) -> Result<Vec<Case>, Failed> {
+    let isoline = ISOLINE.parse().map_err(|error| format!("`{ISOLINE}`: {error}"))?;
+    Ok(vec![isoline; patches])
+}
+
+/// The first patches, with enough points together.
+fn beginning(workload: &Workload) -> Vec<Case> {
+    let mut points = 0;
+    let cases = workload.patches.iter().zip(workload.counts());
+    let chosen = cases.take_while(|(_, counts)| {
+        let is_wanted = points < POINTS;
+        points += u64::from(counts.points);
+        is_wanted
+    });
+    chosen.map(|(&factors, _)| Case { config: workload.config, factors }).collect()
+}
+
+/// The rest of the first line with this prefix.
+fn line<'a>(said: &'a str, prefix: &str) -> Result<&'a str, String> {
+    said.lines()
+        .find_map(|line| line.strip_prefix(prefix))
+        .ok_or_else(|| format!("the bench does not say `{prefix}`:\n{said}"))
+}
+
+fn row(name: &str, verdict: BenchVerdict, between: &str) -> String {
+    let BenchVerdict { patches, points, primitives, clocks } = verdict;
+    let rate = |elements: u64| {
+        let thousandths = elements * 1000 / clocks.max(1);
+        format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
+    };
+    format!(
+        "| `{name}` | {patches} | {points} | {primitives} | {clocks} | {} | {} | {between} |",
+        rate(points),
+        rate(primitives)
+    )
+}
