@@ -28,8 +28,8 @@ pub(crate) fn library() -> Result<PathBuf, String> {
 }
 
 impl Bench {
-    /// Has `rtl/dv/run` lint the design and build the bench, with these options and in this folder of
-    /// the tests' benches: the same sources are not compiled twice.
+    /// Has `rtl/dv/run` lint the design and build the bench, with these options and in this folder
+    /// of the tests' benches, so that the same sources are not compiled twice.
     ///
     /// # Errors
     /// A tool is missing, the lint warns, or a build fails.

@@ -19,9 +19,9 @@
 //! ```
 //!
 //! - Six factors have at most six values, so `accepted` has at most 64 bits.
-//! Choice 0 is the model's own. A patch without ambiguous values has no other.
-//! A value that does not show in an output is accepted either way. `check::consistency` therefore
-//! takes a number as known only if every accepted choice agrees on it.
+//! - Choice 0 is the model's own. A patch without ambiguous values has no other.
+//! - A value that does not show in an output is accepted either way. `check::consistency` therefore
+//!   takes a number as known only if every accepted choice agrees on it.
 
 use super::{Conversion, Denormals, Strength};
 use crate::case::Case;
