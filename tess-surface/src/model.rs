@@ -108,8 +108,8 @@ impl Model {
     /// two cubes touch along an edge; in ascending order.
     ///
     /// The same number of patches runs each way along such an edge, and each is the neighbour of
-    /// one that runs the other way. The surfaces that touch there have no cracks, but the pairs may
-    /// not be the intended ones.
+    /// one that runs the other way. Each surface that touches there is free of cracks, but they may
+    /// be divided differently along the edge.
     #[must_use]
     pub fn crowded_edges(&self) -> &[HalfEdge] {
         &self.topology.crowded

@@ -1,4 +1,4 @@
-//! A batch of patches, which is made once and encoded each frame.
+//! A batch of patches, made once and encoded in each frame.
 
 pub(crate) mod buffers;
 mod dispatches;
@@ -16,7 +16,8 @@ use dispatches::{Dispatch, dispatches};
 use outputs::{Outputs, Patches};
 use tess_gpu::{Capacity, Limits, Plan, Resource, Setup, Stage, Workgroups, Written};
 
-/// Patches of one [`Setup`] with the caller's buffers, and every buffer and bind group in between.
+/// Patches of one [`Setup`], with the caller's buffers and all intermediate buffers and bind
+/// groups.
 ///
 /// The number of patches is fixed. Each run reads their factors from the buffer.
 #[derive(Debug)]
@@ -42,12 +43,12 @@ impl Batch {
         Ok(Self { plan, buffers, dispatches })
     }
 
-    /// Records everything, from factors to draw arguments, into one compute pass.
+    /// Records all stages, from factors to draw arguments, in one compute pass.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         self.encode_each(encoder, |_, _| {});
     }
 
-    /// The same, with a call of `after` behind each dispatch, to time stages one by one.
+    /// [`Self::encode`], with a call of `after` after each dispatch, to time single stages.
     pub(crate) fn encode_each(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -71,7 +72,7 @@ impl Batch {
         }
     }
 
-    /// How the batch is divided into portions and windows.
+    /// The batch's division into portions and windows.
     #[must_use]
     pub const fn plan(&self) -> &Plan {
         &self.plan
@@ -90,8 +91,8 @@ impl Batch {
         self.buffers.of(Resource::Arguments)
     }
 
-    /// The arguments of one `draw_indexed_indirect` for each group, 20 bytes each and in order,
-    /// after the batch has run. A batch without groups has none.
+    /// The arguments of one `draw_indexed_indirect` for each group, in order, 20 bytes each, after
+    /// the batch has run. A batch without groups has none.
     #[must_use]
     pub fn group_arguments(&self) -> &wgpu::Buffer {
         self.buffers.of(Resource::Draws)
@@ -119,7 +120,7 @@ impl Batch {
         self.buffers.of(Resource::Offsets)
     }
 
-    /// The [`tess_gpu::layout::Job`] of each part of the batch, 256 bytes apart. A shader of
+    /// The [`tess_gpu::layout::Job`] of each part of the batch, 256 bytes apart. A shader that uses
     /// [`tess_gpu::Pull`] binds the first.
     #[must_use]
     pub fn jobs(&self) -> &wgpu::Buffer {
@@ -133,7 +134,7 @@ impl Batch {
     }
 }
 
-/// How a batch with these outputs is divided.
+/// The plan of a batch with these outputs.
 fn plan(setup: Setup, patches: u32, outputs: Outputs<'_>, limits: Limits) -> Plan {
     let room = capacity(setup, outputs);
     match outputs {
@@ -143,7 +144,7 @@ fn plan(setup: Setup, patches: u32, outputs: Outputs<'_>, limits: Limits) -> Pla
     }
 }
 
-/// How many groups there are; refuses those that do not ascend within the batch.
+/// The number of groups. Refuses groups that do not ascend within the batch.
 pub(crate) fn check_groups(patches: u32, groups: &[u32]) -> Result<u32, Error> {
     let mut least = 0;
     for (group, &begin) in groups.iter().enumerate() {
@@ -190,7 +191,7 @@ fn check(plan: &Plan, factors: &wgpu::Buffer, outputs: Outputs<'_>) -> Result<()
 /// The most patches of a batch: a packed point has 30 bits for its patch's number.
 const MAX_PATCHES: u32 = 1 << 30;
 
-/// The room that the outputs have.
+/// The room of the outputs.
 fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
     let elements = |size: u64, each: u32| u32::try_from(size / u64::from(each)).unwrap_or(u32::MAX);
     let (points, indices) = match outputs {

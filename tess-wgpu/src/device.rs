@@ -1,4 +1,4 @@
-//! A device: opening it, its limits, its pipelines, and moving bytes.
+//! A device: opening it, its limits, its pipelines, and transfers.
 
 pub(crate) mod gpu;
 pub(crate) mod limits;

@@ -9,20 +9,20 @@ use std::task::{Context, Poll, Waker};
 use tess_core::Domain;
 use tess_gpu::Resource;
 
-/// Why a device, a buffer or a batch cannot be had.
+/// The reason why a device, a buffer, a batch or a stage cannot be made or used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// No adapter gives a device. Install a Vulkan driver; Debian's `mesa-vulkan-drivers` has one
-    /// in software. OpenGL from 4.3 or ES 3.1 on works too, with the feature `gles`. In a browser:
-    /// it has no WebGPU, or the page is neither from https nor from localhost.
+    /// that runs in software. OpenGL 4.3 or ES 3.1 or later also works, with the feature `gles`. In
+    /// a browser: it has no WebGPU, or the page is neither from https nor from localhost.
     #[error("no graphics adapter could be used ({reason}); {}", remedy())]
     NoDevice {
         /// wgpu's reason for each adapter or backend that was tried, and whether `WGPU_BACKEND`
         /// restricts them.
         reason: String,
     },
-    /// The device was lost. Open another one and make every object again.
+    /// The device was lost. Open another one and make all objects again.
     #[error("the graphics device was lost: {reason}")]
     DeviceLost {
         /// wgpu's message.
@@ -42,7 +42,7 @@ pub enum Error {
         limit: &'static str,
         /// The least that is needed.
         needed: u64,
-        /// The device's.
+        /// The device's limit.
         got: u64,
     },
     /// A buffer would be larger than the device allows. Tessellate fewer patches at a time, or open
@@ -54,12 +54,12 @@ pub enum Error {
     BufferTooLarge {
         /// Label of the buffer.
         buffer: String,
-        /// Bytes that it needs.
+        /// Bytes that the buffer needs.
         needed: u64,
         /// The device's limit, `max_buffer_size`.
         limit: u64,
     },
-    /// The buffer of factors is too short. Make it longer, or name fewer patches.
+    /// The buffer of factors is too short. Make it longer, or ask for fewer patches.
     #[error("the patches have {needed} bytes of factors, their buffer {got}")]
     FactorsTooShort {
         /// Bytes that the patches need.
@@ -79,8 +79,8 @@ pub enum Error {
         /// The two purposes.
         buffers: [Resource; 2],
     },
-    /// A patch has the factors of another domain than the setup. Tessellate the patches of each
-    /// domain on their own.
+    /// A patch has factors of another domain than the setup. Tessellate the patches of each domain
+    /// separately.
     #[error("patch {patch} has {got:?} factors, and the setup is for the {expected:?} domain")]
     WrongDomain {
         /// Number of the first such patch.
@@ -96,7 +96,7 @@ pub enum Error {
         /// Patches of the batch.
         got: usize,
     },
-    /// A group begins before the one in front of it or behind the batch. Put the groups in
+    /// A group begins before its predecessor or past the end of the batch. Put the groups in
     /// ascending order.
     #[error(
         "group {group} begins at patch {begin}; it must begin at one of {} to {}, as groups ascend and lie within \
@@ -109,7 +109,7 @@ pub enum Error {
         group: usize,
         /// The patch that it begins with.
         begin: u32,
-        /// The least and the greatest number that this could be.
+        /// The least and the greatest number that it could begin with.
         range: [u32; 2],
     },
     /// A batch has at most 2^32 - 1 groups.
@@ -118,8 +118,8 @@ pub enum Error {
         /// Groups of the batch.
         got: usize,
     },
-    /// The output of a batch exceeds 2^32 - 1 points or primitives, or more points than indices of
-    /// 16 bits can number. Tessellate fewer patches at a time.
+    /// The output of a batch has more than 2^32 - 1 points or primitives, or more points than
+    /// 16-bit indices can number. Tessellate fewer patches at a time.
     #[error(
         "{points} points and {primitives} primitives are more than the indices can number; \
          tessellate fewer patches at a time"
@@ -131,7 +131,7 @@ pub enum Error {
         primitives: u64,
     },
     /// A batch whose points are computed in the vertex shader has too many patches for one binding.
-    /// Make fewer at a time, or let the points be stored.
+    /// Tessellate fewer at a time, or store the points.
     #[error(
         "{got} patches without a point buffer are more than one binding holds, {most}; \
          make fewer at a time, or store the points"
@@ -142,19 +142,19 @@ pub enum Error {
         /// The most that the device's `max_storage_buffer_binding_size` allows.
         most: u32,
     },
-    /// The device lacks features. Ask for them when it is opened, as [`crate::Gpu::open_with`]
-    /// does.
+    /// The device lacks features. Ask for them when you open it, for example with
+    /// [`crate::Gpu::open_with`].
     #[error(
         "the device lacks {missing}; ask for it when the device is opened, if the adapter has it"
     )]
     MissingFeatures {
-        /// The features that it lacks.
+        /// The missing features.
         missing: wgpu::Features,
     },
     /// A tessellation stage cannot be made or used like this.
     #[error(transparent)]
     Stage(#[from] StageError),
-    /// wgpu refused an object or a command, for example to read beyond the end of a buffer.
+    /// wgpu refused an object or a command, for example a read past the end of a buffer.
     #[error("wgpu refused: {reason}")]
     Refused {
         /// wgpu's message.
@@ -162,7 +162,7 @@ pub enum Error {
     },
 }
 
-/// The remedy where there is no device.
+/// The remedy if there is no device.
 fn remedy() -> &'static str {
     if cfg!(target_arch = "wasm32") {
         "use a browser that has WebGPU, and a page from https or localhost"
@@ -183,9 +183,9 @@ const fn name(buffer: Resource) -> &'static str {
     }
 }
 
-/// Does `work` and returns wgpu's error, which would end the program otherwise.
+/// Does `work` and returns wgpu's error, which would otherwise end the program.
 ///
-/// Natively wgpu answers at once. A browser answers later; there its console has the complaint.
+/// Natively wgpu reports errors at once. A browser reports them later, in its console.
 pub(crate) fn checked<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, Error> {
     let filters = [
         wgpu::ErrorFilter::Internal,

@@ -1,4 +1,4 @@
-//! The buffers of a batch: the caller's and those in between.
+//! The buffers of a batch: the caller's and the intermediate ones.
 
 use super::outputs::{Outputs, Patches};
 use crate::device::gpu;
@@ -6,7 +6,7 @@ use crate::device::pipelines::Pipelines;
 use crate::error::Error;
 use tess_gpu::{Plan, Resource, Setup, Span};
 
-/// Everything that the stages bind: the buffer of each resource, in the order of [`Resource::ALL`].
+/// The buffers that the stages bind, one for each resource, in the order of [`Resource::ALL`].
 #[derive(Debug)]
 pub(crate) struct Buffers(Vec<wgpu::Buffer>);
 
@@ -22,7 +22,8 @@ impl Buffers {
         let Patches { groups, factors, .. } = patches;
         let tables = pipelines.tables(setup.config.split)?;
         let device = pipelines.device();
-        // Without outputs there are no windows, so nothing binds what stands for them here.
+        // Without outputs there are no windows, so the buffers that stand in for them are not
+        // bound.
         let (points, indices) = match outputs {
             Outputs::CountOnly | Outputs::Arguments(_) => (factors, factors),
             Outputs::Indices { indices, .. } => (factors, indices),
@@ -40,7 +41,7 @@ impl Buffers {
             Resource::Indices => Ok(indices.clone()),
             _ => {
                 let is_read = matches!(resource, Resource::Arguments | Resource::Draws);
-                // A stage copies the number of instances there.
+                // `COPY_DST`: a stage copies the number of instances into them.
                 let more = if is_read { Usage::INDIRECT | Usage::COPY_DST } else { Usage::empty() };
                 let usage = Usage::STORAGE | Usage::COPY_SRC | more;
                 gpu::empty(device, &format!("{resource:?}"), plan.buffer_size(resource), usage)
@@ -54,7 +55,7 @@ impl Buffers {
         &self.0[resource as usize]
     }
 
-    /// These bytes of the buffer of a resource.
+    /// A binding of these bytes of a resource's buffer.
     pub(crate) fn bound(&self, resource: Resource, span: Span) -> wgpu::BindingResource<'_> {
         let (buffer, offset) = (self.of(resource), span.offset);
         let size = std::num::NonZeroU64::new(span.size);

@@ -2,16 +2,18 @@
 
 use tess_gpu::Capacity;
 
-/// Where a batch writes its output.
+/// The place where a batch writes its output.
 #[derive(Clone, Copy, Debug)]
 pub enum Outputs<'a> {
     /// Nowhere: the batch is only counted.
     CountOnly,
-    /// Into these buffers, from their first byte on. If anything does not fit, nothing is written.
+    /// Into these buffers, beginning at their first byte. If anything does not fit, nothing is
+    /// written.
     Buffers {
         /// The domain points, 8 bytes each.
         points: &'a wgpu::Buffer,
-        /// The indices, 2 or 4 bytes each; whole 8 bytes of the buffer are used.
+        /// The indices, 2 or 4 bytes each. The size of the buffer is rounded down to a multiple of
+        /// 8 bytes.
         indices: &'a wgpu::Buffer,
     },
     /// Only indices, for a vertex shader that computes its point ([`tess_gpu::Pull`]).
@@ -21,8 +23,8 @@ pub enum Outputs<'a> {
         /// The indices, as in [`Outputs::Buffers`].
         indices: &'a wgpu::Buffer,
     },
-    /// Only draw arguments, for a vertex shader that computes its index too. Their first four words
-    /// serve `draw_indirect`.
+    /// Only draw arguments, for a vertex shader that also computes its index. Their first four
+    /// words are valid arguments for `draw_indirect`.
     Arguments(Capacity),
 }
 

@@ -1,4 +1,4 @@
-//! Patches in, output back on the host.
+//! Tessellation with the output read back to the host.
 
 use crate::error::Error;
 use crate::{Batch, Gpu, Outputs, Tessellator};
@@ -9,11 +9,11 @@ use tess_gpu::{IndexType, Setup};
 /// The output of a batch, read back.
 #[derive(Clone, Debug)]
 pub struct ReadBack {
-    /// The batch's needs.
+    /// The numbers of points and primitives, and whether they fit.
     pub status: Status,
     /// The draw arguments.
     pub draw: DrawIndexed,
-    /// Where each patch's output begins: its first point and its first primitive.
+    /// The beginning of each patch's output: its first point and its first primitive.
     pub begins: Vec<[u32; 2]>,
     /// The points, two words each: see [`tess_gpu::PointFormat`].
     pub points: Vec<[u32; 2]>,
@@ -22,8 +22,8 @@ pub struct ReadBack {
 }
 
 impl Tessellator {
-    /// Tessellates these patches and reads everything back. The buffers get the size that the model
-    /// ([`tess_core`]) counts.
+    /// Tessellates these patches and reads everything back. The model ([`tess_core`]) counts the
+    /// sizes of the buffers.
     ///
     /// # Errors
     /// [`Error::WrongDomain`] for patches of another domain than the setup's; an error of size if
@@ -37,10 +37,10 @@ impl Tessellator {
         gpu.finish(self.tessellate_async(gpu, setup, patches))
     }
 
-    /// The same without blocking: see [`Gpu::read_async`].
+    /// [`Self::tessellate`] without blocking: see [`Gpu::read_async`].
     ///
     /// # Errors
-    /// As [`Tessellator::tessellate`].
+    /// Those of [`Tessellator::tessellate`].
     pub async fn tessellate_async(
         &mut self,
         gpu: &Gpu,
@@ -55,7 +55,7 @@ impl Tessellator {
             .map_err(|_| Error::TooManyPatches { got: patches.len() })?;
         let room = model_counts(setup, patches);
         let mut run = Run::new(self, gpu, setup, (count, &factors), room).await?;
-        // Only shaders that are wrong count otherwise. What they give is read back too.
+        // Only wrong shaders count differently from the model. Their output is read back too.
         if !run.status.fits() && counts(&run.status) != room {
             run = Run::new(self, gpu, setup, (count, &factors), counts(&run.status)).await?;
         }
@@ -130,7 +130,7 @@ impl Run {
     }
 }
 
-/// Refuses patches of another domain, whose factors would be read as those of other patches.
+/// Refuses patches of another domain: their factors would be read as those of other patches.
 pub(crate) fn check_domains(setup: Setup, patches: &[PatchFactors]) -> Result<(), Error> {
     let expected = setup.domain;
     match patches.iter().position(|factors| factors.domain() != expected) {
@@ -139,7 +139,7 @@ pub(crate) fn check_domains(setup: Setup, patches: &[PatchFactors]) -> Result<()
     }
 }
 
-/// The first `count` indices of these bytes.
+/// The first `count` indices in these bytes.
 fn widened(setup: Setup, bytes: &[u8], count: u64) -> Vec<u32> {
     let mut indices: Vec<u32> = match setup.index_type {
         IndexType::U16 => {
@@ -151,7 +151,7 @@ fn widened(setup: Setup, bytes: &[u8], count: u64) -> Vec<u32> {
     indices
 }
 
-/// Where each patch's output begins.
+/// The beginning of each patch's output.
 async fn begins(gpu: &Gpu, batch: &Batch) -> Result<Vec<[u32; 2]>, Error> {
     let bytes = gpu.read_async(batch.offsets(), batch.offsets().size()).await?;
     let offsets: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&bytes[..bytes.len() / 8 * 8]);

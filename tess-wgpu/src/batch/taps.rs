@@ -1,4 +1,4 @@
-//! Stage taps: the value of one stage of the shaders, read for comparison with the golden model's.
+//! Stage taps: values of a single stage of the shaders, for comparison with the golden model's.
 
 use crate::device::pipeline::group;
 use crate::error::Error;
@@ -7,10 +7,11 @@ use tess_gpu::sizes::WORKGROUP;
 use tess_gpu::{Setup, Tap};
 
 impl Tessellator {
-    /// Runs a tap over `input`, whose length is a multiple of the tap's, and returns its words.
+    /// Runs a tap over `input`, whose length is a multiple of the tap's input, and returns the
+    /// output words.
     ///
     /// # Errors
-    /// [`Error::DeviceLost`], or an error of size if there is more input than the device can take.
+    /// [`Error::DeviceLost`], or an error of size if the input is too large for the device.
     pub fn tap(
         &mut self,
         gpu: &Gpu,
@@ -35,7 +36,7 @@ impl Tessellator {
         let bindings = (0..).zip(buffers.iter().map(wgpu::Buffer::as_entire_binding));
         let group = group(&gpu.device, "taps", &pipeline.get_bind_group_layout(0), bindings)?;
         let most = self.limits().workgroups;
-        // A buffer of more input would be too large.
+        // More input than fits a `u32` would not have fitted a buffer.
         let workgroups = u32::try_from(count.div_ceil(u64::from(WORKGROUP))).unwrap_or(u32::MAX);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {

@@ -1,4 +1,4 @@
-//! Batches of one device, made.
+//! Making batches for one device.
 
 use super::outputs::{Outputs, Patches};
 use crate::Batch;
@@ -9,8 +9,8 @@ use tess_gpu::{Limits, Setup, Stage};
 
 /// Makes batches for one device, and keeps the pipelines and tables that they share.
 ///
-/// A clone shares them too, so that nothing is compiled twice: for [`StageBuilder::tessellator`],
-/// or another thread.
+/// Clones share them too, so that nothing is compiled twice: pass one to
+/// [`StageBuilder::tessellator`] or to another thread.
 ///
 /// [`StageBuilder::tessellator`]: crate::stage::StageBuilder::tessellator
 #[derive(Clone, Debug)]
@@ -21,9 +21,10 @@ pub struct Tessellator {
 }
 
 impl Tessellator {
-    /// For a device with at least WebGPU's default limits. Higher limits of the device are used.
+    /// A tessellator for a device with at least WebGPU's default limits. Higher limits of the
+    /// device are used.
     ///
-    /// Nothing is compiled yet: a [`Batch`] makes the pipelines that are missing.
+    /// Compiles nothing yet: making a [`Batch`] makes the pipelines that are missing.
     #[must_use]
     pub fn new(device: &wgpu::Device) -> Self {
         Self::of(device, None)
@@ -39,8 +40,8 @@ impl Tessellator {
         Self { device: device.clone(), shared, limits }
     }
 
-    /// The same; pipelines that are made from now on, also by clones and stages, go through wgpu's
-    /// cache, which a program can keep in a file.
+    /// This tessellator with a pipeline cache of wgpu's, which a program can keep in a file.
+    /// Pipelines that are made from now on use it, also those of clones and stages.
     #[must_use]
     pub fn with_pipeline_cache(self, cache: &wgpu::PipelineCache) -> Self {
         self.pipelines().cache = Some(cache.clone());
@@ -51,7 +52,7 @@ impl Tessellator {
         &self.device
     }
 
-    /// Makes the pipelines of these stages that are missing.
+    /// Makes the missing pipelines of these stages.
     pub(crate) fn compile(&self, setup: Setup, stages: &[Stage]) -> Result<(), Error> {
         let mut pipelines = self.pipelines();
         stages.iter().try_for_each(|&stage| pipelines.pipeline(stage, setup).map(drop))
@@ -67,8 +68,8 @@ impl Tessellator {
         self.limits
     }
 
-    /// The same, with every shader edited before it is compiled: for tests that plant faults and
-    /// for experiments.
+    /// [`Self::new`], with every shader edited before it is compiled: for tests that plant faults,
+    /// and for experiments.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn with_edit(
@@ -78,7 +79,7 @@ impl Tessellator {
         Self::of(device, Some(Box::new(edit)))
     }
 
-    /// The same, keeping to these limits instead of the device's, which are higher.
+    /// This tessellator, limited to these limits instead of the device's, which must not be lower.
     #[must_use]
     pub const fn limited(mut self, limits: Limits) -> Self {
         self.limits = limits;
@@ -87,13 +88,15 @@ impl Tessellator {
 
     /// Prepares a batch of `patches` patches: see [`Batch`].
     ///
-    /// `factors` holds the raw factors of the patches as [`tess_gpu::layout::factor_words`] writes
-    /// them. All buffers have the usage `STORAGE`. Make a batch once and encode it each frame.
+    /// `factors` has the raw factors of the patches in the layout of
+    /// [`tess_gpu::layout::factor_words`]. All buffers need the usage `STORAGE`. Make a batch once
+    /// and encode it in each frame.
     ///
     /// # Errors
-    /// [`Error::FactorsTooShort`], [`Error::NotStorage`], [`Error::SharedBuffer`] or
-    /// [`Error::TooManyPatches`] for these buffers; [`Error::BufferTooLarge`] or
-    /// [`Error::OutOfMemory`] if what is in between does not fit the device.
+    /// [`Error::FactorsTooShort`], [`Error::NotStorage`], [`Error::SharedBuffer`],
+    /// [`Error::TooManyPatches`] or [`Error::TooManyToPull`] for these patches and buffers;
+    /// [`Error::LimitTooLow`] if the device cannot run batches; [`Error::BufferTooLarge`] or
+    /// [`Error::OutOfMemory`] if the intermediate buffers do not fit the device.
     pub fn batch(
         &mut self,
         setup: Setup,
@@ -104,12 +107,12 @@ impl Tessellator {
         self.batch_in_groups(setup, patches, &[], factors, outputs)
     }
 
-    /// The same, with draw arguments for each group of patches ([`Batch::group_arguments`]), so
-    /// that several meshes of one setup are tessellated in one go and drawn one by one.
+    /// [`Self::batch`], with draw arguments for each group of patches ([`Batch::group_arguments`]),
+    /// so that several meshes of one setup are tessellated together and drawn separately.
     ///
-    /// `groups` holds the number of each group's first patch. A group ends where the next one
-    /// begins, the last one at the end of the batch; a group may be empty. The numbers ascend and
-    /// are at most `patches`.
+    /// `groups` has the number of each group's first patch, in ascending order and at most
+    /// `patches`. A group ends where the next one begins, the last one at the end of the batch. A
+    /// group may be empty.
     ///
     /// # Errors
     /// [`Error::MisplacedGroup`] or [`Error::TooManyGroups`] for these groups, and the errors of

@@ -1,4 +1,4 @@
-//! A device, and moving bytes to and from it.
+//! A device, and transfers to and from it.
 
 use super::open::{self, DeviceLimits};
 use crate::error::{Error, StageError, checked};
@@ -9,13 +9,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 
-/// A device with its queue and the adapter that it was made from. The fields are public: fill them
+/// A device with its queue and the description of its adapter. The fields are public: fill them
 /// with your own device, or call [`Gpu::open`].
 #[derive(Clone, Debug)]
 pub struct Gpu {
     /// The device.
     pub device: wgpu::Device,
-    /// Its queue.
+    /// The device's queue.
     pub queue: wgpu::Queue,
     /// The adapter's name, driver and kind.
     pub info: wgpu::AdapterInfo,
@@ -23,21 +23,22 @@ pub struct Gpu {
 
 impl Gpu {
     /// Opens the first adapter with WebGPU's default limits. OpenGL, in builds that have it (the
-    /// feature `gles`), is used where nothing else gives a device.
+    /// feature `gles`), is used only if nothing else gives a device.
     ///
-    /// The environment variable `WGPU_BACKEND` restricts the choice, as in other programs over
-    /// wgpu: to `vulkan`, `metal`, `dx12`, `gl`, or several with commas between them.
+    /// As in other programs that use wgpu, the environment variable `WGPU_BACKEND` restricts the
+    /// choice: to `vulkan`, `metal`, `dx12`, `gl`, or several separated by commas.
     ///
     /// # Errors
-    /// [`Error::NoDevice`] if there is none, or it gives no device.
+    /// [`Error::NoDevice`] if no adapter gives a device.
     pub async fn open() -> Result<Self, Error> {
         Self::open_with(DeviceLimits::Default, wgpu::Features::empty()).await
     }
 
-    /// Opens the first adapter with these limits, and with the optional features that it has.
+    /// Opens the first adapter with these limits, and with those of the optional features that it
+    /// has.
     ///
     /// # Errors
-    /// [`Error::NoDevice`] if there is none, or it gives no device.
+    /// [`Error::NoDevice`] if no adapter gives a device.
     pub async fn open_with(wanted: DeviceLimits, optional: wgpu::Features) -> Result<Self, Error> {
         open::first(wanted, optional).await
     }
@@ -48,7 +49,7 @@ impl Gpu {
         open::name(&self.info)
     }
 
-    /// A buffer with these bytes.
+    /// Makes a buffer with these bytes.
     ///
     /// # Errors
     /// [`Error::BufferTooLarge`], [`Error::OutOfMemory`] or [`Error::Refused`].
@@ -61,7 +62,7 @@ impl Gpu {
         filled(&self.device, label, bytes, usage)
     }
 
-    /// A buffer of `size` bytes, at least 4.
+    /// Makes a buffer of `size` bytes, at least 4, rounded up to a multiple of 4.
     ///
     /// # Errors
     /// [`Error::BufferTooLarge`], [`Error::OutOfMemory`] or [`Error::Refused`].
@@ -83,7 +84,7 @@ impl Gpu {
         self.wait()
     }
 
-    /// The first `size` bytes of a buffer, which has the usage `COPY_SRC`.
+    /// Reads the first `size` bytes of a buffer with the usage `COPY_SRC`.
     ///
     /// # Errors
     /// [`Error::DeviceLost`]; or [`Error::Refused`], for example for more bytes than the buffer
@@ -92,13 +93,14 @@ impl Gpu {
         self.finish(self.read_async(buffer, size))
     }
 
-    /// The same without blocking: for a browser, and for programs that do something else meanwhile.
+    /// [`Self::read`] without blocking: for browsers, and for programs that do other work
+    /// meanwhile.
     ///
-    /// Natively somebody has to ask the device whether it is done. The future does so whenever it
-    /// is polled, and asks to be polled again at once. In a browser the device says so by itself.
+    /// Natively the device must be polled until it is done. The future polls it whenever the future
+    /// is polled, and asks to be polled again at once. In a browser the device notifies the future.
     ///
     /// # Errors
-    /// As [`Gpu::read`].
+    /// Those of [`Gpu::read`].
     pub async fn read_async(&self, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, Error> {
         if size == 0 {
             return Ok(Vec::new());
@@ -128,7 +130,7 @@ impl Gpu {
         Ok(view.to_vec())
     }
 
-    /// Polls a future that waits only for this device, until it is done.
+    /// Polls a future that waits only for this device until it is done.
     pub(crate) fn finish<T>(
         &self,
         work: impl Future<Output = Result<T, Error>>,
@@ -152,7 +154,7 @@ impl Gpu {
         checked(&self.device, || self.queue.submit([encoder.finish()])).map(drop)
     }
 
-    /// Waits until everything submitted has run.
+    /// Waits until all submitted commands have run.
     fn wait(&self) -> Result<(), Error> {
         poll(&self.device, wgpu::PollType::wait_indefinitely())?;
         check_alive(&self.device)
@@ -195,8 +197,8 @@ pub(crate) fn filled(
     })?
 }
 
-/// Polls the device. wgpu panics in this call if the driver has lost the device, so a panic is an
-/// error if that is why.
+/// Polls the device. wgpu panics in this call if the driver has lost the device; such a panic
+/// becomes an error.
 pub(crate) fn poll(device: &wgpu::Device, kind: wgpu::PollType) -> Result<(), Error> {
     match catch_unwind(AssertUnwindSafe(|| device.poll(kind))) {
         Ok(polled) => polled.map(drop).map_err(|error| lost(&error)),
@@ -207,8 +209,9 @@ pub(crate) fn poll(device: &wgpu::Device, kind: wgpu::PollType) -> Result<(), Er
     }
 }
 
-/// Records commands. wgpu panics if the encoder is of another instance, which does not know the
-/// buffers; one of another device of the same instance is its error when the encoder is finished.
+/// Records commands. wgpu panics if the encoder belongs to another instance, which does not know
+/// the buffers; here that becomes an error. An encoder of another device of the same instance is an
+/// error of wgpu's when it is finished.
 pub(crate) fn recorded(device: &wgpu::Device, record: impl FnOnce()) -> Result<(), Error> {
     if catch_unwind(AssertUnwindSafe(record)).is_ok() {
         return Ok(());
@@ -217,8 +220,8 @@ pub(crate) fn recorded(device: &wgpu::Device, record: impl FnOnce()) -> Result<(
     Err(StageError::OtherDevice.into())
 }
 
-/// An error if the device is lost. wgpu does not say so when it makes objects or takes commands,
-/// but it maps no buffer.
+/// Returns an error if the device is lost. wgpu does not report this when it makes objects or
+/// accepts commands, but it cannot map a buffer.
 fn check_alive(device: &wgpu::Device) -> Result<(), Error> {
     filled(device, "is the device alive", &[0; 4], wgpu::BufferUsages::COPY_SRC).map(drop)
 }
@@ -227,7 +230,7 @@ fn lost(error: &dyn fmt::Display) -> Error {
     Error::DeviceLost { reason: error.to_string() }
 }
 
-/// Says that a buffer is too large, which wgpu would only say in its own words.
+/// Refuses a buffer that is too large, which wgpu would report only in its own words.
 fn check_size(device: &wgpu::Device, label: &str, needed: u64) -> Result<(), Error> {
     let limit = device.limits().max_buffer_size;
     if needed <= limit {

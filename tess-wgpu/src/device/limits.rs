@@ -1,13 +1,13 @@
-//! The least limits of a device. A batch adapts to higher ones.
+//! The lowest limits of a device that suffice. A batch adapts to higher ones.
 
 use crate::error::Error;
 
-/// Storage buffers that one of the shaders binds.
+/// The most storage buffers that a shader binds.
 const STORAGE_BUFFERS: u32 = 8;
 /// Threads of the largest workgroup, all along x.
 const WORKGROUP: u32 = 256;
 
-/// Refuses a device that could not run the shaders, before it says so in its own words.
+/// Refuses a device that cannot run the shaders, before wgpu reports it in its own words.
 pub(crate) fn check(device: &wgpu::Device) -> Result<(), Error> {
     let limits = device.limits();
     for (limit, needed, got) in [

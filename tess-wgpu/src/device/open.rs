@@ -13,8 +13,8 @@ pub enum DeviceLimits {
     Highest,
 }
 
-/// Opens the first adapter that gives a device: those of OpenGL come last, since wgpu would prefer
-/// an old GPU with too little of OpenGL to a Vulkan driver in software.
+/// Opens the first adapter that gives a device. OpenGL is tried last, because wgpu would prefer an
+/// old GPU with an insufficient OpenGL to a Vulkan driver in software.
 pub(crate) async fn first(wanted: DeviceLimits, optional: wgpu::Features) -> Result<Gpu, Error> {
     let asked = Backends::from_env();
     let backends = asked.unwrap_or_else(wgpu::Instance::enabled_backend_features);
@@ -39,7 +39,7 @@ pub(crate) async fn first(wanted: DeviceLimits, optional: wgpu::Features) -> Res
     Err(Error::NoDevice { reason: reasons.join("; ") })
 }
 
-/// Opens the first adapter of these backends, or says why not.
+/// Opens the first adapter of these backends, or returns the reason why it cannot be used.
 async fn of(
     backends: Backends,
     wanted: DeviceLimits,
@@ -47,9 +47,9 @@ async fn of(
 ) -> Result<Gpu, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
-    // WGPU_DEBUG=0 leaves out of shaders what debuggers want, which takes drivers long to read.
+    // WGPU_DEBUG=0 leaves debug information out of shaders, which takes drivers long to read.
     descriptor.flags = descriptor.flags.with_env();
-    // The shaders write no dispatch sizes beyond the limits; checking costs dispatches more.
+    // The shaders write no dispatch sizes beyond the limits, and checking takes more dispatches.
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     let instance = wgpu::Instance::new(descriptor);
     let options = wgpu::RequestAdapterOptions {

@@ -1,9 +1,9 @@
-//! Compute pipelines and what they are made of, and bind groups.
+//! Compute pipelines, their layouts and modules, and bind groups.
 
 use crate::error::{Error, checked};
 use tess_gpu::{Access, Binding, Resource};
 
-/// A compute pipeline of an entry point with these layouts.
+/// Makes the compute pipeline of an entry point with these layouts.
 pub(crate) fn compute(
     device: &wgpu::Device,
     (module, entry_point): (&wgpu::ShaderModule, &str),
@@ -24,7 +24,7 @@ pub(crate) fn compute(
     })
 }
 
-/// The layout of a pipeline.
+/// Makes the layout of a pipeline.
 pub(crate) fn layout(
     device: &wgpu::Device,
     label: &str,
@@ -40,7 +40,7 @@ pub(crate) fn layout(
     })
 }
 
-/// A module of WGSL that is not the user's.
+/// Makes a module of WGSL without text of the user's.
 pub(crate) fn module(
     device: &wgpu::Device,
     label: &str,
@@ -73,7 +73,7 @@ pub(crate) const fn entry(
     }
 }
 
-/// A bind group of resources with their numbers.
+/// Makes a bind group of resources with their binding numbers.
 pub(crate) fn group<'a>(
     device: &wgpu::Device,
     label: &str,

@@ -1,4 +1,4 @@
-//! Pipelines and tables of one device, each made when it is first asked for.
+//! Pipelines and tables of one device, each made when it is first needed.
 
 use super::{gpu, limits, pipeline};
 use crate::error::{Error, checked};
@@ -13,11 +13,11 @@ use tess_gpu::{Binding, Setup, Stage, tables};
 /// A change of a shader's source before it is compiled.
 pub(crate) type Edit = Box<dyn Fn(Stage, String) -> String + Send + Sync>;
 
-/// Pipelines by stage and by the part of the setup that the stage depends on; those of taps; tables
-/// by split order; and what tessellation stages share.
+/// Pipelines by stage and by the part of the setup that the stage depends on; pipelines of taps;
+/// tables by split order; and the pipelines and layouts that tessellation stages share.
 pub(crate) struct Pipelines {
     device: wgpu::Device,
-    /// wgpu's, for pipelines to come.
+    /// wgpu's cache, for pipelines that are made from now on.
     pub(crate) cache: Option<wgpu::PipelineCache>,
     edit: Option<Edit>,
     pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
@@ -29,10 +29,10 @@ pub(crate) struct Pipelines {
     pub(crate) draws: Shared<wgpu::RenderPipeline>,
 }
 
-/// All that a pipeline of tessellation stages depends on.
+/// Everything that a pipeline of tessellation stages depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct PipelineKey {
-    /// The WGSL that the entry points reach, and the render state.
+    /// The WGSL that the entry points reach and, for a render pipeline, the render state.
     pub(crate) text: String,
     pub(crate) entry_point: &'static str,
     pub(crate) layouts: Vec<wgpu::BindGroupLayout>,
@@ -40,7 +40,7 @@ pub(crate) struct PipelineKey {
     pub(crate) constants: Vec<(String, u64)>,
 }
 
-/// Pipelines that live as long as a stage has them.
+/// Pipelines that are kept as long as a stage uses them.
 pub(crate) struct Shared<P>(HashMap<PipelineKey, Weak<P>>);
 
 impl<P> Shared<P> {
@@ -57,7 +57,7 @@ impl<P> Shared<P> {
 }
 
 impl Pipelines {
-    /// None yet.
+    /// No pipelines or tables yet.
     pub(crate) fn new(device: &wgpu::Device, edit: Option<Edit>) -> Self {
         Self {
             device: device.clone(),
@@ -77,7 +77,7 @@ impl Pipelines {
         &self.device
     }
 
-    /// The layout of these entries, made when it is first asked for.
+    /// The layout of these entries, made when it is first needed.
     pub(crate) fn layout(
         &mut self,
         label: &str,
@@ -96,7 +96,7 @@ impl Pipelines {
         Ok(layout)
     }
 
-    /// The pipeline of a stage, made when it is first asked for.
+    /// The pipeline of a stage, made when it is first needed.
     pub(crate) fn pipeline(
         &mut self,
         stage: Stage,
@@ -127,7 +127,7 @@ impl Pipelines {
         let layouts = [self.layout(entry_point, (0..).zip(bindings).map(entry).collect())?];
         let module = pipeline::module(&self.device, entry_point, source)?;
         let options = wgpu::PipelineCompilationOptions {
-            // Every word of it is written before it is read.
+            // The shaders write every word of it before they read it.
             zero_initialize_workgroup_memory: false,
             ..Default::default()
         };
@@ -135,7 +135,7 @@ impl Pipelines {
         pipeline::compute(&self.device, of, &layouts, options, cache)
     }
 
-    /// The pipeline of a tap, made when it is first asked for.
+    /// The pipeline of a tap, made when it is first needed.
     #[cfg(feature = "measure")]
     pub(crate) fn tap(&mut self, tap: Tap, setup: Setup) -> Result<wgpu::ComputePipeline, Error> {
         if let Some(pipeline) = self.taps.get(&(tap, setup)) {
@@ -148,7 +148,7 @@ impl Pipelines {
         Ok(pipeline)
     }
 
-    /// The constant tables of a split order, uploaded when they are first asked for.
+    /// The constant tables of a split order, uploaded when they are first needed.
     pub(crate) fn tables(&mut self, split: SplitOrder) -> Result<wgpu::Buffer, Error> {
         if let Some(buffer) = self.tables.get(&split) {
             return Ok(buffer.clone());

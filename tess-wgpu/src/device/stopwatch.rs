@@ -1,4 +1,4 @@
-//! Times of the device, from its own timestamps.
+//! Times measured by the device's timestamps.
 
 use crate::{Batch, Error, Gpu};
 use tess_gpu::Stage;
@@ -10,11 +10,11 @@ pub struct Stopwatch {
     resolved: wgpu::Buffer,
 }
 
-/// The most timestamps of one reading.
+/// The most timestamps of one measurement.
 const MAX_STAMPS: u32 = 4096;
 
 impl Stopwatch {
-    /// Features to ask a device for.
+    /// The features that the device must be opened with.
     pub const FEATURES: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
         .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS)
         .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES);
@@ -22,7 +22,8 @@ impl Stopwatch {
     /// Makes room for timestamps.
     ///
     /// # Errors
-    /// [`Error::MissingFeatures`] of [`Self::FEATURES`]; [`Error::OutOfMemory`].
+    /// [`Error::MissingFeatures`] if the device lacks some of [`Self::FEATURES`];
+    /// [`Error::OutOfMemory`].
     pub fn new(gpu: &Gpu) -> Result<Self, Error> {
         let missing = Self::FEATURES - gpu.device.features();
         if !missing.is_empty() {
@@ -38,7 +39,8 @@ impl Stopwatch {
         Ok(Self { queries, resolved })
     }
 
-    /// Runs what `work` records, and returns the nanoseconds that it took on the device.
+    /// Runs the commands that `work` records, and returns the nanoseconds that they took on the
+    /// device.
     ///
     /// # Errors
     /// [`Error::DeviceLost`].
@@ -55,7 +57,7 @@ impl Stopwatch {
         Ok(self.nanoseconds(gpu, stamps[0], stamps[1]))
     }
 
-    /// Runs a batch, and returns the nanoseconds of each dispatch.
+    /// Runs a batch, and returns the nanoseconds of each dispatch, up to 4095 dispatches.
     ///
     /// # Errors
     /// [`Error::DeviceLost`].

@@ -1,10 +1,10 @@
 //! Errors of a tessellation stage.
 
-/// Why a tessellation stage cannot be made or used.
+/// The reason why a tessellation stage cannot be made or used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StageError {
-    /// More patches than the stage was made for. Name more when you make it.
+    /// There are more patches than the stage was made for. Ask for more when you make it.
     #[error("{got} patches, and the stage was made for {most} at most")]
     TooManyPatches {
         /// Patches of the frame.
@@ -23,29 +23,30 @@ pub enum StageError {
         /// The device's `max_storage_buffer_binding_size`.
         limit: u64,
     },
-    /// More bind groups than the device has beside the stage's own. Put the bindings into fewer
-    /// groups.
+    /// There are more bind groups than the device allows in addition to the stage's own. Put the
+    /// bindings into fewer groups.
     #[error(
         "{got} bind groups, and the device has {most} beside what the stage binds; put the bindings \
          into fewer groups"
     )]
     TooManyBindGroups {
-        /// Bind groups of the user's.
+        /// Bind groups of the user.
         got: u32,
-        /// The most that there can be.
+        /// The most that the user can have.
         most: u32,
     },
     /// The user's WGSL is not valid.
     #[error("{}", invalid(*line, message))]
     Wgsl {
-        /// Line of the user's text, from 1 on; `None` if the text lacks what the stage needs, for
-        /// example a function `domain`.
+        /// Line of the user's text, counted from 1; `None` if the text lacks something that the
+        /// stage needs, for example a function `domain`.
         line: Option<u32>,
         /// The compiler's message.
         message: String,
     },
-    /// The user's WGSL has no fragment shader, or not the one that was asked for, or several and
-    /// none was chosen with [`StageBuilder::fragment`](crate::stage::StageBuilder::fragment).
+    /// The user's WGSL has no fragment shader, or lacks the one that was asked for, or has several
+    /// of which none was chosen with
+    /// [`StageBuilder::fragment`](crate::stage::StageBuilder::fragment).
     #[error("{}", unclear(asked.as_deref(), found))]
     UnclearFragment {
         /// The name that was asked for.
@@ -56,7 +57,8 @@ pub enum StageError {
     /// The user's WGSL declares no pipeline constant (`override`) of this name.
     #[error("your WGSL declares no `override {name}`; it declares {}", or_none(found))]
     NoSuchConstant {
-        /// The name that [`StageBuilder::constants`](crate::stage::StageBuilder::constants) got.
+        /// The name that was passed to
+        /// [`StageBuilder::constants`](crate::stage::StageBuilder::constants).
         name: String,
         /// Names that the WGSL declares.
         found: Vec<String>,
@@ -68,8 +70,8 @@ pub enum StageError {
     )]
     OtherDevice,
     /// A member of `Vertex` is `@interpolate(flat)`, which takes the value of a primitive's first
-    /// vertex, and OpenGL takes the last vertex's. Write `@interpolate(flat, either)` if a
-    /// primitive's vertices share the value, for example a value of their patch; otherwise draw
+    /// vertex, but OpenGL takes the last vertex's. Write `@interpolate(flat, either)` if all
+    /// vertices of a primitive share the value, for example a value of their patch; otherwise draw
     /// with Vulkan, Metal or Direct3D.
     #[error(
         "`{member}` of your `struct Vertex` is flat with the value of a primitive's first vertex, \
@@ -81,8 +83,8 @@ pub enum StageError {
         /// Name of the member.
         member: String,
     },
-    /// The number of patches is read from a buffer that lacks the usage `COPY_SRC`, at an offset
-    /// that is no multiple of 4, or behind its end.
+    /// The number of patches is to be read from a buffer that lacks the usage `COPY_SRC`, at an
+    /// offset that is not a multiple of 4, or past the buffer's end.
     #[error(
         "the number of patches at byte {offset} of a buffer of {size} bytes with the \
          usages {usage:?} cannot be read; its offset must be a multiple of 4 within the \
@@ -115,28 +117,27 @@ pub enum StageError {
     /// The factors of this stage do not come from the host. Make it with `Factors::Host`.
     #[error("the factors of this stage do not come from the host; make it with Factors::Host")]
     NotHostFactors,
-    /// The user's WGSL has no function of the name that
-    /// [`StageBuilder::project`](crate::stage::StageBuilder::project) got.
+    /// The user's WGSL has no function of the name that was passed to
+    /// [`StageBuilder::project`](crate::stage::StageBuilder::project).
     #[error("your WGSL has no function `{name}`; write `fn {name}(vertex: Vertex) -> Vertex`")]
     NoSuchFunction {
         /// The name.
         name: String,
     },
     /// A stage that was made with
-    /// [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) has another domain or
-    /// configuration than the other stage or, where points are evaluated, another `struct Vertex`.
+    /// [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) has a different domain or
+    /// configuration from the other stage or, if points are evaluated, a different `struct Vertex`.
     #[error(
         "a stage draws another's output if both have one domain and configuration and, where points \
          are evaluated, a `struct Vertex` with the same types and locations"
     )]
     OtherOutput,
     /// A stage that was made with
-    /// [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) is not prepared. Prepare
-    /// the other stage, once for all that draw its output.
+    /// [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) cannot be prepared or
+    /// changed. Prepare the other stage, once for all stages that draw its output.
     #[error("this stage draws the output of another; prepare and change that one")]
     DrawsAnother,
-    /// Whoever draws without the stage's pipeline needs stored points and indices. Leave out
-    /// `points`.
+    /// Drawing without the stage's pipeline needs stored points and indices. Leave out `points`.
     #[error(
         "to draw without the stage's pipeline, points and indices have to be stored; leave out `points`"
     )]
@@ -150,7 +151,7 @@ impl StageError {
          `IsolineFactors`), and no name that begins with `tess_`; its bindings are in the groups that the builder got";
 }
 
-/// The compiler's message, with the line or with what is demanded.
+/// The compiler's message, with the line or with the stage's demands.
 fn invalid(line: Option<u32>, message: &str) -> String {
     match line {
         Some(line) => format!("line {line} of your WGSL: {message}"),
@@ -164,7 +165,7 @@ fn or_none(names: &[String]) -> String {
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
-/// Says which fragment shaders there are.
+/// The message about a missing or unclear fragment shader, with those that exist.
 fn unclear(asked: Option<&str>, found: &[String]) -> String {
     let names = found.join(", ");
     match (asked, found.is_empty()) {
