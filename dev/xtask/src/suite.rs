@@ -51,11 +51,30 @@ const BEYOND: &[Beyond] = &[
     // These tests need OpenGL or a simulator.
     Beyond { program: "tess-wgpu/tests/gl/main.rs", tests: &[] },
     Beyond { program: "bindings/c/tests/foreign.rs", tests: &["rtl_", "uvm_"] },
-    // These tests are slow. The remaining comparisons reach the same code with fewer patches, or in
-    // a single language.
+    // They are slow. The comparisons that stay reach the same code with fewer patches, with shorter
+    // sequences of frames, or in one language.
     Beyond {
         program: "tools/cli/tests/program/main.rs",
-        tests: &["backends::gpu_equals_recorded"],
+        tests: &[
+            "backends::gpu_equals_recorded",
+            "backends::gpu_random_patches_are_equal",
+            "backends::narrow_indices_equal_recorded_patches",
+            "backends::simd_equals_every_recorded_result",
+            "crossed::backends_are_timed",
+        ],
+    },
+    Beyond {
+        program: "tess-wgpu/tests/stage/main.rs",
+        tests: &[
+            "rising::",
+            "room::a_frame_that_does_not_fit_is_coarser",
+            "sequences::",
+            "shared::no_frame_makes_a_pipeline",
+        ],
+    },
+    Beyond {
+        program: "tess-wgpu/tests/batches/main.rs",
+        tests: &["alike::", "cut::", "order::", "short::"],
     },
     Beyond { program: "tess-gpu/tests/twins/main.rs", tests: &[] },
     Beyond { program: "tools/cli/tests/shaders/main.rs", tests: &[] },
