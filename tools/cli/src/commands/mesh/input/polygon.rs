@@ -4,7 +4,7 @@
 //! Monthly 82(6), 1975). An ear is a triangle of three consecutive corners that contains no other
 //! corner. The roundest ear is cut first. So a corner on the straight line between its neighbours
 //! remains until it belongs to a triangle with area, and it meets the corner of a neighbouring face
-//! at the same place. Libraries for pictures leave such corners out.
+//! at the same place.
 
 use glam::{DVec2, DVec3, Vec3};
 use tess_surface::{Face, Sides};
