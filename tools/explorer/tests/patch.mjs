@@ -113,7 +113,7 @@ test("saved files are what tess writes", async () => {
   }
   await page.selectOption("#colours", "order");
   await page.selectOption("#numbers", "points");
-  const drawn = tess("draw", ...await patchWords(page), "--order", "--indices");
+  const drawn = tess("draw", ...await patchWords(page), "--number-primitives", "--number-points");
   assert.ok(drawn.equals(await saved(page, "svg")), "order and numbers");
   await close(page);
 });
