@@ -8,9 +8,10 @@ equal() { test "$1" = "$2" || { echo "observed $1, expected $2" >&2; exit 1; }; 
 # No file in these folders, which have what an archive has, names a folder of the machine that built it. What pip writes
 # beside a package (direct_url.json) does, so an installed package is no folder for this.
 unnamed() {
-    for folder in "$ROOT/" "$HOME/"; do
-        if grep -rlF "$folder" "$@"; then
-            echo "these name $folder, a folder of the machine that built them" >&2
+    # A variable of a function is the caller's too, who has one named folder.
+    for builder in "$ROOT/" "$HOME/"; do
+        if grep -rlF "$builder" "$@"; then
+            echo "these name $builder, a folder of the machine that built them" >&2
             exit 1
         fi
     done
