@@ -60,8 +60,8 @@ use wgpu::BufferUsages as Usage;
 /// An edge factor that is 0, negative or NaN culls the patch. On a triangle the third coordinate is
 /// exactly `1.0 - uv.x - uv.y`.
 ///
-/// Names that begin with `tess_` are the stage's. A name of WGSL's own that the stage's functions
-/// use, such as `distance`, cannot be declared.
+/// Names that begin with `tess_` belong to the stage. Predefined names of WGSL that the stage's
+/// functions use, such as `distance`, cannot be declared.
 #[derive(Debug)]
 pub struct TessellationStage {
     device: wgpu::Device,
@@ -70,14 +70,14 @@ pub struct TessellationStage {
     room: Room,
     lull: Lull,
     groups: Vec<u32>,
-    /// Groups in place of those that the batch was made with, copied there in each frame.
+    /// Groups that replace those of the batch; each frame copies them there.
     begins: Option<wgpu::Buffer>,
     bind_groups: Vec<UserGroup>,
-    /// The raw factors of the frame, as the batch reads them.
+    /// The raw factors of the frame, in the layout that the batch reads.
     factors: wgpu::Buffer,
     /// The number of patches of the frame.
     count: wgpu::Buffer,
-    /// None if the stage draws another's output.
+    /// `None` if the stage draws another's output.
     factor_pass: Option<FactorPass>,
     fit: Option<Fit>,
     evaluation: Option<Evaluation>,
@@ -85,19 +85,19 @@ pub struct TessellationStage {
     vertices: VertexLayout,
     /// Whether draws read the factors.
     has_factors: bool,
-    /// The number of instances that draws have, if it is not 1.
+    /// The number of instances of each draw, if it is not 1.
     instances: Option<wgpu::Buffer>,
-    /// None if the caller draws with its own.
+    /// `None` if the caller draws with its own pipeline.
     pipeline: Option<Arc<wgpu::RenderPipeline>>,
     /// Shared by the stages that draw it.
     output: Arc<Mutex<StageOutput>>,
-    /// Other groups and their output, from the next frame on.
+    /// New groups and their output, which the next frame will use.
     next: Option<(Vec<u32>, StageOutput)>,
     feedback: Arc<Mutex<Feedbacks>>,
     frame: u64,
 }
 
-/// A bind group of the user's, and its dynamic offsets.
+/// A bind group of the user, and its dynamic offsets.
 type UserGroup = (wgpu::BindGroup, Vec<wgpu::DynamicOffset>);
 
 impl TessellationStage {
@@ -114,18 +114,18 @@ impl TessellationStage {
         StageBuilder::new(source, domain, config, patches)
     }
 
-    /// Draws all patches of the last frame that was prepared. A stage without a pipeline draws with
-    /// the pass's pipeline and bind groups, which must be set.
+    /// Draws all patches of the last frame that was prepared. If the stage has no pipeline, the
+    /// caller must have set a pipeline and bind groups on the pass.
     ///
-    /// A render bundle would keep buffers that [`Self::prepare`] may replace, so there is no call
-    /// that draws in one. Record your own with [`Self::vertices`], [`Self::indices`] and
-    /// [`Self::indirect`], anew whenever [`Self::capacity`] changes.
+    /// There is no call for render bundles, because a bundle keeps buffers that [`Self::prepare`]
+    /// may replace. To record one, use [`Self::vertices`], [`Self::indices`] and
+    /// [`Self::indirect`], and record it again whenever [`Self::capacity`] changes.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.draw_as(pass, None);
     }
 
-    /// Draws one group of patches. Call [`Self::set_bind_group`] before it to give the group its
-    /// own material.
+    /// Draws one group of patches. To give the group its own material, call
+    /// [`Self::set_bind_group`] first.
     ///
     /// # Errors
     /// [`StageError::NoSuchGroup`].
@@ -154,32 +154,32 @@ impl TessellationStage {
     }
 
     /// The vertices of the last frame that was prepared, or `None` if the vertex shader computes
-    /// them. They are laid out as [`Self::vertex_layout`] says: with [`Points::Evaluated`] the
-    /// user's `Vertex` structs, with [`Points::Stored`] packed points. The buffer has the usages
-    /// `VERTEX`, `STORAGE` and `COPY_SRC`; evaluated vertices also have `BLAS_INPUT` where the
-    /// device was opened with `EXPERIMENTAL_RAY_QUERY`.
+    /// them. [`Self::vertex_layout`] describes them: the user's `Vertex` structs with
+    /// [`Points::Evaluated`], packed points with [`Points::Stored`]. The buffer has the usages
+    /// `VERTEX`, `STORAGE` and `COPY_SRC`; evaluated vertices also have `BLAS_INPUT` if the device
+    /// was opened with `EXPERIMENTAL_RAY_QUERY`.
     ///
     /// - **Your own render pass:** set this vertex buffer and [`Self::indices`], and draw with
     ///   [`Self::indirect`].
     /// - **A compute pass:** declare your `struct Vertex` there and bind the buffer as
     ///   `array<Vertex>`, read-only; the first word of [`Self::status`] is the number of vertices.
     ///   Patches, and the points of a patch, follow each other in the model's order.
-    /// - **Reading back:** copy a part of it, once [`Self::feedback`] or [`Self::make_room`] says
-    ///   how much there is.
+    /// - **Reading back:** copy a part of it. [`Self::feedback`] and [`Self::make_room`] return the
+    ///   number of vertices.
     /// - **Ray tracing:** a bottom-level structure reads `Float32x3` at the beginning of each
     ///   vertex, so the position in the world is the struct's first member. The buffers can be
     ///   longer than the frame's output; see the example `rays`.
     ///
-    /// A call of [`Self::prepare`] replaces the buffers if it makes more room, which
-    /// [`Self::capacity`] shows. So ask for them in each frame.
+    /// Get the buffers again in each frame: [`Self::prepare`] replaces them when it makes more
+    /// room, which shows in [`Self::capacity`].
     #[must_use]
     pub fn vertices(&self) -> Option<wgpu::Buffer> {
         self.output().stored.loaded().cloned()
     }
 
-    /// The index buffer, 32 bits an index, or `None` with [`Points::PullWithoutIndices`]. An index
-    /// is the number of a vertex of the frame. Primitives are triangles unless the configuration's
-    /// output says otherwise. The usages are `INDEX` and those of [`Self::vertices`] but `VERTEX`.
+    /// The index buffer with 32 bits per index, or `None` with [`Points::PullWithoutIndices`]. An
+    /// index is the number of a vertex in the frame. The configuration's output determines the
+    /// primitives. The usages are `INDEX` and those of [`Self::vertices`] except `VERTEX`.
     #[must_use]
     pub fn indices(&self) -> Option<wgpu::Buffer> {
         self.output().stored.indices
@@ -193,7 +193,7 @@ impl TessellationStage {
         self.output().batch.draw_arguments().clone()
     }
 
-    /// The same arguments for each group, [`Self::GROUP_BYTES`] apart.
+    /// The draw arguments of each group, [`Self::GROUP_BYTES`] apart.
     #[must_use]
     pub fn group_indirect(&self) -> wgpu::Buffer {
         self.output().batch.group_arguments().clone()
@@ -212,8 +212,8 @@ impl TessellationStage {
         &self.vertices
     }
 
-    /// Draws this many instances of everything, from the next call of [`Self::prepare`] on; 1 at
-    /// first. The WGSL asks `tess_instance()` for the number of the instance that is drawn.
+    /// Sets the number of instances that each draw has after the next call of [`Self::prepare`]; at
+    /// first it is 1. In the WGSL, `tess_instance()` is the number of the instance.
     ///
     /// # Errors
     /// [`StageError::DrawsAnother`] for a stage that draws another's output;
@@ -227,13 +227,13 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Replaces the groups that [`StageBuilder::groups`] gave, from the next call of
-    /// [`Self::prepare`] on. Until then the frame that was prepared is drawn with its own groups.
-    /// Nothing is compiled; as many groups as before are a copy of their numbers.
+    /// Replaces the groups of [`StageBuilder::groups`]. The next call of [`Self::prepare`] uses the
+    /// new ones; until then draws use those of the frame that was prepared. Nothing is compiled. If
+    /// the number of groups stays the same, no buffer is made either.
     ///
     /// # Errors
     /// [`Error::MisplacedGroup`]; [`StageError::DrawsAnother`] for a stage that draws another's
-    /// output; [`Error::OutOfMemory`]. The groups are then what they were.
+    /// output; [`Error::OutOfMemory`]. Then the groups are unchanged.
     pub fn set_groups(&mut self, first_patches: &[u32]) -> Result<(), Error> {
         if self.factor_pass.is_none() {
             return Err(StageError::DrawsAnother.into());
@@ -251,25 +251,25 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or
-    /// `draw` on.
+    /// Replaces one of the user's bind groups, given by its number. The next call of `prepare` or
+    /// `draw` uses the new one.
     ///
-    /// A group of another layout than the builder got is an error of wgpu's when the frame's
-    /// encoder is finished. It names the group's number and the binding.
+    /// If its layout differs from the one that the builder got, wgpu reports an error, with the
+    /// numbers of group and binding, when the frame's encoder is finished.
     ///
     /// # Errors
-    /// [`StageError::NoSuchBindGroup`]. The bind groups are then what they were.
+    /// [`StageError::NoSuchBindGroup`]. Then the bind groups are unchanged.
     pub fn set_bind_group(&mut self, number: u32, group: &wgpu::BindGroup) -> Result<(), Error> {
         self.user_group(number)?.0.clone_from(group);
         Ok(())
     }
 
-    /// The dynamic offsets of one of the user's bind groups, in bytes and in the order of its
-    /// bindings, from the next call of `prepare` or `draw` on. At first there are none. Too many or
-    /// too few are an error of wgpu's when the frame's encoder is finished.
+    /// Sets the dynamic offsets of one of the user's bind groups, in bytes and in the order of its
+    /// bindings. The next call of `prepare` or `draw` uses them; at first there are none. If there
+    /// are too many or too few, wgpu reports an error when the frame's encoder is finished.
     ///
     /// # Errors
-    /// [`StageError::NoSuchBindGroup`]. The offsets are then what they were.
+    /// [`StageError::NoSuchBindGroup`]. Then the offsets are unchanged.
     pub fn set_dynamic_offsets(&mut self, number: u32, offsets: &[u32]) -> Result<(), Error> {
         self.user_group(number)?.1 = offsets.to_vec();
         Ok(())
@@ -281,8 +281,8 @@ impl TessellationStage {
         Ok(own.ok_or(StageError::NoSuchBindGroup { number, groups })?)
     }
 
-    /// Records new factors from the host for the first `patches.len()` patches. Patches that never
-    /// had factors are culled.
+    /// Records new factors from the host for the first `patches.len()` patches. A patch without
+    /// factors so far is culled.
     ///
     /// # Errors
     /// [`StageError::NotHostFactors`], [`StageError::TooManyPatches`], [`StageError::OtherDevice`],
@@ -310,9 +310,9 @@ impl TessellationStage {
         })
     }
 
-    /// The needs of the latest frame whose numbers have arrived; `None` at first. Numbers arrive a
-    /// frame or two after the submission. This asks the device without waiting, as
-    /// [`Self::prepare`] does.
+    /// The feedback of the latest frame whose numbers have arrived; `None` at first. Numbers arrive
+    /// one or two frames after the submission. The call polls the device without waiting, and so
+    /// does [`Self::prepare`].
     #[must_use]
     pub fn feedback(&self) -> Option<Feedback> {
         let mut feedback = locked(&self.feedback);
@@ -321,15 +321,15 @@ impl TessellationStage {
         feedback.last()
     }
 
-    /// The raw factors of the last frame that was submitted, as [`factor_words`] lays them out,
-    /// with the usages `STORAGE` and `COPY_SRC`. If the frame did not fit, they are the ones that
-    /// it was scaled down to. Patches beyond the frame's number have factors of 0.
+    /// The raw factors of the last frame that was submitted, in the layout of [`factor_words`],
+    /// with the usages `STORAGE` and `COPY_SRC`. If the frame did not fit, they are the scaled
+    /// factors. Patches beyond the frame's number of patches have factors of 0.
     #[must_use]
     pub const fn factors(&self) -> &wgpu::Buffer {
         &self.factors
     }
 
-    /// The room for points and primitives that the stage has now.
+    /// The stage's present room for points and primitives.
     #[must_use]
     pub fn capacity(&self) -> Capacity {
         self.output().room
@@ -348,13 +348,13 @@ impl TessellationStage {
         (batch, [stored.points, stored.indices])
     }
 
-    /// Gives room back after so many frames that use little of it.
+    /// Sets the number of frames with little output after which room is given back.
     #[cfg(feature = "measure")]
     pub const fn shrink_after(&mut self, frames: u64) {
         self.lull.patience = frames;
     }
 
-    /// A user's WGSL with the stage's types and helpers, and `own` behind it.
+    /// A user's WGSL, followed by the stage's types and helpers and by `own`.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn joined(user: &str, own: &str) -> String {

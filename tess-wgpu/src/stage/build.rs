@@ -22,7 +22,7 @@ use tess_gpu::Setup;
 use wgpu::BufferUsages as Usage;
 
 impl StageBuilder<'_> {
-    /// Compiles everything and makes every buffer.
+    /// Compiles all pipelines and makes all buffers of the stage.
     ///
     /// # Errors
     /// - For the user's WGSL: [`StageError::Wgsl`], [`StageError::UnclearFragment`], and on OpenGL
@@ -38,12 +38,13 @@ impl StageBuilder<'_> {
     /// - For a buffer of factors: [`Error::FactorsTooShort`], [`Error::NotStorage`].
     /// - For groups of patches: [`Error::MisplacedGroup`].
     /// - Without a pipeline, unless points are stored: [`StageError::NothingStored`].
-    /// - For what wgpu has against layouts or the render state: [`Error::Refused`].
+    /// - If wgpu refuses a layout or the render state: [`Error::Refused`].
     pub fn build(self, device: &wgpu::Device) -> Result<TessellationStage, Error> {
         now(stage(self, device))
     }
 
-    /// The same where waiting is not possible: in a browser, the compiler answers later.
+    /// Like [`StageBuilder::build`], for a browser: there the compiler answers later, and the
+    /// calling thread must not wait.
     ///
     /// # Errors
     /// As [`StageBuilder::build`].
@@ -52,7 +53,7 @@ impl StageBuilder<'_> {
     }
 }
 
-/// The result of `work` where nothing has to be waited for.
+/// The result of `work`, which is ready at its first poll on native platforms.
 fn now<T>(work: impl Future<Output = Result<T, Error>>) -> Result<T, Error> {
     match pin!(work).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(done) => done,
@@ -139,7 +140,7 @@ fn tessellator_of(
     }
 }
 
-/// A stage that draws another's output.
+/// A stage that draws the output of another stage.
 async fn drawing_stage(
     mut builder: StageBuilder<'_>,
     other: &TessellationStage,
@@ -206,7 +207,7 @@ async fn pipeline_of(
     render_pipeline(builder, tessellator, (vertices, own.as_ref())).await.map(Some)
 }
 
-/// Refuses what the device or the stage cannot do.
+/// Refuses choices that the device or the stage does not support.
 fn check(
     builder: &StageBuilder<'_>,
     device: &wgpu::Device,
@@ -282,7 +283,8 @@ fn check_vertices(vertices: &VertexLayout, limits: &wgpu::Limits) -> Result<(), 
     limits::at_least("max_vertex_buffer_array_stride", vertices.array_stride, got)
 }
 
-/// Refuses `hull`, and `domain` where it runs once for all draws, that ask for what a draw has.
+/// Refuses parameters that only a draw has (instance, view) in `hull`, and in `domain` if it runs
+/// once for all draws.
 fn check_draws(builder: &StageBuilder<'_>, declared: &[Declaration<'_>]) -> Result<(), Error> {
     let in_draws = ["tess_instance", "tess_view"];
     let in_hull: &[&str] = &["tess_factors", "tess_instance", "tess_view"];
@@ -303,9 +305,9 @@ fn check_draws(builder: &StageBuilder<'_>, declared: &[Declaration<'_>]) -> Resu
     Ok(())
 }
 
-/// Refuses a binding in a group that the builder did not get.
+/// Refuses a binding in a group for which the builder has no bind group.
 fn check_groups(reached: &[Declaration<'_>], groups: u32) -> Result<(), Error> {
-    // Ways to write it that are no number are left to wgpu.
+    // A group that is not written as a number is left to wgpu.
     let is_there = |one: &Declaration<'_>| {
         let group = one
             .attribute("group")
@@ -326,7 +328,7 @@ fn check_groups(reached: &[Declaration<'_>], groups: u32) -> Result<(), Error> {
     }
 }
 
-/// Refuses a pipeline constant that is not there, and one without a value.
+/// Refuses a value for a pipeline constant that the WGSL lacks, and a constant without a value.
 fn check_constants(declared: &[Declaration<'_>], given: &[(&str, f64)]) -> Result<(), Error> {
     let overrides: Vec<_> = declared.iter().filter(|one| one.keyword == "override").collect();
     let is_given = |name: &str| given.iter().any(|one| one.0 == name);
@@ -346,8 +348,8 @@ fn check_constants(declared: &[Declaration<'_>], given: &[(&str, f64)]) -> Resul
     }
 }
 
-/// The fragment shader, if there are targets. Refuses one that is not there, or several of which
-/// none is named.
+/// The fragment shader, if there are targets. Refuses a name that the WGSL lacks, and several
+/// fragment shaders of which none is named.
 fn check_fragment<'a>(
     builder: &StageBuilder<'_>,
     declared: &[Declaration<'a>],

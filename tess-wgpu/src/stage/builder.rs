@@ -1,4 +1,4 @@
-//! The parts that a stage is made of.
+//! The builder of a stage: its choices and their defaults.
 
 use super::choices::{Factors, Overflow, Points, Room};
 use super::room::Form;
@@ -31,7 +31,7 @@ pub struct StageBuilder<'a> {
     pub(super) overflow: Overflow,
     pub(super) groups: Vec<u32>,
     pub(super) render: Render<'a>,
-    /// Whether the stage makes the render pipeline; if not, the caller does.
+    /// Whether the stage makes the render pipeline. If not, the caller makes it.
     pub(super) makes_pipeline: bool,
     pub(super) constants: &'a [(&'a str, f64)],
     pub(super) tessellator: Option<&'a Tessellator>,
@@ -39,7 +39,7 @@ pub struct StageBuilder<'a> {
     pub(super) output_of: Option<&'a TessellationStage>,
 }
 
-/// The state of the render pipeline that is the user's.
+/// The part of the render pipeline's state that the user chooses.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Render<'a> {
     pub(super) project: Option<&'a str>,
@@ -98,12 +98,14 @@ impl<'a> StageBuilder<'a> {
         }
     }
 
-    /// The user's next bind group: the first call is `@group(0)`, the second `@group(1)`, and so
-    /// on. The device's limit is 4 by default, and the stage takes one of them. The layout is
-    /// visible to the stages that use it: `COMPUTE` for `hull`, `VERTEX` for `domain` and the
-    /// function of [`Self::project`], `COMPUTE` for `domain` with [`Points::Evaluated`]. Dynamic
-    /// offsets are set with [`set_dynamic_offsets`](super::TessellationStage::set_dynamic_offsets).
-    /// wgpu looks at the group when a frame's encoder is finished: see
+    /// Adds a bind group of the user: the first call is `@group(0)`, the second `@group(1)`, and so
+    /// on. Devices allow 4 groups by default, and the stage takes one of them.
+    ///
+    /// The layout must be visible to the shader stages that use it: `COMPUTE` for `hull`, `VERTEX`
+    /// for `domain` and the function of [`Self::project`], `COMPUTE` for `domain` with
+    /// [`Points::Evaluated`]. To set dynamic offsets, call
+    /// [`set_dynamic_offsets`](super::TessellationStage::set_dynamic_offsets). wgpu checks the
+    /// group when a frame's encoder is finished: see
     /// [`set_bind_group`](super::TessellationStage::set_bind_group).
     pub fn bind_group(mut self, layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup) -> Self {
         self.layouts.push(layout.clone());
@@ -111,46 +113,46 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// Shares pipelines with other stages: those that were made with the same tessellator, or with
-    /// clones of it. The tessellation's own depend on domain, configuration and order, `hull`'s on
-    /// what it reaches of the WGSL, the render pipeline on all of the WGSL and the state. So a
-    /// stage for another material makes one pipeline. [`Tessellator::with_pipeline_cache`] gives
-    /// them a cache of wgpu's.
+    /// Shares pipelines with the other stages that are made with this tessellator or a clone of it.
     ///
-    /// wgpu has no call that makes pipelines without waiting. Where a frame must not wait, build
-    /// stages on another thread: a stage, its builder and a tessellator are `Send`.
+    /// The pipelines of the tessellation depend on domain, configuration and order; that of `hull`
+    /// on the WGSL that it reaches; the render pipeline on all of the WGSL and on the render state.
+    /// A stage for another material therefore makes one pipeline.
+    /// [`Tessellator::with_pipeline_cache`] gives them a cache of wgpu's.
+    ///
+    /// wgpu cannot make a pipeline without waiting for it. If a frame must not wait, build stages
+    /// on another thread: a stage, its builder and a tessellator are `Send`.
     pub const fn tessellator(mut self, shared: &'a Tessellator) -> Self {
         self.tessellator = Some(shared);
         self
     }
 
-    /// Draws the output of another stage, with this stage's WGSL and state: a further material, a
-    /// shadow map, a prepass. The other stage is prepared once for all that draw its output; this
-    /// one has no compute passes, and `hull` is not needed. Unless points are evaluated, the draw
-    /// calls this stage's own `domain`.
+    /// Draws the output of another stage with this stage's WGSL and state: for a second material, a
+    /// shadow map or a prepass. Only the other stage is prepared, once for all stages that draw its
+    /// output. This stage has no compute passes and needs no `hull`. Unless points are evaluated,
+    /// its draws call its own `domain`.
     ///
-    /// Both have one domain, configuration and, where points are evaluated, one `struct Vertex` up
-    /// to its names. Factors, points, order, room, groups and the most patches are the other's,
-    /// whatever this builder got.
+    /// Both stages need the same domain and configuration and, if points are evaluated, the same
+    /// `struct Vertex` except for names. Factors, points, order, room, groups and the most patches
+    /// are those of the other stage; this builder's are ignored.
     pub const fn output_of(mut self, other: &'a TessellationStage) -> Self {
         self.output_of = Some(other);
         self
     }
 
-    /// The name of a function of the WGSL, `fn name(vertex: Vertex) -> Vertex`, that every draw
-    /// calls for each vertex that `domain` returned; none if this is not called. What differs from
-    /// pass to pass belongs there: the camera.
+    /// Names a function of the WGSL, `fn name(vertex: Vertex) -> Vertex`, that every draw applies
+    /// to the vertices that `domain` returned. By default there is none. It does the work that
+    /// differs from pass to pass, such as applying the camera.
     ///
-    /// With [`Points::Evaluated`] the draws call nothing else, so it is `domain` that runs once and
-    /// this function that runs in each pass. With the others it is called after `domain` in the
-    /// same vertex shader.
+    /// With [`Points::Evaluated`], `domain` runs once and this function in each pass. With other
+    /// points, the vertex shader calls both.
     pub const fn project(mut self, function: &'a str) -> Self {
         self.render.project = Some(function);
         self
     }
 
-    /// Draws several layers of the targets at once, those whose bits are set, with wgpu's feature
-    /// `MULTIVIEW`. The WGSL asks `tess_view()` for the layer's number.
+    /// Draws all layers of the targets whose bits are set, with wgpu's feature `MULTIVIEW`. In the
+    /// WGSL, `tess_view()` is the number of the layer.
     pub const fn views(mut self, mask: NonZeroU32) -> Self {
         self.render.views = Some(mask);
         self
@@ -162,54 +164,54 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// Where the factors come from; [`Factors::Hull`] if this is not called.
+    /// The source of the factors; [`Factors::Hull`] by default.
     pub const fn factors(mut self, factors: Factors<'a>) -> Self {
         self.factors = factors;
         self
     }
 
-    /// Where points come from; [`Points::Stored`] if this is not called.
+    /// The source of points; [`Points::Stored`] by default.
     pub const fn points(mut self, points: Points) -> Self {
         self.points = points;
         self
     }
 
-    /// The order in which the triangles of a patch are drawn. If this is not called, it is
-    /// [`Order::VertexCache`] with an index buffer. Without one there is no vertex cache, and it is
-    /// [`Order::Specification`], which takes less time.
+    /// The order in which the triangles of a patch are drawn. The default is [`Order::VertexCache`]
+    /// with an index buffer, and otherwise [`Order::Specification`], which takes less time: without
+    /// indices no vertex cache is used.
     pub const fn order(mut self, order: Order) -> Self {
         self.order = Some(order);
         self
     }
 
-    /// The room for points and indices; [`Room::Automatic`] up to 256 MiB if this is not called.
+    /// The room for points and indices; [`Room::Automatic`] up to 256 MiB by default.
     pub const fn room(mut self, room: Room) -> Self {
         self.room = room;
         self
     }
 
-    /// Begins [`Room::Automatic`] with no less than this: the
+    /// The least room with which [`Room::Automatic`] begins, for example the
     /// [`capacity`](super::TessellationStage::capacity) of a smaller stage that this one replaces.
     pub const fn first_room(mut self, room: Capacity) -> Self {
         self.first_room = room;
         self
     }
 
-    /// The fate of a frame that does not fit; [`Overflow::Coarser`] if this is not called.
+    /// The fate of a frame that does not fit; [`Overflow::Coarser`] by default.
     pub const fn overflow(mut self, overflow: Overflow) -> Self {
         self.overflow = overflow;
         self
     }
 
-    /// Groups of patches that are drawn one by one. Each is given by the number of its first patch;
-    /// the numbers ascend ([`crate::Tessellator::batch_in_groups`]).
+    /// Groups of patches, each drawn by a call of its own. A group is given by the number of its
+    /// first patch; the numbers ascend ([`crate::Tessellator::batch_in_groups`]).
     pub fn groups(mut self, first_patches: &[u32]) -> Self {
         self.groups = first_patches.to_vec();
         self
     }
 
-    /// The next colour target of the render passes that the stage is drawn in. Without any, there
-    /// is no fragment shader.
+    /// Adds a colour target of the render passes that draw the stage. Without targets there is no
+    /// fragment shader.
     pub fn target(mut self, target: impl Into<wgpu::ColorTargetState>) -> Self {
         self.render.targets.push(Some(target.into()));
         self
@@ -221,41 +223,41 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// Depth and stencil; none if this is not called.
+    /// Depth and stencil; none by default.
     pub fn depth(mut self, depth: wgpu::DepthStencilState) -> Self {
         self.render.depth = Some(depth);
         self
     }
 
-    /// Multisampling; one sample if this is not called.
+    /// Multisampling; one sample by default.
     pub const fn multisample(mut self, multisample: wgpu::MultisampleState) -> Self {
         self.render.multisample = multisample;
         self
     }
 
-    /// Culling, front face and polygon mode. The topology is ignored: the configuration's output
-    /// decides it.
+    /// Culling, front face and polygon mode. The topology is ignored, because the configuration's
+    /// output primitive determines it.
     pub const fn primitive(mut self, primitive: wgpu::PrimitiveState) -> Self {
         self.render.primitive = primitive;
         self
     }
 
-    /// Leaves the render pipelines to an engine that makes its own, from [`Self::vertex_shader`]
-    /// and its own fragment shaders: for a shadow map, a depth prepass, several cameras. Only
-    /// `hull` uses the bind groups then, the render state is not used, and the engine draws with
-    /// [`TessellationStage::draw`](super::TessellationStage::draw) or
-    /// [`TessellationStage::indirect`](super::TessellationStage::indirect). Points are
+    /// Leaves the render pipelines to an engine that makes them from [`Self::vertex_shader`] and
+    /// its own fragment shaders.
+    ///
+    /// Only `hull` uses the bind groups then, and the render state is ignored. The engine draws
+    /// with [`TessellationStage::draw`](super::TessellationStage::draw) or
+    /// [`TessellationStage::indirect`](super::TessellationStage::indirect). Points must be
     /// [`Points::Stored`].
     pub const fn without_pipeline(mut self) -> Self {
         self.makes_pipeline = false;
         self
     }
 
-    /// The WGSL of the vertex shader, for an engine that makes the render pipeline: the user's
-    /// text, line by line as it is, and then the stage's. The entry point is `tess_vertex`. It
-    /// takes one vertex buffer of [`Self::vertex_layout`]. With points that are pulled, and with
-    /// `tess_factors`, the text is of no use outside of the stage, which keeps what it binds to
-    /// itself.
+    /// The WGSL of the vertex shader, for an engine that makes the render pipeline: the lines of
+    /// the user's text, followed by those of the stage. The entry point is `tess_vertex`; it takes
+    /// one vertex buffer of [`Self::vertex_layout`]. If points are pulled, or the WGSL calls
+    /// `tess_factors`, the shader also reads buffers that only the stage can bind.
     ///
     /// # Errors
     /// [`StageError::Wgsl`] if points are evaluated and a member of `Vertex` cannot be an
@@ -281,7 +283,7 @@ impl<'a> StageBuilder<'a> {
         VertexShader { setup: self.setup(), points, group: self.own_group(), project, vertices }
     }
 
-    /// All that the bytes of the stage's buffers depend on.
+    /// The properties on which the sizes of the stage's buffers depend.
     pub(super) fn form(&self, device: &wgpu::Device, vertices: &VertexLayout) -> Form {
         let Self { points, patches, .. } = *self;
         let is_evaluated = points == Points::Evaluated;
@@ -302,7 +304,7 @@ impl<'a> StageBuilder<'a> {
         Setup { order: self.order.unwrap_or(default), ..Setup::new(self.domain, self.config) }
     }
 
-    /// The pipeline constants: a constant with the attribute `@id` goes by its number.
+    /// The pipeline constants. The key of a constant with the attribute `@id` is its number.
     pub(super) fn constants_of(&self, declared: &[Declaration<'_>]) -> Vec<(String, u64)> {
         let key = |name: &str| {
             let declared = declared.iter().find(|one| one.name == name);

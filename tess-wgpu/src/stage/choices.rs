@@ -2,7 +2,7 @@
 
 use tess_gpu::Capacity;
 
-/// Where the factors come from.
+/// The source of a stage's factors.
 #[derive(Clone, Copy, Debug, Default)]
 pub enum Factors<'a> {
     /// From the user's function `hull`.
@@ -11,36 +11,37 @@ pub enum Factors<'a> {
     /// From the host: [`TessellationStage::set_factors`](super::TessellationStage::set_factors).
     /// Until then all patches are culled.
     Host,
-    /// From this buffer, as [`tess_gpu::layout::factor_words`] lays them out. It has the usage
-    /// `STORAGE` and is read in each frame.
+    /// From this buffer, laid out as by [`tess_gpu::layout::factor_words`]. It needs the usage
+    /// `STORAGE`, and each frame reads it.
     Buffer(&'a wgpu::Buffer),
 }
 
-/// Where the vertex shader takes its points from. Points and triangles are the same, and so is
-/// their order if [`StageBuilder::order`](super::StageBuilder::order) gives one: then the picture
-/// is the same too. Its default is another without indices, which shows where triangles of a patch
-/// overlap and no depth test decides.
+/// The source of the vertex shader's points. All variants give the same points and triangles.
+///
+/// Their order is the same too if [`StageBuilder::order`](super::StageBuilder::order) sets it; the
+/// default order without indices differs from that of the other variants. The order shows only
+/// where triangles of one patch overlap and no depth test decides between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Points {
     /// From a vertex buffer, 8 bytes each, with an index buffer.
     #[default]
     Stored,
-    /// Computed from the index of the vertex; there is an index buffer. The vertex stage binds five
-    /// storage buffers and one uniform buffer besides yours.
+    /// Computed from the vertex's index, with an index buffer. The vertex stage binds five storage
+    /// buffers and one uniform buffer in addition to yours.
     Pull,
-    /// Computed for each corner of each primitive; there are no buffers of points and indices. The
-    /// vertex stage binds the same as with [`Points::Pull`].
+    /// Computed for each corner of each primitive, without buffers of points and indices. The
+    /// vertex stage binds the same buffers as for [`Points::Pull`].
     PullWithoutIndices,
     /// From a vertex buffer of the user's `Vertex` structs, with an index buffer. After the
-    /// tessellation a compute pass calls `domain` once for each point, and draws load what it
-    /// returned. Take it for a long `domain`, above all in a frame of several passes, and to trace,
-    /// pick or export the surface: see
+    /// tessellation a compute pass calls `domain` once for each point, and draws load its results.
+    /// This is for a long `domain`, especially in a frame of several passes, and for tracing,
+    /// picking or exporting the surface: see
     /// [`TessellationStage::vertices`](super::TessellationStage::vertices).
     ///
-    /// What differs from draw to draw, such as the camera, is then a function of its own:
-    /// [`StageBuilder::project`](super::StageBuilder::project). The bindings that `domain` reads
-    /// are visible to `COMPUTE`. The pass binds four storage buffers besides yours. A point takes
-    /// the bytes of a `Vertex` and 8.
+    /// Work that differs from draw to draw, such as applying the camera, belongs in a function of
+    /// its own: [`StageBuilder::project`](super::StageBuilder::project). The bindings that `domain`
+    /// reads must be visible to `COMPUTE`. The pass binds four storage buffers in addition to
+    /// yours. A point takes the bytes of a `Vertex`, plus 8.
     Evaluated,
 }
 
@@ -60,29 +61,28 @@ impl Points {
         [Self::Stored, Self::Pull, Self::PullWithoutIndices, Self::Evaluated];
 }
 
-/// How much room a stage has for points and indices.
+/// The size of a stage's buffers of points and indices.
 ///
-/// [`Room::WorstCase`] costs a stage little if it stores neither ([`Points::PullWithoutIndices`]):
-/// 4 bytes for each 2048 points and for each 2048 primitives.
+/// A stage that stores neither ([`Points::PullWithoutIndices`]) can take [`Room::WorstCase`]
+/// cheaply: 4 bytes for every 2048 points and for every 2048 primitives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Room {
-    /// Enough for all patches at factor 64: everything always fits.
+    /// Room for all patches at factor 64, so that every frame fits.
     WorstCase,
-    /// As much as this number of bytes holds, points and indices together. All patches fit at
-    /// factor 1 if the bytes suffice for that; the rest is divided in the proportion of patches of
-    /// factor 8.
+    /// This number of bytes, points and indices together. All patches fit at factor 1 if the bytes
+    /// suffice for that; the rest is divided in the proportion of patches with factor 8.
     Bytes(u64),
-    /// Exactly this.
+    /// Exactly this number of points and primitives.
     Exactly(Capacity),
-    /// Enough for all patches at factor 4 at first. When a frame needs more than 7/8 of it, a later
-    /// one has twice as much or more: the stage learns what was needed without waiting and makes
-    /// larger buffers, within the budget. Output that rises by up to 4 % a frame therefore always
-    /// fits. Room of which 1024 frames use a fifth or less shrinks. The pipelines for any room are
+    /// At first, room for all patches at factor 4. When a frame needs more than 7/8 of it, the
+    /// stage makes larger buffers within the budget, at least twice as large, without waiting for
+    /// the device; a later frame uses them. Output that rises by up to 4 % per frame therefore
+    /// always fits. If 1024 frames use at most a fifth of the room, it shrinks. All pipelines are
     /// made when the stage is built, none by a frame.
     ///
-    /// The first frames can therefore be coarser than asked for, or empty, as [`Overflow`] says.
-    /// For a picture that is drawn once, call
-    /// [`TessellationStage::make_room`](super::TessellationStage::make_room) first, or take
+    /// The first frames can be coarser than requested, or empty, depending on [`Overflow`]. For a
+    /// picture that is drawn once, call
+    /// [`TessellationStage::make_room`](super::TessellationStage::make_room) first, or use
     /// [`Room::WorstCase`].
     Automatic {
         /// The most bytes of points and indices together.
@@ -93,21 +93,21 @@ pub enum Room {
 /// The fate of a frame whose output does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Overflow {
-    /// All factors are scaled down by one number, on the device, until everything fits. Edges stay
-    /// closed. If even factors of 1 give too much, nothing is drawn.
+    /// The device multiplies all factors above 1 by one scale, so that everything fits, but leaves
+    /// them at least 1. Edges stay closed. If even factors of 1 give too much, nothing is drawn.
     #[default]
     Coarser,
     /// Nothing is drawn.
     DrawNothing,
 }
 
-/// How many patches a frame has: a `u32`, or a `u32` in a buffer of the device.
+/// The number of patches of a frame: a `u32`, or a `u32` in a buffer of the device.
 #[derive(Clone, Copy, Debug)]
 pub enum PatchCount<'a> {
     /// This number.
     Host(u32),
-    /// The number at this offset, a multiple of 4, of a buffer with the usage `COPY_SRC`. A number
-    /// beyond what the stage was made for counts as that.
+    /// The number at this offset, a multiple of 4, of a buffer with the usage `COPY_SRC`. A larger
+    /// number than the stage was made for counts as that number.
     Device(&'a wgpu::Buffer, u64),
 }
 

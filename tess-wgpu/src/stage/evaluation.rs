@@ -12,10 +12,10 @@
 //!
 //! - A window is a multiple of 64 points, so that it begins at a multiple of 256 bytes in both
 //!   buffers.
-//! - At most [`MOST_WORKGROUPS`] workgroups share a window; each thread takes every so-many-th
-//!   point. So nobody has to write the size of a dispatch on the device, and a large room with few
-//!   points costs little.
-//! - A frame that does not fit writes no vertex.
+//! - At most [`MOST_WORKGROUPS`] workgroups share a window. Each thread starts at the point of its
+//!   number and advances by the number of threads. The size of the dispatch therefore does not
+//!   depend on the number of points, and a large room with few points costs little.
+//! - If a frame does not fit, the pass writes no vertex.
 
 use super::builder::StageBuilder;
 use super::choices::Points;

@@ -1,4 +1,4 @@
-//! Where the factors of a frame come from: the pass that writes them.
+//! The pass that writes the factors of a frame.
 
 use super::builder::StageBuilder;
 use super::choices::Factors;
@@ -21,7 +21,7 @@ pub(super) struct FactorPass {
     own: wgpu::BindGroup,
     own_group: u32,
     workgroups: [u32; 2],
-    /// The factors from the host, if that is where they come from.
+    /// The buffer of factors from the host, if the host gives them.
     pub(super) host: Option<wgpu::Buffer>,
 }
 
@@ -89,8 +89,8 @@ impl FactorPass {
     }
 }
 
-/// The pipeline of the user's function `hull`. Stages share it whose texts differ only in what the
-/// function does not reach.
+/// The pipeline of the user's function `hull`. Two stages share it if their WGSL is equal in
+/// everything that the function reaches.
 async fn hull(
     builder: &StageBuilder<'_>,
     setup: Setup,

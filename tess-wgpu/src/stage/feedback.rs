@@ -1,4 +1,4 @@
-//! A frame's needs, learnt some frames later without waiting.
+//! Read-back of the output that each frame needed, some frames later and without waiting.
 
 use super::fit::{Fit, Found};
 use crate::device::gpu;
@@ -9,32 +9,33 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use tess_gpu::layout::Status;
 use wgpu::BufferUsages as Usage;
 
-/// A frame's needs, and what it drew.
+/// The output that a frame needed, and the output that it drew.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Feedback {
     /// Number of the frame: the first call of `prepare` is frame 0.
     pub frame: u64,
-    /// Points that the factors give.
+    /// The number of points that the factors give.
     pub points: u64,
-    /// Primitives that the factors give.
+    /// The number of primitives that the factors give.
     pub primitives: u64,
-    /// Primitives that were drawn: fewer if they did not fit.
+    /// The number of primitives that were drawn, which is less if the output did not fit.
     pub drawn: u64,
-    /// The scale of the factors that made the output fit; 1 if it fitted, or if the stage is to
-    /// draw nothing instead.
+    /// The scale of the factors that made the output fit; 1 if it fitted at once, or if the stage
+    /// draws nothing in that case.
     pub scale: f32,
 }
 
-/// Read-backs under way at most. A frame beyond them is not read back.
+/// The most read-backs that are pending. A further frame is not read back.
 const MOST: usize = 4;
-/// After this many frames a read-back is given up whose encoder is kept and was never submitted.
+/// The number of frames after which a read-back is abandoned, because its encoder is still held and
+/// was never submitted.
 const PATIENCE: u64 = 64;
 
 const WAITING: u8 = 0;
 const DONE: u8 = 1;
 const FAILED: u8 = 2;
 
-/// A frame's numbers on their way to the host.
+/// A pending read-back of one frame.
 #[derive(Debug)]
 struct UnderWay {
     frame: u64,
@@ -56,7 +57,7 @@ impl Feedbacks {
         self.last
     }
 
-    /// Takes what has arrived.
+    /// Takes the read-backs that have arrived.
     pub(crate) fn take(&mut self, device: &wgpu::Device, frame: u64) -> Result<(), Error> {
         gpu::poll(device, wgpu::PollType::Poll)?;
         for mut one in std::mem::take(&mut self.under_way) {
@@ -79,8 +80,7 @@ impl Feedbacks {
         Ok(())
     }
 
-    /// Keeps the numbers of the latest frame. Frames arrive in the order in which they were
-    /// submitted.
+    /// Keeps the numbers if their frame is the latest. Frames arrive in the order of submission.
     pub(crate) fn arrived(&mut self, new: Option<Feedback>) {
         let latest = self.last.map_or(0, |last| last.frame);
         self.last = new.filter(|new| new.frame >= latest).or(self.last);
@@ -95,8 +95,8 @@ impl Feedbacks {
         Ok(())
     }
 
-    /// Records the copies of a frame's numbers, which arrive after `encoder` was submitted, if a
-    /// buffer was reserved.
+    /// Records the copies of a frame's numbers if a buffer was reserved. They arrive after
+    /// `encoder` is submitted.
     pub(crate) fn record(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -152,7 +152,7 @@ pub(crate) async fn wait(
 fn of_frame(frame: u64, status: &[u8], found: &[u8]) -> Feedback {
     let status: Status = bytemuck::pod_read_unaligned(status);
     let found: Found = bytemuck::pod_read_unaligned(found);
-    // Without the passes that fit, these are zero, and the batch's own numbers are what was needed.
+    // Without the passes of `fit` these are 0, and the status of the batch has the needs.
     let needed = match found.needed() {
         [0, 0] => [status.points(), status.primitives()],
         needed => needed,

@@ -1,21 +1,21 @@
-//! Scaling all factors down, on the device, until their output fits.
+//! Scales a frame's factors down, on the device, until their output fits.
 //!
 //! The factors of a frame may give more points or primitives than there is room for. These passes
-//! find the greatest scale of a fixed ladder at which everything fits, and multiply every factor by
-//! it; the host waits for nothing. `TessellationStage::prepare` records them between the pass that
+//! find the greatest scale of a fixed ladder at which everything fits, and apply it to the factors
+//! above 1; the host does not wait. `TessellationStage::prepare` records them between the pass that
 //! writes the factors and the batch that tessellates.
 //!
 //! # The data
 //!
 //! ```text
 //! terms: the host writes, the passes read            fit: the passes write, feedback reads words 0 to 7
-//! word 0       points that there is room for         word 0         the step that the factors were scaled by
-//!      1       primitives                                 1 .. 3    reserved
+//! word 0       room for points                       word 0         the step that the factors were scaled by
+//!      1       room for primitives                        1 .. 3    reserved
 //!      2, 3    workgroups of a pass, along x and y        4 .. 135  33 sums: points low, high; primitives low, high
 //!      4 ..    the ladder: scale of step 0 to 256
 //!                                                    sum   0        the factors as they are (step 0)
 //! arguments: `decide` writes, dispatches read              1 .. 16  steps 16, 32, ... 256
-//! word 0 .. 2  workgroups; none if step 0 fits            17 .. 32  the 16 steps up to the first of those that fits
+//! word 0 .. 2  workgroups; 0 if step 0 fits               17 .. 32  the 16 steps that end with the first of those that fits
 //! ```
 //!
 //! # The passes
@@ -25,7 +25,8 @@
 //!    here.
 //! 3. `count_coarse` counts every patch at each 16th step.
 //! 4. `count_fine` counts every patch at the 16 steps up to the first coarse step that fits.
-//! 5. `scale_factors` scales every factor by the first fine step that fits, and writes the step.
+//! 5. `scale_factors` replaces a factor f above 1 by min(f, 64) times the scale of the first fine
+//!    step that fits, or by 1 if that is less; other factors stay. It also writes the step.
 //!
 //! # One frame
 //!
@@ -37,26 +38,27 @@
 //!
 //! # What must hold
 //!
-//! - A scale that is smaller never gives more output; else the first step that fits would not be
-//!   the greatest scale.
-//! - All factors have one scale. Two patches whose bits agree along an edge then still agree, and
-//!   no crack opens.
-//! - Factors of at most 1, and NaN, stay as they are, and no factor falls below 1. A culled patch
-//!   stays culled and a drawn one stays drawn.
-//! - Factors above 64 count as 64 before they are scaled, as the tessellator clamps them; else
-//!   infinity would never become smaller.
-//! - A workgroup's sum stays below 2^32 (64 patches of at most 8192 primitives), so only the sum of
-//!   all needs two words.
-//! - The room is copied into `terms` in each frame. An encoder that is dropped would take a single
-//!   copy with it.
-//! - If not even step 256 fits, where every factor is 1, it is taken, and the batch draws nothing.
+//! - A smaller scale never gives more output. Otherwise the first step that fits would not be the
+//!   greatest scale that fits.
+//! - The new factor depends only on the old one and on the step, which all patches share. Two
+//!   patches whose bits agree along an edge still agree, so no crack opens.
+//! - Factors of at most 1, and NaN, stay as they are, and no other factor falls below 1. A culled
+//!   patch stays culled, and a drawn one stays drawn.
+//! - A factor above 64 is taken as 64, as the tessellator clamps it. Otherwise infinity would stay
+//!   infinite at every scale.
+//! - A workgroup's sum is below 2^32 (64 patches of at most 8192 primitives), so only the sum over
+//!   all workgroups needs two words.
+//! - The room is copied into `terms` in each frame. If it were copied only in the frame after a
+//!   change, an encoder that is dropped would lose the change.
+//! - If not even step 256 fits, at which every factor is at most 1, that step is taken, and the
+//!   batch draws nothing.
 //!
 //! # Simpler forms
 //!
-//! Counting all 257 steps in one pass takes 257 counts for each patch; the two levels take 33.
-//! Bisection takes 9 counts, but 9 pairs of dependent dispatches instead of 5 dispatches, in every
-//! frame that might not fit. Reading the counts back would make the host wait, or leave the frame
-//! to the next one's scale.
+//! Counting all 257 steps in one pass would count each patch 257 times; the two levels count it 33
+//! times. Bisection would count it 9 times, but needs 9 pairs of dependent dispatches instead of 5
+//! dispatches, in every frame that might not fit. Reading the counts back would make the host wait,
+//! or apply this frame's scale to the next frame.
 
 use super::passes;
 use crate::Tessellator;
@@ -67,11 +69,11 @@ use std::sync::Arc;
 use tess_gpu::{Access, Capacity, Counting, Setup};
 use wgpu::BufferUsages as Usage;
 
-/// Steps of the ladder of scales behind 1. As `LAST_STEP` of fit.wgsl.
+/// The last step of the ladder, which starts with scale 1 at step 0. `LAST_STEP` of fit.wgsl.
 const STEPS: u16 = 256;
 /// 2^(-6/256): after 256 steps a factor of 64 is 1.
 const STEP: f64 = 0.983_885_611_616_587_9;
-/// Bytes of the struct `Fit` of fit.wgsl: the step, then 33 sums of four words.
+/// Bytes of the struct `Fit` of fit.wgsl: the step, three reserved words, 33 sums of four words.
 const STATE_BYTES: u64 = 4 * (4 + 4 * 33);
 
 /// The scale at each step, from 1 down to 1/64.
@@ -102,8 +104,7 @@ pub(crate) struct Fit {
     state: wgpu::Buffer,
     arguments: wgpu::Buffer,
     terms: wgpu::Buffer,
-    /// The first words of `terms`, copied there in each frame: the encoder of any one frame may be
-    /// dropped.
+    /// The first words of `terms`, copied there in each frame.
     room: wgpu::Buffer,
     bound: wgpu::BindGroup,
     decided: wgpu::BindGroup,
@@ -156,12 +157,12 @@ impl Fit {
         })
     }
 
-    /// The room is another from the next frame on.
+    /// Replaces the room, beginning with the next frame that is recorded.
     pub(crate) fn set_room(&mut self, room: wgpu::Buffer) {
         self.room = room;
     }
 
-    /// Records the passes. They leave factors whose output fits, if there are such.
+    /// Records the passes. After them the output of the factors fits, if any scale makes it fit.
     pub(crate) fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.copy_buffer_to_buffer(&self.room, 0, &self.terms, 0, ROOM_BYTES);
         encoder.clear_buffer(&self.state, 0, None);
@@ -183,7 +184,7 @@ impl Fit {
         }
     }
 
-    /// The passes' findings, as [`Found`] has them.
+    /// The buffer that begins with a [`Found`].
     pub(crate) const fn state(&self) -> &wgpu::Buffer {
         &self.state
     }
@@ -221,7 +222,7 @@ fn pipelines(
 /// Bytes of the room in `Terms` of fit.wgsl.
 const ROOM_BYTES: u64 = 8;
 
-/// A room as [`Fit::set_room`] takes it.
+/// The buffer that [`Fit::set_room`] takes.
 pub(crate) fn room_words(device: &wgpu::Device, room: Capacity) -> Result<wgpu::Buffer, Error> {
     let words = [room.points, room.primitives];
     gpu::filled(device, "room", bytemuck::bytes_of(&words), Usage::COPY_SRC)
@@ -244,7 +245,7 @@ impl Found {
         ladder().get(self.step as usize).copied().unwrap_or(1.0)
     }
 
-    /// Points and primitives that the factors would have given.
+    /// The numbers of points and primitives that the factors would have given without a scale.
     pub(crate) fn needed(&self) -> [u64; 2] {
         [self.points, self.primitives].map(|[low, high]| u64::from(low) | u64::from(high) << 32)
     }

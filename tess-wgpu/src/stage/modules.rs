@@ -1,4 +1,4 @@
-//! Modules that begin with the user's WGSL, and errors in it.
+//! Shader modules that begin with the user's WGSL, and the errors in them.
 
 use super::{StageError, source, wgsl};
 use crate::error::{Error, checked};
@@ -36,8 +36,8 @@ pub(super) async fn user_module(
     Ok(module)
 }
 
-/// An error in a line of the joined text. In a line behind the user's text, the stage's call does
-/// not go with what the user declares: something that the message names, or else `function`.
+/// An error in a line of the joined text. If the line is after the user's text, a call of the stage
+/// does not match the user's declaration: the one that the message names, or else `function`.
 fn wrong_wgsl(user: &str, function: &str, line: Option<u32>, message: String) -> StageError {
     let line = line.filter(|&line| (1..=source::lines(user)).contains(&line));
     if line.is_some() {
@@ -72,8 +72,8 @@ fn headline(report: &str) -> String {
     all.join(": ")
 }
 
-/// The last line and text that the report of naga's validator marks: the innermost, as it begins
-/// with the function.
+/// The last line and text that a report of naga's validator marks. The report begins with the
+/// function, so the last mark is the innermost.
 ///
 /// ```text
 /// 26 | |     let at = place(number) + number;
@@ -96,7 +96,7 @@ fn marked(report: &str) -> Option<(u32, String)> {
     found
 }
 
-/// The innermost reason of such a report, with WGSL's types and without the numbers of naga's own.
+/// The innermost reason of such a report, with the types of WGSL and without naga's own numbers.
 fn reason(report: &str) -> String {
     let last = report.lines().filter_map(|line| line.trim().strip_prefix("= ")).next_back();
     let mut text = last.map_or_else(|| headline(report), str::to_owned);

@@ -12,7 +12,8 @@ use std::sync::Arc;
 use tess_gpu::Capacity;
 use wgpu::BufferUsages as Usage;
 
-/// A batch with room for its output. Stages that draw it share it; a clone is another handle.
+/// A batch with the buffers of its output. A clone is another handle to the same batch; stages that
+/// draw one output share it.
 #[derive(Clone, Debug)]
 pub(super) struct StageOutput {
     pub(super) room: Capacity,
@@ -23,13 +24,13 @@ pub(super) struct StageOutput {
     pub(super) own: OwnGroups,
 }
 
-/// The buffers that a batch writes and a draw reads, where there are any.
+/// The buffers that a batch writes and a draw reads; `None` where the stage needs none.
 #[derive(Clone, Debug)]
 pub(super) struct Stored {
     pub(super) points: Option<wgpu::Buffer>,
     pub(super) vertices: Option<wgpu::Buffer>,
     pub(super) indices: Option<wgpu::Buffer>,
-    /// A buffer in place of the points where [`gl::attributes`] need a buffer that nothing reads.
+    /// A buffer that nothing reads, for [`gl::attributes`] of a stage without stored points.
     unread: Option<wgpu::Buffer>,
 }
 
@@ -94,8 +95,8 @@ impl StageOutput {
         Ok(Self { room, batch: Arc::new(batch), stored, windows: windows.into(), own })
     }
 
-    /// Draws with the arguments of the whole batch or of one of its groups. Pipeline and user's
-    /// bind groups are set; `own` is the stage's bind group and its number.
+    /// Draws with the arguments of the whole batch or of one of its groups. The caller has set the
+    /// pipeline and the user's bind groups; `own` is the stage's bind group and its number.
     pub(super) fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,

@@ -1,8 +1,8 @@
 //! The stage's own bind group of a draw, after the user's: the buffers that points are pulled from,
 //! and the factors that `tess_factors` reads.
 //!
-//! A stage and those that draw its output can differ in whether they read factors, so there are up
-//! to two groups. They change with the room, because the batch does.
+//! There are up to two groups, because a stage that draws another's output may read factors where
+//! the other does not. They are made anew when the room changes, because the batch is.
 
 use super::choices::Points;
 use super::room::Form;
@@ -13,7 +13,8 @@ use crate::{Batch, Tessellator};
 use tess_gpu::layout::Job;
 use tess_gpu::{Access, Binding, Pull, Resource, Span};
 
-/// The bind groups without and with the factors, where a stage asked for them ([`OwnGroups::ask`]).
+/// The bind groups without and with the factors, each made if a stage asked for it
+/// ([`OwnGroups::ask`]).
 #[derive(Clone, Debug, Default)]
 pub(super) struct OwnGroups {
     layouts: [Option<wgpu::BindGroupLayout>; 2],
@@ -84,7 +85,7 @@ const fn pull() -> Pull {
     Pull { group: 0, first_binding: 0 }
 }
 
-/// Whether draws bind something of the stage's.
+/// Whether draws bind buffers of the stage.
 pub(super) const fn is_needed(points: Points, has_factors: bool) -> bool {
     !points.are_written() || has_factors
 }

@@ -1,4 +1,4 @@
-//! Compute pipelines of the stage, and how their threads are laid out.
+//! Compute pipelines of the stage, and the layout of their threads.
 
 use crate::Tessellator;
 use crate::device::pipeline;
@@ -46,7 +46,7 @@ pub(crate) fn bind(
     Ok((layout, group))
 }
 
-/// The compute pipeline of a key, from `module` unless there is one.
+/// The compute pipeline of a key; if it does not exist yet, it is made from `module`.
 pub(crate) fn pipeline(
     tessellator: &Tessellator,
     key: PipelineKey,
@@ -63,7 +63,7 @@ pub(crate) fn pipeline(
     Ok(pipelines.passes.keep(key, made))
 }
 
-/// The pipeline constants of a key, as wgpu takes them.
+/// The pipeline constants of a key, in wgpu's form.
 pub(crate) fn constants(key: &PipelineKey) -> Vec<(&str, f64)> {
     key.constants.iter().map(|(name, bits)| (name.as_str(), f64::from_bits(*bits))).collect()
 }

@@ -1,15 +1,16 @@
-//! How much room a stage has for its output.
+//! The sizes of a stage's output buffers.
 //!
-//! A stage's buffers of points and indices are made before anybody knows how much its frames give.
-//! This file decides their sizes: once when the stage is made ([`Form::initial`]), and for
-//! [`Room::Automatic`] again when a frame needed nearly all of it ([`Form::grown`]) or many needed
-//! little ([`Lull::shrunk`]). The stage learns both from its feedback.
+//! A stage makes its buffers of points and indices before it knows how much output its frames will
+//! give. This file chooses their sizes when the stage is made ([`Form::initial`]). For
+//! [`Room::Automatic`] it chooses again when a frame needed more than 7/8 of the room
+//! ([`Form::grown`]), or when no frame of the last 1024 needed more than 1/5 ([`Lull::shrunk`]).
+//! The stage's feedback reports how much each frame needed.
 //!
 //! # The data
 //!
 //! ```text
 //! budget in bytes (Room::Bytes, Room::Automatic)
-//! |<------------- least ------------->|<--------- beyond --------->| rest, less than one of each
+//! |<------------- least ------------->|<--------- beyond --------->| rest: less than a point and a primitive
 //! | points x 8 B | primitives x 12 B  | points x 8 B | primitives  |
 //!
 //! initial:  least = all patches at factor 1     beyond = up to factor 4 (Automatic), in the proportion of 8 (Bytes)
@@ -19,30 +20,28 @@
 //! room, as a frame uses it:    0 ... 1/5 shrinks after 1024 frames ... 2/5 after a change ... 7/8 grows at once ... 1
 //! ```
 //!
-//! A point takes 8 bytes and, where points are evaluated, those of a vertex; or none where the
-//! vertex shader computes it. A primitive takes 4 bytes for each of its corners, or none without an
-//! index buffer.
+//! A point takes 8 bytes, plus a vertex if points are evaluated; it takes none if the vertex shader
+//! computes it. A primitive takes 4 bytes for each of its corners, or none without an index buffer.
 //!
 //! # One stage
 //!
 //! Ten quads, `Automatic` with a budget of 100 000 bytes. At factor 4 they give 250 points and 320
-//! triangles, which take 5840 bytes: that is the first room. A frame needs 219 points, more than
-//! 7/8, so the next room is 547 points and, for 5/2 of 280, 700 triangles. Then a frame needs 40
-//! 000 points and 80 000 triangles, 1.3 MB: what is left of the budget is divided as 5/2 of these
-//! are, and from then on the room stays until frames need little. The test
+//! triangles, which take 5840 bytes: the first room. A frame needs 219 points and 280 triangles.
+//! 219 is more than 7/8 of 250, so the next room is 5/2 of both: 547 points and 700 triangles. Then
+//! a frame needs 40 000 points and 80 000 triangles, 1.3 MB. The rest of the budget is divided in
+//! the proportion of these two numbers, and the room stays until frames need little. The test
 //! `automatic_room_grows_ahead_and_no_further` computes this.
 //!
 //! # What must hold
 //!
 //! - Room grows ahead of frames whose output rises by up to 4 % each, with two on their way: 1.04^3
 //!   < 8/7.
-//! - Room at least doubles in a dimension that was short, or reaches the end of the budget or the
-//!   most that a frame can need. So buffers are made a logarithmic number of times.
-//! - Room shrinks by half at least, and never below the first room.
-//! - Once the budget is used, nothing grows.
-//! - If the budget holds all patches at factor 1, the room does.
-//!   [`Overflow::Coarser`](super::Overflow::Coarser) scales factors down to 1, so every frame is
-//!   drawn then.
+//! - Room at least doubles in a dimension that was short, unless it reaches the budget or the most
+//!   that a frame can need. So the number of times that buffers are made is logarithmic.
+//! - Room shrinks at least by half, and never below the first room.
+//! - Room does not grow once the budget is used.
+//! - If the budget holds all patches at factor 1, so does the room. Then every frame is drawn,
+//!   because [`Overflow::Coarser`](super::Overflow::Coarser) scales factors down to 1.
 //! - No buffer exceeds the device's limit. An index buffer is a multiple of 8 bytes long, so the
 //!   limit is rounded down to one.
 
@@ -50,7 +49,7 @@ use super::choices::{Points, Room};
 use tess_gpu::sizes::SHORT_PATCHES;
 use tess_gpu::{Capacity, Setup, Stage};
 
-/// All that the bytes of an output depend on.
+/// The properties of a stage on which the size of its output depends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
     pub(crate) setup: Setup,
@@ -78,7 +77,7 @@ impl Form {
         }
     }
 
-    /// The same, where the stage chooses no less than `least`, as far as the budget goes.
+    /// The room before the first frame. If the stage chooses, at least `least`, within the budget.
     pub(crate) fn first(self, room: Room, least: Capacity) -> Capacity {
         match room {
             Room::Automatic { most_bytes } => {
@@ -88,7 +87,8 @@ impl Form {
         }
     }
 
-    /// The room ahead of frames that need this many points and primitives, if it is another.
+    /// The new room after a frame that needed this many points and primitives; `None` to keep the
+    /// present one.
     pub(crate) fn grown(self, room: Room, now: Capacity, needed: [u64; 2]) -> Option<Capacity> {
         let Room::Automatic { most_bytes } = room else { return None };
         let most = self.possible(Capacity { points: u32::MAX, primitives: u32::MAX });
@@ -104,7 +104,7 @@ impl Form {
         (grown != now).then_some(grown)
     }
 
-    /// A room of which such frames use two fifths.
+    /// The room of which a frame that needs this much uses two fifths.
     fn ample(self, needed: [u64; 2]) -> Capacity {
         let more = |needed: u64| u32::try_from(needed.saturating_mul(5) / 2).unwrap_or(u32::MAX);
         self.possible(Capacity { points: more(needed[0]), primitives: more(needed[1]) })
@@ -140,7 +140,7 @@ impl Form {
             points: shape.points.saturating_sub(base.points),
             primitives: shape.primitives.saturating_sub(base.primitives),
         };
-        // At least 1, as nobody fills a budget without storing anything.
+        // At least 1: nothing is stored per element, and the division below is defined.
         let whole = self.bytes(beyond).max(1);
         let sum = |base: u32, beyond: u32| {
             let sum = u128::from(base) + u128::from(beyond) * free / whole;
@@ -152,7 +152,7 @@ impl Form {
         })
     }
 
-    /// As much of it as can ever be needed and as buffers can have.
+    /// The room, limited to the most that the patches can give and that a buffer can hold.
     fn possible(self, room: Capacity) -> Capacity {
         let worst = Capacity::worst_case(self.setup, self.patches);
         let of = |each: u32| match u64::from(each) {
@@ -167,8 +167,8 @@ impl Form {
         }
     }
 
-    /// The shaders that batches run in any room, with any groups, and with more patches than these:
-    /// pipelines to make before a frame needs them.
+    /// The shaders of batches in any room, with any groups, of these or more patches: those whose
+    /// pipelines are made before a frame needs them.
     pub(crate) fn stages(self) -> Vec<Stage> {
         use Stage::{
             ExpandPoints, ExpandPrimitives, ExpandShort, Factors, Groups, List, Partition, Scan,
@@ -193,7 +193,7 @@ impl Form {
         4 * u64::from(self.setup.factors()) * u64::from(self.patches)
     }
 
-    /// Bytes that are stored of a point and of a primitive.
+    /// Bytes that a point and a primitive take in the output buffers.
     fn element_bytes(self) -> [u32; 2] {
         [
             self.packed_bytes() + self.vertex_bytes,
@@ -226,8 +226,8 @@ impl Lull {
     /// 1024 frames take 17 seconds on most screens.
     pub(crate) const NEW: Self = Self { patience: 1024, since: 0, most: [0; 2] };
 
-    /// The room for what frames needed of late, if it is another: `frame` is the latest and what it
-    /// needed.
+    /// The new room after a long lull; `None` to keep the present one. `frame` is the number of the
+    /// latest frame, `needed` the points and primitives that it needed.
     pub(crate) fn shrunk(
         &mut self,
         (form, room, now): (Form, Room, Capacity),

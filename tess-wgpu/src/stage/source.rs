@@ -1,6 +1,6 @@
 //! The user's WGSL joined with the stage's own.
 //!
-//! The user's text comes first, so that a line of the joined text is the same line of theirs.
+//! The user's text comes first, so that its lines keep their numbers in the joined text.
 
 use super::choices::Points;
 use super::vertex::VertexLayout;
@@ -18,8 +18,8 @@ const PULLED: &str = include_str!("../../shaders/vertex_pulled.wgsl");
 const UNINDEXED: &str = include_str!("../../shaders/vertex_unindexed.wgsl");
 const EVALUATED: &str = include_str!("../../shaders/vertex_evaluated.wgsl");
 
-/// The binding of the factors that `tess_factors` reads, in the stage's own group: beyond all
-/// others there.
+/// The binding of the factors that `tess_factors` reads, in the stage's own group. It is above all
+/// other bindings there.
 pub(crate) const FACTORS_BINDING: u32 = 8;
 
 /// The module whose entry point `tess_hull` runs the user's hull function. Its own bindings are 0
@@ -48,7 +48,7 @@ fn own_of_evaluation(group: u32) -> String {
     UNPACK.to_owned() + "\n" + &EVALUATE.replace("GROUP", &group.to_string())
 }
 
-/// All that the vertex shader's text depends on besides the user's.
+/// Everything that determines the vertex shader's text, apart from the user's WGSL.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct VertexShader<'a> {
     pub(crate) setup: Setup,
@@ -81,7 +81,7 @@ impl VertexShader<'_> {
         joined(user, &(own + &of_draws))
     }
 
-    /// The text after the types and helpers, with the parts that the user's choices fill in.
+    /// The text after the types and helpers, with the parts that depend on the user's choices.
     fn own(self) -> String {
         let Self { setup, group, .. } = self;
         let pull = || Pull { group, first_binding: 0 }.source_for_drawing(setup);
@@ -95,17 +95,17 @@ impl VertexShader<'_> {
     }
 }
 
-/// Functions that give a value of the draw, and the builtin that it is.
+/// Functions that return a value of the draw, and the builtin with this value.
 const OF_DRAWS: [(&str, &str); 2] =
     [("tess_instance", "instance_index"), ("tess_view", "view_index")];
 
-/// Whether a text has this word.
+/// Whether a text contains this word.
 pub(crate) fn uses(text: &str, word: &str) -> bool {
     wgsl::tokens(text).any(|(_, token)| token == word)
 }
 
-/// The functions for the factors, the instance and the view that are drawn, where the user's text
-/// has them.
+/// The functions for the factors, the instance and the view of a draw, if the user's text calls
+/// them.
 fn of_draws(user: &str, domain: Domain, group: u32) -> String {
     let mut text = String::new();
     if uses(user, "tess_factors") {
@@ -133,7 +133,7 @@ pub(crate) fn joined(user: &str, own: &str) -> String {
     [user, TYPES, HELPERS, own].join("\n")
 }
 
-/// Refuses a user's text that declares a name of WGSL's own which the stage's text uses.
+/// Refuses a user's text that declares a predefined name of WGSL which the stage's text uses.
 pub(crate) fn check_names(user: &str, shader: VertexShader<'_>) -> Result<(), StageError> {
     let domain = shader.setup.domain;
     let own = joined("", &own_of_hull(domain, 0)) + &own_of_evaluation(0) + &shader.own();
@@ -153,9 +153,9 @@ pub(crate) fn lines(user: &str) -> u32 {
     u32::try_from(user.lines().count()).unwrap_or(u32::MAX)
 }
 
-/// The same WGSL with a prefix before every name that it declares at module scope, so that the
-/// user's text can have these names too. Every occurrence of such a name is renamed, members and
-/// locals included, which changes nothing within the text.
+/// The WGSL with a prefix before every name that it declares at module scope, so that the user's
+/// text can declare these names too. Every occurrence is renamed, also of members and locals with
+/// such a name, which does not change the meaning of the text.
 fn with_own_names(source: &str) -> String {
     let declared = wgsl::declarations(source).into_iter().map(|one| one.name);
     let declared: Vec<_> = declared.filter(|name| !name.starts_with("tess_")).collect();
@@ -192,7 +192,7 @@ mod tests {
         assert_eq!(with_own_names(source), expected, "and nothing else");
     }
 
-    /// Functions that helpers call among themselves; the README says nothing of them.
+    /// Functions that only helpers call, and that the README therefore does not list.
     const OF_HELPERS: [&str; 7] = [
         "tess_bilinear",
         "tess_clamp_factor",

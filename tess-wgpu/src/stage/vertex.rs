@@ -1,4 +1,4 @@
-//! The user's `struct Vertex` as a vertex buffer holds it.
+//! The layout of the user's `struct Vertex` in a vertex buffer.
 //!
 //! With [`Points::Evaluated`](super::Points::Evaluated) a compute pass writes an array of this
 //! struct, and the vertex shader loads its members as attributes. WGSL fixes the offsets of a
@@ -15,8 +15,8 @@
 //! A member's attribute has the number of its `@location`. The position has the first number that
 //! is free.
 //!
-//! The struct is read from the text, not by a compiler, because a browser's says nothing about it.
-//! The test `offsets_are_those_of_the_compiler` compares both.
+//! The struct is read from the text, because a browser's compiler does not report layouts. The test
+//! `offsets_are_those_of_the_compiler` compares the result with naga's.
 
 use super::StageError;
 use super::wgsl::{self, Declaration};
@@ -26,7 +26,7 @@ use wgpu::VertexFormat as Format;
 /// The layout of [`TessellationStage::vertices`](super::TessellationStage::vertices).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VertexLayout {
-    /// Bytes from one vertex to the next.
+    /// The distance of two vertices, in bytes.
     pub array_stride: u64,
     /// Offsets and formats. A member of `Vertex` has the `shader_location` of its `@location`; the
     /// position has the first one that is free. Packed points are one attribute, at location 0.
@@ -36,7 +36,7 @@ pub struct VertexLayout {
 }
 
 impl VertexLayout {
-    /// The layout as a render pipeline takes it.
+    /// The layout in the form that a render pipeline takes.
     #[must_use]
     pub fn buffer(&self) -> wgpu::VertexBufferLayout<'_> {
         wgpu::VertexBufferLayout {
@@ -52,7 +52,7 @@ impl VertexLayout {
         self.names.iter().position(|own| own == name).map(|at| &self.attributes[at])
     }
 
-    /// Whether both are the same bytes, whatever the names.
+    /// Whether both layouts have the same bytes; names may differ.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.array_stride == other.array_stride && self.attributes == other.attributes
     }
@@ -64,7 +64,7 @@ impl VertexLayout {
         Self { array_stride: 8, attributes, names: vec!["packed".to_owned()] }
     }
 
-    /// The layout of the `struct Vertex` that these declarations have.
+    /// The layout of `struct Vertex` among these declarations.
     ///
     /// # Errors
     /// [`StageError::Wgsl`] if there is none, or if a member cannot be an attribute.
@@ -156,7 +156,7 @@ fn members(text: &str) -> Vec<Member<'_>> {
     all
 }
 
-/// The words up to the parenthesis that closes.
+/// The words up to the closing parenthesis.
 fn in_parentheses<'a>(words: &mut impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut depth = 1_u32;
     words
@@ -213,10 +213,10 @@ impl Member<'_> {
     }
 }
 
-/// The words of a type, with those of aliases in their place.
+/// The words of a type, with aliases replaced by the words that they stand for.
 fn resolved<'a>(kind: &[&'a str], declared: &[Declaration<'a>]) -> Vec<&'a str> {
     let mut words = kind.to_vec();
-    // An alias of an alias, and so on; a circle is the compiler's to refuse.
+    // An alias may name an alias. The compiler refuses a circle.
     for _ in 0..8 {
         let meaning = |word: &'a str| {
             let is_alias = |one: &&Declaration<'a>| one.keyword == "alias" && one.name == word;
@@ -236,7 +236,7 @@ fn resolved<'a>(kind: &[&'a str], declared: &[Declaration<'a>]) -> Vec<&'a str> 
     words
 }
 
-/// The scalar of a type, and how many of them it has.
+/// The scalar of a type, and the number of its components.
 fn scalar_and_count<'a>(words: &[&'a str]) -> Option<(&'a str, u64)> {
     let count = |word: &str| word.strip_prefix("vec")?.parse().ok().filter(|n| (2..=4).contains(n));
     match *words {
@@ -259,7 +259,7 @@ fn scalar_and_count<'a>(words: &[&'a str]) -> Option<(&'a str, u64)> {
     }
 }
 
-/// Scalar, how many of them, the attribute's format, and the type in WGSL.
+/// Scalar, number of components, format of the attribute, and type in WGSL.
 const KINDS: [(&str, u64, Format, &str); 15] = [
     ("f32", 1, Format::Float32, "f32"),
     ("f32", 2, Format::Float32x2, "vec2<f32>"),
@@ -288,7 +288,7 @@ mod tests {
     use super::*;
     use wgpu::naga::{TypeInner, front};
 
-    /// The struct of these members, with what they need around it.
+    /// The struct of these members, with the declarations that they need.
     fn text(members: &str) -> String {
         format!(
             "enable f16; alias Colour = vec4f; alias Half = f16; alias Three = array<f32, 3>;\n\
