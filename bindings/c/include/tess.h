@@ -326,7 +326,8 @@
 #define TESS_ORDER_EXACT 0
 
 /**
- * Order: the model's order of primitives and of their vertices, each vertex by its coordinates.
+ * Order: the model's order of primitives and of their vertices, which are identified by their
+ * coordinates.
  */
 #define TESS_ORDER_SEQUENCE 1
 
@@ -522,7 +523,7 @@ typedef struct TessProcessedPatch {
    */
   uint32_t outcome;
   /**
-   * Number of elements of `factors` that are used: 0 if culled, else the domain's number.
+   * Number of elements of `factors` that are used: 0 if culled, else as many as the domain has.
    */
   uint32_t factor_count;
   /**
@@ -826,7 +827,7 @@ typedef struct TessFuzzOptions {
 #define TESS_UNKNOWN_VALUE 3
 
 /**
- * The number of factors does not fit the domain: a patch has 2 (isoline), 4 (triangle), 6 (quad).
+ * The number of factors does not fit the domain: 2 (isoline), 4 (triangle) or 6 (quad) per patch.
  */
 #define TESS_WRONG_FACTOR_COUNT 4
 
@@ -1300,8 +1301,8 @@ float tess_edge_by_length(struct TessVec3 a,
 
 /**
  * The factor of an edge next to two edges of half its length, from the factor that a rule gives
- * the whole edge. The result is a power of two in 2..=64, at least the rule's factor; give each
- * half half of it. Both sides then have the same points under integer and power-of-two
+ * the whole edge. The result is a power of two in 2..=64, at least the rule's factor. Give the two
+ * short edges half of it: both sides then have the same points under integer and power-of-two
  * partitioning. Neighbours must compute both factors from the whole edge.
  */
 float tess_edge_beside_halves(float factor);

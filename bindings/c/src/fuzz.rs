@@ -13,7 +13,8 @@ use tess_verify::generate::{GenLevel, Selection};
 
 /// Order: the model's, index for index.
 pub const TESS_ORDER_EXACT: u32 = 0;
-/// Order: the model's order of primitives and of their vertices, each vertex by its coordinates.
+/// Order: the model's order of primitives and of their vertices, which are identified by their
+/// coordinates.
 pub const TESS_ORDER_SEQUENCE: u32 = 1;
 /// Order: any order of primitives, and any leading vertex of a triangle.
 pub const TESS_ORDER_ANY: u32 = 2;

@@ -32,7 +32,7 @@ pub struct TessProcessedFactor {
 pub struct TessProcessedPatch {
     /// `TESS_OUTCOME_...`
     pub outcome: u32,
-    /// Number of elements of `factors` that are used: 0 if culled, else the domain's number.
+    /// Number of elements of `factors` that are used: 0 if culled, else as many as the domain has.
     pub factor_count: u32,
     /// The factors in the order of the input; elements past `factor_count` are zero.
     pub factors: [TessProcessedFactor; 6],

@@ -13,7 +13,7 @@ pub const TESS_NULL_POINTER: TessStatus = 1;
 pub const TESS_MISALIGNED: TessStatus = 2;
 /// An enumeration (domain, partitioning, ...) has an unknown value.
 pub const TESS_UNKNOWN_VALUE: TessStatus = 3;
-/// The number of factors does not fit the domain: a patch has 2 (isoline), 4 (triangle), 6 (quad).
+/// The number of factors does not fit the domain: 2 (isoline), 4 (triangle) or 6 (quad) per patch.
 pub const TESS_WRONG_FACTOR_COUNT: TessStatus = 4;
 /// A buffer is too small. The call has written the sizes that are needed to its counts, and
 /// `tess_shortage` names the buffer.

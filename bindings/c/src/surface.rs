@@ -77,8 +77,8 @@ pub extern "C" fn tess_edge_by_length(
 }
 
 /// The factor of an edge next to two edges of half its length, from the factor that a rule gives
-/// the whole edge. The result is a power of two in 2..=64, at least the rule's factor; give each
-/// half half of it. Both sides then have the same points under integer and power-of-two
+/// the whole edge. The result is a power of two in 2..=64, at least the rule's factor. Give the two
+/// short edges half of it: both sides then have the same points under integer and power-of-two
 /// partitioning. Neighbours must compute both factors from the whole edge.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_edge_beside_halves(factor: f32) -> f32 {

@@ -121,8 +121,8 @@ impl Tessellator {
     /// Args:
     ///     domain: ``isoline``, ``tri`` or ``quad``.
     ///     factors: Array of shape (patches, k), where k is 2, 4 or 6: raw factors in the order of
-    ///         :class:`Patch`, outer then inside, as float32, or as uint32 bit patterns. Any
-    ///         strides.
+    ///         :class:`Patch`, outer then inside. Either float32 (other floats must be exactly
+    ///         binary32 numbers), or uint32 bit patterns. Any strides.
     ///     points: ``float32`` or ``fixed`` (uint32, 16.16); both are exact.
     ///     indices: ``uint32`` or ``uint16``. With ``base_vertex``, 16 bits number 65536 points;
     ///         the last index, 65535, restarts primitives in WebGL 2 and wherever primitive restart
