@@ -1,12 +1,12 @@
-"""Takes the measurements of benches/records: a set is one call on one machine.
+"""Takes the measurements of benches/records. A set is measured in one call on one machine.
 
     measure.py here cpu|gpu
     measure.py run cpu|gpu FOLDER [--programs FOLDER] [--only NAME...]
     measure.py take FOLDER --commit HASH [--machine TEXT]
 
-`here`, which is `cargo xtask records`, builds the programs and does both of the others. `run` needs no repository and
-no compiler, so that another machine can do it: it starts the programs, writes their rows to FOLDER/NAME.json and what
-they printed to FOLDER/NAME.txt. `take` makes records of the rows, and tables and charts of the records.
+`here`, which is `cargo xtask records`, builds the programs, then does `run` and `take`. `run` starts the programs, and
+writes their rows to FOLDER/NAME.json and their output to FOLDER/NAME.txt. It needs neither the repository nor a
+compiler, so another machine can do it. `take` makes records of the rows, and tables and charts of the records.
 """
 
 import argparse
@@ -31,14 +31,14 @@ ALL = ["uniform", *UNLIKE, "meshes", "worst"]
 
 
 class Measurement(NamedTuple):
-    """Some commands of one set, of whose output `rows` makes the rows of a record."""
+    """Commands of one set. `rows` makes the rows of a record from their output."""
 
     set: str
     # The folders whose code is measured.
     sources: list
     commands: list
     rows: Callable
-    # The keys of the rows in the order of the table; none of rows of `tess bench`.
+    # The keys of the rows in the order of the table; empty for rows of `tess bench`.
     columns: list = []
 
 
@@ -65,7 +65,7 @@ THREADS = [1, 2, 4, 8, 16]
 
 
 def of_threads(outputs):
-    """GB/s and the part of a fill, a column for each number of threads."""
+    """GB/s and the fraction of a fill, a column for each number of threads."""
     rows = {}
     for threads, output in zip(THREADS, outputs):
         for row in json.loads(output):
@@ -75,7 +75,7 @@ def of_threads(outputs):
 
 
 def of_probe(outputs):
-    """Billions of triangles a second instead of milliseconds."""
+    """Billions of triangles per second instead of milliseconds."""
     keys = {
         "stage_alone": "fixed",
         "compute_alone": "compute",
@@ -95,7 +95,7 @@ def of_probe(outputs):
 
 
 def ablations(output):
-    """For each workload and variant of `gpu ablation`: G triangles/s, and microseconds of all, points and triangles."""
+    """For each workload and variant of `gpu ablation`: G triangles/s, and microseconds in total, for points and for triangles."""
     workload, found = None, {}
     for line in output.splitlines()[1:]:
         if head := re.fullmatch(r"(\S+), \d+ triangles", line):
@@ -121,7 +121,7 @@ def of_ablation(outputs):
 
 
 def of_one_thread(outputs):
-    """The shaders as they are beside those with a thread for each patch."""
+    """The shaders compared with those that have one thread per patch."""
     rows = []
     for workload, variants in ablations(outputs[0]).items():
         (ours, *_), (one, *_) = variants["as they are"], variants[ONE_THREAD]
@@ -137,7 +137,7 @@ def of_groups(outputs):
 
 
 def of_crossover(outputs):
-    """Microseconds of CPU, device, device and host, a column for each workload."""
+    """Microseconds of the CPU, of the device, and of device and host; a column for each workload."""
     rows, workload = {}, None
     for line in outputs[0].splitlines()[1:]:
         if head := re.match(r"(\S+): patches, microseconds", line):
@@ -156,7 +156,7 @@ def of_stage(outputs):
 
 
 def of_surface(outputs):
-    """Criterion's middle estimate of the throughput as nanoseconds a vertex, and as a multiple of a fill."""
+    """Criterion's middle estimate of the throughput, as nanoseconds per vertex and as a multiple of a fill."""
     found = re.findall(r"^surface/(.+?)(?:/(\w+))?\s+time:.*?thrpt: +\[\S+ \S+ (\S+) (\S)elem/s", outputs[0], re.MULTILINE | re.DOTALL)
     scale = {"K": 1e3, "M": 1e6, "G": 1e9}
     times = {(name, level): 1e9 / (float(rate) * scale[unit]) for name, level, rate, unit in found}
@@ -238,7 +238,7 @@ MEASUREMENTS = {
 }
 
 
-# What builds the programs of a set.
+# The arguments of cargo that build the programs of a set.
 BUILDS = {
     "cpu": ["build --release -p tess-program", "bench --no-run -p tess-benches --bench surface"],
     "gpu": [
@@ -266,14 +266,14 @@ def output(*words):
 
 
 def program(folder, name):
-    """The file of a program among what cargo built, or in a folder of programs."""
+    """The file of a program in cargo's output, or in a folder of programs."""
     built = sorted(folder.glob(f"deps/{name}-*"), key=lambda path: path.stat().st_mtime, reverse=True)
     files = [folder / name, folder / "examples" / name, *(path for path in built if path.suffix == "")]
     return next((path for path in files if path.exists()), folder / name)
 
 
 def run(arguments):
-    """Runs the commands of a set, and leaves each measurement's rows in a folder as soon as it is done."""
+    """Runs the commands of a set. Writes the rows of each measurement to a folder as soon as it is done."""
     into, programs = Path(arguments.folder).resolve(), Path(arguments.programs).resolve()
     into.mkdir(parents=True, exist_ok=True)
     failed = []
@@ -297,7 +297,7 @@ def run(arguments):
 
 
 def machine():
-    """The processor, and the first GPU of NVIDIA's driver if there is one."""
+    """The processor, and the first GPU of NVIDIA's driver, if there is one."""
     found = re.search(r"^model name\s*: (.*)", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
     cores = len(re.findall(r"^processor\s*:", Path("/proc/cpuinfo").read_text(), re.MULTILINE))
     try:
@@ -310,7 +310,7 @@ def machine():
 
 
 def command_of(measurement):
-    """The commands as one line, typed in the folder of the workspace."""
+    """The commands as one line, to be typed in the folder of the workspace."""
     in_workspace = {
         "tess": "cargo run --release --",
         "gpu": "cargo run --release -p tess-benches --features gpu --bin gpu --",
@@ -324,7 +324,7 @@ def command_of(measurement):
 
 
 def record_of(name, measured, commit):
-    """The record of what `run` left."""
+    """The record of a measurement from the rows that `run` wrote."""
     measurement = MEASUREMENTS[name]
     head = {"command": command_of(measurement), "machine": measured["machine"], "date": measured["date"], "commit": commit}
     columns = {"columns": measurement.columns} if measurement.columns else {}
@@ -332,7 +332,7 @@ def record_of(name, measured, commit):
 
 
 def take(arguments):
-    """Makes records of what `run` left in a folder."""
+    """Makes records of the rows that `run` wrote to a folder."""
     for path in sorted(Path(arguments.folder).glob("*.json")):
         measured = json.loads(path.read_text())
         measured["machine"] = arguments.machine or measured["machine"]
@@ -343,17 +343,17 @@ def take(arguments):
 def main(words):
     parser = argparse.ArgumentParser(prog="measure.py")
     commands = parser.add_subparsers(required=True)
-    whole = commands.add_parser("here", help="build the programs, run a set here, and make its records")
-    running = commands.add_parser("run", help="run a set of measurements here")
+    whole = commands.add_parser("here", help="build the programs, run a set on this machine, and make its records")
+    running = commands.add_parser("run", help="run a set of measurements on this machine")
     for one in (whole, running):
         one.add_argument("set", choices=["cpu", "gpu"])
-    running.add_argument("folder", help="receives NAME.json and NAME.txt")
-    running.add_argument("--programs", default=ROOT / "target/release", help="the folder of tess, gpu, tess-examples, surface")
-    running.add_argument("--only", nargs="+", choices=sorted(MEASUREMENTS), help="these measurements of the set")
-    taking = commands.add_parser("take", help="make records of what `run` left")
+    running.add_argument("folder", help="folder to write NAME.json and NAME.txt to")
+    running.add_argument("--programs", default=ROOT / "target/release", help="folder of tess, gpu, tess-examples, surface")
+    running.add_argument("--only", nargs="+", choices=sorted(MEASUREMENTS), help="run only these measurements of the set")
+    taking = commands.add_parser("take", help="make records of the rows that `run` wrote")
     taking.add_argument("folder")
-    taking.add_argument("--commit", required=True, help="the commit that the programs were built from")
-    taking.add_argument("--machine", help="instead of what `run` found")
+    taking.add_argument("--commit", required=True, help="the commit from which the programs were built")
+    taking.add_argument("--machine", help="the machine, instead of the one that `run` found")
     for one, does in ((whole, here), (running, run), (taking, take)):
         one.set_defaults(does=does)
     arguments = parser.parse_args(words)

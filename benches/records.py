@@ -1,8 +1,8 @@
-"""Measurements as data, `records/NAME.json`, and what is made of them: tables of docs/performance.md and charts.
+"""Makes the tables of docs/performance.md and the charts from the records of measurements, `records/NAME.json`.
 
     records.py performance    write tables and charts
-    records.py check          they are those of the records
-    records.py fresh          every record is of the code that is here; `cargo xtask ci` asks
+    records.py check          check that tables and charts agree with the records
+    records.py fresh          check that every record measured the present code; `cargo xtask ci` runs this
 
 measure.py takes the measurements.
 """
@@ -20,10 +20,10 @@ ROOT = Path(__file__).resolve().parent.parent
 RECORDS = ROOT / "benches/records"
 RESULTS = ROOT / "docs/performance.md"
 EXPERIMENTS = ROOT / "docs/experiments.md"
-# Records that may be older than the code, and why.
+# Records that may be older than the code, each with the reason.
 EXCEPTIONS = ROOT / "benches/exceptions.json"
 
-# Columns of rows of `tess bench --json`: key, title, and what a value is divided by.
+# Columns of rows of `tess bench --json`: key, title, and divisor of the values.
 RATES = {
     "patches_per_s": ("M patches/s", 1e6),
     "triangles_per_s": ("G triangles/s", 1e9),
@@ -44,14 +44,14 @@ def compact(value):
 
 
 def text_of(record):
-    """The file: a line for each key and for each row."""
+    """The text of a record's file: a line for each key and for each row."""
     lines = [f'  "{key}": {compact(value)}' for key, value in record.items() if key != "rows"]
     rows = ",\n".join(f"    {compact(row)}" for row in record["rows"])
     return "{\n" + ",\n".join([*lines, f'  "rows": [\n{rows}\n  ]']) + "\n}\n"
 
 
 def digits(value):
-    """Three significant digits, never fewer than those before the point, without zeros at the end."""
+    """The value with three significant digits, with all digits before the point, without trailing zeros."""
     decimals = next((count for least, count in ((100, 0), (10, 1), (1, 2), (0.1, 3), (0.01, 4)) if value >= least), 5)
     text = f"{value:.{decimals}f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
@@ -65,7 +65,7 @@ def shown(value):
 
 
 def table(record, targets):
-    """The command, where and when it ran, and its rows."""
+    """The command, the machine and date of the measurement, and the rows."""
     head = "    {command}\n\n{machine}; {date}, commit {commit}.\n\n".format(**record)
     if columns := record.get("columns"):
         titles = [column.replace("_", " ") for column in columns]
@@ -76,7 +76,7 @@ def table(record, targets):
 
 
 def bench_table(rows, targets):
-    """Rows of `tess bench`: of the settings, those that differ stand behind the workload; targets follow."""
+    """The titles and cells of rows of `tess bench`. Settings that differ follow the workload; targets are last."""
     columns = [key for key in RATES if any(row.get(key) is not None for row in rows)]
     has_target = any(targets_of(row, targets) for row in rows)
     titles = ["workload", *(RATES[key][0] for key in columns), *["target"] * has_target]
@@ -108,7 +108,7 @@ def verdict(row, target):
 
 
 def with_tables(text, table_of):
-    """`text` with tables between the markers `<!-- table: NAME -->` and `<!-- end -->`, and their names."""
+    """`text` with a table after each marker `<!-- table: NAME -->`, up to `<!-- end -->`; and the tables' names."""
     used = re.findall(r"<!-- table: (\S+) -->\n", text)
     marked = r"(<!-- table: (\S+) -->\n)(?:(?!<!-- table: ).)*?(?=<!-- end -->)"
     text, count = re.subn(marked, lambda found: found[1] + table_of(found[2]), text, flags=re.DOTALL)
@@ -118,36 +118,36 @@ def with_tables(text, table_of):
 
 # Charts
 
-# Colours of the series, which people with any eyes tell apart, in any order and in grey.
+# Colours of the series, which are distinct in any order, also for colour-blind readers and in grey.
 COLOURS = ["#4477aa", "#ee8866", "#44aa77"]
-# Left of the bars are labels, right of the longest is its value.
+# Lengths in pixels. LEFT has room for the labels; the value of the longest bar is to its right.
 LEFT, LONGEST, WIDTH, BAR, GAP, HEAD = 180, 500, 760, 13, 9, 62
 
 
 def charts():
-    """Each chart's file, title, scale, series, and for each label a value for each series, where there is one."""
+    """The file, title, scale and series of each chart, and for each label the values of the series; None if missing."""
     cpu = {row["workload"]: row for row in read("simd")["rows"]}
     gpu = {row["workload"]: row for row in read("gpu")["rows"]}
     of_both = lambda key: {name: [cpu[name].get(key), gpu.get(name, {}).get(key)] for name in cpu}
     series = ["CPU: tess-simd, one thread, AVX-512, cache", "GPU: tess-gpu, H200, stream"]
-    title = "Speed of writing the output, as a part of a fill of as many bytes"
+    title = "Speed of writing the output, as a fraction of a fill of as many bytes"
     yield "fill", title, False, series, of_both("fill_ratio")
-    yield "core", "Patches a second, as a multiple of the model's on one thread", True, series, of_both("core_ratio")
+    yield "core", "Patches per second, as a multiple of the model's on one thread", True, series, of_both("core_ratio")
 
     keys = ["stage_drawn", "compute_drawn", "in_vertex_cache_order_drawn"]
     bars = {row["workload"]: [float(row[key]) for key in keys] for row in read("drawn")["rows"]}
-    title = "Factors to pixels on an H200, thousands of millions of triangles a second"
+    title = "Factors to pixels on an H200, billions of triangles per second"
     yield "drawn", title, False, ["fixed-function stage", "compute", "compute, vertex-cache order"], bars
 
     bars = {}
     for row in read("stage")["rows"]:
         bars.setdefault(f"{digits(row['triangles'] / 1e6)} M triangles", []).append(row["G_triangles/s"])
-    title = "Terrain by the stage of tess-wgpu on an H200, thousands of millions of triangles a second"
+    title = "Terrain by the stage of tess-wgpu on an H200, billions of triangles per second"
     yield "pixels", title, False, ["points stored", "points pulled", "pulled without indices"], bars
 
 
 def svg(title, is_logarithmic, series, bars):
-    """The picture; a logarithmic bar begins at 1."""
+    """The picture of a chart; logarithmic bars begin at 1."""
     for number, name in enumerate(series):
         assert any(values[number] is not None for values in bars.values()), f"no record has a value of `{name}`"
     most = max(value for values in bars.values() for value in values if value is not None)
@@ -187,7 +187,7 @@ def svg(title, is_logarithmic, series, bars):
 
 
 def made():
-    """Every document and chart as the records make it."""
+    """The text of every document and chart, made from the records."""
     targets = json.loads((ROOT / "benches/targets.json").read_text())
     assert all(target["key"] in RATES for target in targets), "targets.json: a key that no row has"
     text, used = with_tables(RESULTS.read_text(), lambda name: table(read(name), targets))
@@ -209,7 +209,7 @@ def performance():
 
 
 def fresh():
-    """Sees to it that each record's commit exists and has the code that is here, except those that EXCEPTIONS names."""
+    """Checks that each record's commit exists and has the present code, except for the records that EXCEPTIONS names."""
     from measure import MEASUREMENTS
 
     exceptions = json.loads(EXCEPTIONS.read_text())
@@ -240,7 +240,7 @@ def fresh():
 
 
 def run_git(*words):
-    """What git prints; `None` if it fails."""
+    """The output of git; `None` if it fails."""
     done = subprocess.run(["git", *words], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     return None if done.returncode else done.stdout
 
@@ -254,14 +254,14 @@ def code_of(commit, folders):
 
 
 def code_in(text):
-    """The lines of Rust or WGSL that a program is made of: no comments, empty lines or unit tests."""
+    """The lines of Rust or WGSL code, without comments, empty lines and unit tests."""
     text = text.split("#[cfg(test)]\nmod tests {")[0]
     lines = (re.sub(r"\s//.*", "", line).strip() for line in text.splitlines())
     return [line for line in lines if line and not line.startswith("//")]
 
 
 def check():
-    """Sees to it that documents and charts are those of the records."""
+    """Checks that documents and charts agree with the records."""
     for path in RECORDS.glob("*.json"):
         assert path.read_text() == text_of(json.loads(path.read_text())), f"{path}: another layout"
     for path, text in made().items():

@@ -1,4 +1,4 @@
-"""Tests of the tables and charts of records, and of the faults that must be seen."""
+"""Tests of the tables and charts of records, and of faults that must be detected."""
 
 from measure import MEASUREMENTS, of_ablation, of_crossover, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
 from records import code_in, digits, svg, table, with_tables

@@ -1,5 +1,5 @@
-// The design, in the order in which files need each other: the one list of its files. Paths are from this folder:
-// `verilator -F rtl/tess.f --top-module tess_top`. Bender.yml and tess.core are written from it by `cargo xtask rtl --names`.
+// The only list of the design's files, in order of dependency. Paths are relative to this folder:
+// `verilator -F rtl/tess.f --top-module tess_top`. `cargo xtask rtl --names` writes Bender.yml and tess.core from it.
 +incdir+.
 tess_pkg.sv
 tess_delay.sv

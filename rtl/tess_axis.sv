@@ -6,21 +6,21 @@
 //                                       order; 8 the six factors, factor 0 lowest
 //   counts      32             32       0 points (13 bits), 16 primitives (14 bits)
 //   point       48             64       0 u, 24 v (17 bits each, 16.16). tlast: the last point of the patch
-//   primitive   56             64       0, 16, 32 the indices (13 bits each), 48 how many there are. tlast: the last
-//                                       primitive of the patch
+//   primitive   56             64       0, 16, 32 the indices (13 bits each), 48 their number. tlast: the last primitive
+//                                       of the patch
 //
-// PADDED gives the widths that DMA engines and width converters take: powers of two. The bits that it adds are above all
-// fields; those of the patch are ignored.
+// PADDED selects widths that DMA engines and width converters accept: powers of two. The added bits are above all fields;
+// those of the patch are ignored.
 module tess_axis #(
     parameter bit PADDED   = 1'b0,
     parameter bit BUFFERED = 1'b0 // a register stage at each port: tess_skid
 ) (
     input  logic         aclk,
-    input  logic         aresetn, // low: reset, synchronous
+    input  logic         aresetn, // synchronous reset, active low
 
     input  logic                            s_axis_patch_tvalid,
     output logic                            s_axis_patch_tready,
-    /* verilator lint_off UNUSEDSIGNAL */ // bit 7, and what PADDED adds
+    /* verilator lint_off UNUSEDSIGNAL */ // bit 7, and the bits that PADDED adds
     input  logic [(PADDED ? 256 : 200)-1:0] s_axis_patch_tdata,
     /* verilator lint_on UNUSEDSIGNAL */
 

@@ -1,11 +1,12 @@
-// Makes u and v of two locations (specification, section 6), in four registered clocks: product, perpendicular, q, output.
+// Computes u and v from two locations (specification, section 6), in four registered clocks: product, perpendicular, q,
+// output.
 `include "tess_types.svh"
 module tess_combine (
     input  logic        clk,
     input  logic        advance,
     input  logic        is_quad,
     input  logic [2:0]  at,      // AT_ of tess_pkg
-    input  logic [1:0]  side,    // of the edge; the number of a corner
+    input  logic [1:0]  side,    // number of the edge or the corner
     input  logic [16:0] in_a,
     input  logic [16:0] in_b,
     output logic [16:0] u,       // four clocks later

@@ -1,8 +1,9 @@
-// The primitives of a patch, one a clock, in the specification's order (sections 7 and 8). tess_top starts it with the
-// point counts of each patch; locations do not matter here.
+// The primitives of a patch, one per clock, in the specification's order (sections 7 and 8). tess_top starts it with the
+// point counts of each patch; it does not need locations.
 //
-// The walk goes ring by ring, edge by edge, and each edge is a stitch between two rows. The front half describes them in
-// two clocks, `edge_` and `ahead`, into the next patch too; tess_stitch walks `ahead`, and tess_rows has the indices.
+// The walk goes ring by ring and edge by edge; each edge is a stitch between two rows. The front half describes a stitch in
+// two clocks, `edge_` and `ahead`, and continues into the next patch. tess_stitch walks `ahead`, and tess_rows has the
+// indices.
 //
 //   counts   | 5       | 4        | 3     | 2     | 1     | 0     |   seven bits each: points of a factor
 //   quad     | in v    | in u     | v = 1 | u = 1 | v = 0 | u = 0 |
@@ -10,7 +11,7 @@
 //   isoline  | density | detail   |
 //
 //   at       AT_STITCH  edges 0 .. of ring 1, of ring 2, ..; then AT_MIDDLE: a strip of a quad, or one triangle
-//   row      base + entry; the row of the last edge closes at edge 0's first index
+//   row      index base + entry; the row of the last edge closes at the first index of edge 0
 //
 // The quad of docs/tour-cpu.md has the counts 5, 7, 7, 7 outside, 5 and 9 inside:
 //
@@ -21,11 +22,11 @@
 //   2, 0         22          7           38          9 - 4 = 5   10
 //   2, 2         30          7           42          5           10     walks back: ring 2 is a row, 42 to 38
 //
-// What must hold:
-// - start_patch.primitives is the patch's count, from tess_factors: it ends the walk, and a culled patch has 0.
-// - Indices are below 4225, so 13 bits hold them; a patch has at most 8192 primitives, so 14 bits count them.
-// - What is described and not walked, `remaining` and `ahead`, is what the patch has left.
-// - Registers behind `ahead` change only where `advance` is 1, so nothing is lost while out_ready is 0.
+// Invariants:
+// - start_patch.primitives is the patch's count, from tess_factors. It ends the walk; a culled patch has 0.
+// - Indices are below 4225, so they fit 13 bits. A patch has at most 8192 primitives, so 14 bits count them.
+// - The primitives that `remaining` and `ahead` hold are those of the patch that are not walked yet.
+// - Registers after `ahead` change only when `advance` is 1, so nothing is lost while out_ready is 0.
 `include "tess_types.svh"
 module tess_connect (
     input  logic                             clk,
@@ -33,7 +34,7 @@ module tess_connect (
 
     input  logic                             start_valid,
     output logic                             start_ready,
-    /* verilator lint_off UNUSEDSIGNAL */ // the number of points is no matter here
+    /* verilator lint_off UNUSEDSIGNAL */ // the number of points is not used
     input  tess_patch_t                      start_patch,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic [tess_pkg::COUNTS_BITS-1:0] start_counts, // points of each factor; factor 0 in the lowest bits
@@ -54,13 +55,13 @@ module tess_connect (
         AT_MIDDLE    // a strip, or the triangle in the middle of a triangle
     } at_e;
 
-    logic advance; // what is behind `ahead`
+    logic advance; // the registers after `ahead` may change
     assign advance = !out_valid || out_ready;
 
     // ---- the walk of edges ---------------------------------------------------------------------
 
     logic                             active;
-    /* verilator lint_off UNUSEDSIGNAL */ // the number of points
+    /* verilator lint_off UNUSEDSIGNAL */ // the number of points is not used
     tess_patch_t                      patch;
     /* verilator lint_on UNUSEDSIGNAL */
     logic [tess_pkg::COUNTS_BITS-1:0] counts;
@@ -91,23 +92,24 @@ module tess_connect (
     assign detail        = points_of(counts, 3'd4);
     assign m             = (at == AT_MIDDLE ? strip_along_u : side[0]) ? m_u : m_v;
 
-    // K - 1 and M - 1 of section 7.1, primitives behind the first one, and which stitch it is.
+    // K - 1 and M - 1 of section 7.1, the number of primitives after the first one, and the kind of stitch.
     logic [6:0] outer_last_next, inner_last_next, further_next, middle_next, offset_next;
     logic [2:0] kind_next;
     logic       walks_back;
-    // The inner row is a row of points, walked back: even parity across the edge, and the last ring of that axis.
+    // The inner row is a row of points that is walked back: the parity across the edge is even, and the ring is the last
+    // one of that axis.
     assign walks_back = at == AT_STITCH && is_quad && side[1] && (side[0] ? m_v : m_u) == 7'd1;
     always_comb begin
         outer_last_next = 7'd64;
         inner_last_next = m - 7'd1;
         further_next    = 7'd127; // ends with the patch
         middle_next     = (m >> 1) - 7'd1;
-        offset_next     = 7'd2;   // of the inner base from the outer one, but for stitches
+        offset_next     = 7'd2;   // from the outer base to the inner base, except for stitches
         kind_next       = tess_pkg::STRAIGHT;
         unique case (at)
             AT_SEQUENCE: further_next = 7'd63;
             AT_LINE: begin
-                outer_last_next = detail; // the last point of a line begins no segment
+                outer_last_next = detail; // no segment begins at the last point of a line
                 further_next    = detail - 7'd2;
             end
             AT_MINIMUM: offset_next = is_quad ? 7'd3 : 7'd2; // triangle 0 1 2; quad 0 1 3 and 1 2 3
@@ -128,8 +130,8 @@ module tess_connect (
         endcase
     end
 
-    logic describes, passes, ends_patch; // to edge_; from there to ahead; and it is the last one
-    logic edge_valid, ahead_valid, takes; // there is one in edge_; in ahead; the walk takes that
+    logic describes, passes, ends_patch; // a stitch goes to edge_; from there to ahead; it is the patch's last one
+    logic edge_valid, ahead_valid, takes; // edge_ holds a stitch; ahead holds one; the walk takes that of ahead
     assign describes   = active && (!edge_valid || passes) && !ends_patch;
     assign start_ready = !active || ends_patch;
 
@@ -175,7 +177,7 @@ module tess_connect (
     logic [1:0]  edge_size;
     logic [6:0]  edge_further, edge_outer_last, edge_inner_last, edge_middle, edge_offset;
     logic [2:0]  edge_kind;
-    logic [13:0] remaining;                // primitives of the patch from this edge on, less one
+    logic [13:0] remaining;                // primitives of this edge and later ones of the patch, less one
     logic [12:0] outer_base, inner_base;   // first indices of its rows
     logic [12:0] outer_start, inner_start; // and those of edge 0
 
@@ -235,7 +237,7 @@ module tess_connect (
 
     // ---- the stitch ----------------------------------------------------------------------------
 
-    // Half steps of the two factors: half_points, less one if odd. The inside factor has two points more than the row.
+    // Half steps of the two factors: half_points, or one less if odd. The inside factor has two points more than the row.
     logic [5:0]  outer_half, inner_half;
     logic [31:0] outer_mask, inner_mask;
     assign outer_half = edge_outer_last[6:1];
@@ -243,8 +245,8 @@ module tess_connect (
     tess_mask mask_outer (.half(outer_half), .center(edge_center), .mask(outer_mask));
     tess_mask mask_inner (.half(inner_half), .center(edge_center), .mask(inner_mask));
 
-    // Bit 2 p + 1 of both: position p of the outer row; bit 2 p: that of the inner one. A vector of its own, as Icarus Verilog 11
-    // takes no variable index into a member.
+    // Bit 2 p + 1 of `both` is position p of the outer row, bit 2 p that of the inner row. It is a separate vector because
+    // Icarus Verilog 11 does not accept a variable index into a member.
     logic [63:0] both_masks;
     always_comb for (int i = 0; i < 32; i++) begin
         both_masks[2*i]     = inner_mask[i];

@@ -1,9 +1,9 @@
-// The value of CLOCKS clocks before, not counting those in which `advance` is 0. CLOCKS 0: a wire.
+// Delays a value by CLOCKS clocks, not counting clocks in which `advance` is 0. With CLOCKS 0 it is a wire.
 module tess_delay #(
     parameter int WIDTH  = 1,
     parameter int CLOCKS = 1
 ) (
-    /* verilator lint_off UNUSEDSIGNAL */ // a wire has no clock
+    /* verilator lint_off UNUSEDSIGNAL */ // a wire does not use the clock
     input  logic             clk,
     input  logic             advance,
     /* verilator lint_on UNUSEDSIGNAL */
@@ -13,7 +13,7 @@ module tess_delay #(
     if (CLOCKS == 0) begin : g_wire
         assign out = in;
     end else begin : g_registers
-        logic [CLOCKS*WIDTH-1:0] values; // the newest in the lowest bits
+        logic [CLOCKS*WIDTH-1:0] values; // the newest value in the lowest bits
         if (CLOCKS == 1) begin : g_one
             always_ff @(posedge clk) if (advance) values <= in;
         end else begin : g_line

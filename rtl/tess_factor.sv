@@ -1,7 +1,7 @@
 // Clamps, rounds and converts one factor (specification, section 3, steps 2 to 7, and section 2).
-// No floating-point unit: a positive binary32 number compares as its bits do.
+// It has no floating-point unit: positive binary32 numbers compare like their bits.
 //
-// Combinational; with REGISTERED in three clocks (clamp, align, round), the last of which is the caller's register.
+// Combinational. With REGISTERED it takes three clocks (clamp, align, round); the register of the last is the caller's.
 `include "tess_types.svh"
 module tess_factor #(
     parameter bit REGISTERED = 1'b0
@@ -11,7 +11,7 @@ module tess_factor #(
     input  logic [31:0] bits,         // binary32, any pattern
     input  logic [1:0]  partitioning, // integer for the density of isolines
     input  logic        is_inside,
-    input  logic        has_frame,    // step 4: some factor of the patch exceeds 1 + 2^-17
+    input  logic        has_frame,    // step 4: a factor of the patch exceeds 1 + 2^-17
     output logic [22:0] fixed,        // 15.16, 1..64
     output logic        odd           // parity
 );
@@ -71,7 +71,7 @@ module tess_factor #(
     logic [6:0] whole; // the ceiling
     logic       rounds_up;
     always_comb begin
-        // Every bit behind the point counts, those below 2^-16 too.
+        // Every bit after the binary point counts, including those below 2^-16.
         whole = wide[29:23] + {6'd0, |wide[22:0]};
         // To the nearest multiple of 2^-16, ties to even.
         rounds_up = wide[6] && ((|wide[5:0]) || wide[7]);

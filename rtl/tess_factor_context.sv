@@ -1,7 +1,7 @@
 // The context of a factor: six numbers, computed once per factor (specification, sections 4 and 10).
 // In: 15.16 factor, 1..63 if odd, 1 or 2..64 if even.
 //
-// Combinational; with REGISTERED in three clocks (half, points, the rest), the last of which is the caller's register.
+// Combinational. With REGISTERED it takes three clocks (half, points, the rest); the register of the last is the caller's.
 module tess_factor_context #(
     parameter bit REGISTERED = 1'b0
 ) (
@@ -34,7 +34,7 @@ module tess_factor_context #(
 
     logic       odd_here, is_odd, is_center, has_fraction;
     logic [6:0] floor_points, ceil_points;
-    logic [6:0] floor_before, ceil_before; // less one if odd
+    logic [6:0] floor_before, ceil_before; // one less if odd
     tess_delay #(.WIDTH(1), .CLOCKS(CLOCKS)) parity_here (.clk, .advance, .in(odd), .out(odd_here));
     assign has_fraction = half[15:0] != 16'd0;
     logic [6:0] less_odd;
@@ -52,7 +52,7 @@ module tess_factor_context #(
     function automatic logic [6:0] drop_msb(input logic [6:0] x);
         drop_msb = x;
         for (int i = 0; i < 7; i++) begin
-            if (x[i]) drop_msb = x & ~(7'd1 << i); // the highest bit comes last
+            if (x[i]) drop_msb = x & ~(7'd1 << i); // the highest set bit is assigned last
         end
     endfunction
 
@@ -62,7 +62,7 @@ module tess_factor_context #(
     always_comb begin
         half_points = ceil_points[5:0];
         points      = {ceil_points[5:0], !is_odd}; // section 14.1
-        if (floor_points == ceil_points)         split = 6'(ceil_points + 7'd1); // no point reaches it
+        if (floor_points == ceil_points)         split = 6'(ceil_points + 7'd1); // no position splits
         else if (is_center)                      split = 6'(ceil_before - 7'd1);
         else if (is_odd && floor_points == 7'd1) split = 6'd0;
         else if (is_odd)                         split = 6'((odd_top << 1) + 7'd1);

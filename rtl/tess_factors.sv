@@ -1,22 +1,22 @@
-// The front end: raw factors in, the contexts and counts of a patch out (specification, sections 3, 4, 12.6).
+// The front end: computes the contexts and counts of a patch from its raw factors (specification, sections 3, 4, 12.6).
 //
-// One factor goes through each clock. A patch of six:
+// One factor is processed per clock. A patch of six factors:
 //
 //   clock     1   2   3   4   5   6   7   8   9  10  11  12  13  14  15
-//   select    0   1   2   3   4   5   .   .                              factor k, of the patch that is accepted in clock 0
+//   select    0   1   2   3   4   5   .   .                              factor k of the patch that is accepted in clock 0
 //   clamp         0   1   2   3   4   5                                  tess_factor
 //   align             0   1   2   3   4   5
 //   round                 0   1   2   3   4   5
 //   half                      0   1   2   3   4   5                      tess_factor_context
 //   points                        0   1   2   3   4   5
 //   the rest                          0   1   2   3   4   5              to its places in `contexts`
-//   counts                                                  +   x   +    offered behind clock 15
+//   counts                                                  +   x   +    offered after clock 15
 //
-// The next patch is selected from clock 7 on: its contexts are made while the one before is counted and waits in
-// `out_contexts`. Only where that one still waits and the next one is complete, everything stands still.
+// The next patch is selected from clock 7: its contexts are computed while the previous patch is counted and waits in
+// `out_contexts`. The front end stalls only if the previous patch still waits when the next one is complete.
 //
-// Places of contexts: 0 to 3 the outer edges; 4 along u and 5 along v, which on triangles are the same, and on isolines
-// the detail and the density.
+// Places of contexts: 0 to 3 for the outer edges, 4 along u and 5 along v. On triangles 4 and 5 are equal; on isolines they
+// are the detail and the density.
 `include "tess_types.svh"
 module tess_factors (
     input  logic         clk,
@@ -37,8 +37,8 @@ module tess_factors (
 );
     localparam int BITS = tess_pkg::CONTEXT_BITS;
 
-    logic is_complete; // `contexts` holds those of a whole patch
-    logic is_occupied; // so does `out_contexts`
+    logic is_complete; // `contexts` holds the contexts of a whole patch
+    logic is_occupied; // `out_contexts` holds those of the previous patch
     logic advance;
     assign advance = !(is_complete && is_occupied);
 
@@ -50,7 +50,7 @@ module tess_factors (
     logic [191:0] factors;
     logic         is_culled, has_frame;
     logic [2:0]   k;
-    logic         issues_last; // k is the last one that is selected: the first one, if the patch is culled
+    logic         issues_last; // k is the last factor that is selected: the first one if the patch is culled
 
     logic [2:0] factor_count, outer_count;
     always_comb begin
@@ -58,8 +58,8 @@ module tess_factors (
         outer_count  = (domain == tess_pkg::ISOLINE) ? 3'd2 : (domain == tess_pkg::TRIANGLE) ? 3'd3 : 3'd4;
     end
 
-    // Steps 1 and 4 look at all factors of the patch that comes. Positive: not negative, not zero, not NaN.
-    // Large: above 1 + 2^-17.
+    // Steps 1 and 4 examine all factors of the arriving patch. Positive: not negative, not zero, not NaN. Large: above
+    // 1 + 2^-17.
     logic [5:0] is_positive, is_large, is_there, is_outer;
     assign is_there = (in_domain == tess_pkg::ISOLINE) ? 6'b000011 : (in_domain == tess_pkg::TRIANGLE) ? 6'b001111 : 6'b111111;
     assign is_outer = (in_domain == tess_pkg::ISOLINE) ? 6'b000011 : (in_domain == tess_pkg::TRIANGLE) ? 6'b000111 : 6'b001111;
@@ -96,7 +96,7 @@ module tess_factors (
         end
     end
 
-    // Factor k, and how it is processed. An index times 32 would be a shifter.
+    // Factor k, and its partitioning and role. To select bits from 32 k would need a shifter.
     logic [31:0] bits_next, bits;
     logic [1:0]  mode;
     logic        is_inside, framed;
@@ -137,7 +137,7 @@ module tess_factors (
 
     // ---- half, points, the rest of a context ---------------------------------------------------
 
-    // What goes beside a factor: to where it is fixed, and to where its context is made.
+    // The data that accompanies a factor, until its conversion and until its context.
     typedef struct packed {
         logic [1:0] domain;
         logic [1:0] out;
@@ -186,15 +186,15 @@ module tess_factors (
         .points     (made.points)
     );
 
-    // ---- the patch whose contexts are made -----------------------------------------------------
+    // ---- the patch whose contexts are being computed -------------------------------------------
 
     logic [BITS*tess_pkg::FACTORS-1:0] contexts;
-    /* verilator lint_off UNUSEDSIGNAL */ // which factor it is of
+    /* verilator lint_off UNUSEDSIGNAL */ // the number of the factor is not used
     tag_t       whole;       // of its last factor
     /* verilator lint_on UNUSEDSIGNAL */
     logic       all_one;     // every factor equals ONE
     logic [8:0] ring_points; // the sum of n - 1 over the outer edges
-    logic [6:0] wide, tall;  // their product counts the points inside, or those of the lines
+    logic [6:0] wide, tall;  // their product is the number of points inside, or on the lines
     logic       is_quad, is_isoline, starts, sets_wide, sets_tall;
     logic [6:0] half;
     assign is_quad    = context_tag.domain == tess_pkg::QUAD;
@@ -243,10 +243,10 @@ module tess_factors (
     logic        is_minimum;
     logic [12:0] product, inner, ring13; // inner: points inside
     logic [6:0]  lines;      // of an isoline patch
-    logic [13:0] subtrahend; // primitives are this less than the points, or than twice the points
+    logic [13:0] subtrahend; // primitives = points - subtrahend, or 2 points - subtrahend
     assign ring13 = {4'd0, out_patch.ring_points};
 
-    // Triangles, but those of the minimum patch: two a point, without those of the border.
+    // The triangles of a patch that is not minimum: two per point, less those of the border.
     logic is_doubled;
     assign is_doubled = counted_out[1] && counted_domain != tess_pkg::ISOLINE && !is_minimum;
     always_comb begin
@@ -260,7 +260,7 @@ module tess_factors (
             sum_valid     <= 1'b0;
             out_valid     <= 1'b0;
         end else begin
-            // A culled patch has nothing to be counted.
+            // A culled patch is not counted.
             product_valid <= moves && !whole.culled;
             sum_valid     <= product_valid;
             out_valid     <= (moves && whole.culled) || sum_valid || (out_valid && !out_ready);

@@ -1,5 +1,5 @@
-// Hands each element of a stream to N consumers, each of which takes it once, whenever it is ready. The element leaves
-// when the last of them has taken it, in the same clock.
+// Passes each element of a stream to N consumers. Each consumer takes it once, when it is ready. The element leaves in the
+// clock in which the last consumer takes it.
 module tess_fork #(
     parameter int N = 3
 ) (
@@ -10,7 +10,7 @@ module tess_fork #(
     output logic [N-1:0] out_valid,
     input  logic [N-1:0] out_ready
 );
-    logic [N-1:0] took, takes; // before this clock; in this clock
+    logic [N-1:0] took, takes; // the consumers that took it before this clock; that take it in this clock
     assign out_valid = {N{in_valid}} & ~took;
     assign takes     = out_valid & out_ready;
     assign in_ready  = &(took | takes);

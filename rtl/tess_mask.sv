@@ -1,11 +1,11 @@
-// The positions of a half edge that have a point: bit k - 1 is set if position k has one, which is if its number in the split
-// order is below the half steps (specification, sections 7.2 and 14.3). Combinational.
+// The positions of a half edge that have a point. Bit k - 1 is set if position k has one, that is, if its number in the
+// split order is below the half steps (specification, sections 7.2 and 14.3). Combinational.
 module tess_mask (
-    input  logic [5:0]  half,   // half steps, 0..32: half_points, less one if odd
+    input  logic [5:0]  half,   // half steps, 0..32: half_points, or one less if odd
     input  logic        center, // split order: 0 ruler, 1 center
     output logic [31:0] mask
 );
-    // Ruler order: the number of each position, position 32 first. No number is 0; center order numbers them 1, 2, ..
+    // The number of each position in ruler order, position 32 first. Numbers begin with 1; center order has 1, 2, ..
     localparam logic [32*6-1:0] RULER = {
         6'd31, 6'd15, 6'd30, 6'd7, 6'd29, 6'd14, 6'd28, 6'd3,
         6'd27, 6'd13, 6'd26, 6'd6, 6'd25, 6'd12, 6'd24, 6'd1,

@@ -23,7 +23,7 @@ package tess_pkg;
     localparam logic [16:0] ONE_THIRD = 17'h0_5555;
     localparam logic [15:0] TWO_THIRDS = 16'hAAAA;
 
-    // Where the walk of the points is (section 6).
+    // The place of the walk of points (section 6).
     localparam logic [2:0] AT_LINE   = 3'd0;
     localparam logic [2:0] AT_CORNER = 3'd1;
     localparam logic [2:0] AT_OUTER  = 3'd2;
@@ -31,7 +31,7 @@ package tess_pkg;
     localparam logic [2:0] AT_CENTRE = 3'd4;
 
     // Kinds of stitches (sections 7.2, 7.3 and 7.4).
-    localparam logic [2:0] STRAIGHT            = 3'd0; // no stitch: the outer row advances alone
+    localparam logic [2:0] STRAIGHT            = 3'd0; // no stitch: only the outer row advances
     localparam logic [2:0] TRANSITION          = 3'd1;
     localparam logic [2:0] RING                = 3'd2;
     localparam logic [2:0] STRIP               = 3'd3; // all diagonals forward
@@ -45,7 +45,7 @@ package tess_pkg;
     localparam logic [2:0] BACK         = 3'd4;
     localparam logic [2:0] LAST         = 3'd5;
 
-    // Of tess_context_t, field by field: `$bits` of it is not a constant to every tool (docs/rtl.md, Style).
+    // The width of tess_context_t, field by field, because not every tool takes its `$bits` as a constant (docs/rtl.md, Style).
     localparam int CONTEXT_BITS = 1 + 17 + 17 + 16 + 6 + 6 + 7;
     // A patch has at most six factors: outer first, then inside. Vectors hold one context for each.
     localparam int FACTORS = 6;

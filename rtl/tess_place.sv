@@ -1,9 +1,9 @@
-// Places a point in one dimension (specification, section 5), in six registered clocks: mirror, choose, multiply of
-// tess_place_position; multiply, add, mirror of tess_place_blend.
+// Places a point in one dimension (specification, section 5), in six registered clocks: mirror, choose and multiply in
+// tess_place_position; multiply, add and mirror in tess_place_blend.
 `include "tess_types.svh"
 module tess_place (
     input  logic          clk,
-    input  logic          advance, // all clocks move on
+    input  logic          advance, // all registers may change
     /* verilator lint_off UNUSEDSIGNAL */ // `points` bounds in_p
     input  tess_context_t in_context,
     /* verilator lint_on UNUSEDSIGNAL */

@@ -1,7 +1,7 @@
 // Blends the two places by the factor's fraction, rounds, and mirrors back
 // (specification, section 5, second half).
 //
-// Combinational; with REGISTERED in three clocks (multiply, add, mirror), the last of which is the caller's register.
+// Combinational. With REGISTERED it takes three clocks (multiply, add, mirror); the register of the last is the caller's.
 module tess_place_blend #(
     parameter bit REGISTERED = 1'b0
 ) (
@@ -30,7 +30,7 @@ module tess_place_blend #(
 
     // ---- add -----------------------------------------------------------------------------------
 
-    // The weights add up to ONE and both places are at most HALF + 10: below 2^32.
+    // Below 2^32, because the weights add up to ONE and both places are at most HALF + 10.
     logic [32:0] coarse_part, fine_part;
     /* verilator lint_off UNUSEDSIGNAL */ // the bits that are rounded away
     logic [32:0] sum;

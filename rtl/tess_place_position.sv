@@ -1,7 +1,7 @@
 // Mirrors a point onto the first half of its edge and finds its place in the coarser and the finer
 // subdivision (specification, section 5, first half). In: p < points.
 //
-// Combinational; with REGISTERED in three clocks (mirror, choose, multiply), the last of which is the caller's register.
+// Combinational. With REGISTERED it takes three clocks (mirror, choose, multiply); the register of the last is the caller's.
 module tess_place_position #(
     parameter bit REGISTERED = 1'b0
 ) (
@@ -13,7 +13,7 @@ module tess_place_position #(
     input  logic [5:0]  split,
     input  logic        odd,
     input  logic [6:0]  p,
-    output logic        flip,     // the point lies on the second half
+    output logic        flip,     // the point is on the second half
     output logic        middle,   // the point is the exact middle of an even edge
     output logic [5:0]  position, // 0..32
     output logic [16:0] coarse,   // at most HALF + 10, 16 fraction bits; 0 in the middle

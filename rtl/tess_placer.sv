@@ -1,6 +1,6 @@
-// Places points along an edge: factor and point number in, 16.16 location out, one each clock.
-// Three registered stages, named after the specification: factor context, place (position), place
-// (blend). The signals of each stage leave with the location, for comparison with the model.
+// Places points along an edge: takes a factor and a point number per clock, and outputs the 16.16 location.
+// It has three registered stages, named after the specification: factor context, place (position), place
+// (blend). The signals of each stage are output with the location, for comparison with the model.
 module tess_placer (
     input  logic        clk,
     input  logic        rst,

@@ -1,16 +1,16 @@
-// The domain points of a patch, one a clock, in the specification's order (section 6).
+// The domain points of a patch, one per clock, in the specification's order (section 6).
 //
-// Points come edge by edge. The front half describes each edge in `ahead`, one edge ahead, into the next patch too; the
-// walker goes along it: `along` goes forward or backward, `across` stands. Each coordinate is a constant or a
-// location, so two placers, A and B, serve every point.
+// The walk goes edge by edge. The front half describes each edge in `ahead`, one edge in advance, and continues into the
+// next patch. Along an edge, `along` counts forward or backward, and `across` is constant. Each coordinate is a constant or
+// a location, so two placers, A and B, serve every point.
 //
 //   line         u = A: place(detail, along)    v = B: place(density, line)
 //   outer edge   A: place(edge, along); the other coordinate is constant or ONE - A
 //   quad ring    u = A, v = B: one is `along`, the other `across`
 //   triangle     A: place(inside, ring), the ring's distance; B: place(inside, along)
-//   centre       as a ring of a quad; one third on triangles
+//   centre       like a ring of a quad; one third on triangles
 //
-// A quad with the factors 2, 3, 2, 3 outside, 4 (u) and 3 (v) inside: counts 3, 4, 3, 4, 5 and 4, so 16 points.
+// A quad with the factors 2, 3, 2, 3 outside, 4 (u) and 3 (v) inside has the counts 3, 4, 3, 4, 5 and 4, and 16 points.
 // `tess explain quad --outer 2,3,2,3 --inner 4,3 --partitioning integer --point N` prints each of them.
 //
 //   v = 1   0---9---8---7          edge           along      across   points
@@ -23,14 +23,14 @@
 //                                  ring 1, 2      v 1        u 3      13         end_u = 5 - 1 - 1 = 3
 //                                  ring 1, 3      u 3, 2     v 2      14, 15
 //
-// Ring r has end_u - r and end_v - r points on its edges, so rest_u = 5 - 2 - 2r further ones; ring 2 would have none, so
-// ring 1 is the innermost.
+// Ring r has end_u - r and end_v - r points on its edges, so rest_u = 5 - 2 - 2r points follow the first one. Ring 2 would
+// have no points, so ring 1 is the innermost.
 //
-// What must hold:
-// - start_patch.points is the patch's count, from tess_factors: it ends the walk, and a culled patch has 0.
-// - What is described and not walked, `remaining` and `ahead`, is what the patch has left (dv/formal).
+// Invariants:
+// - start_patch.points is the patch's count, from tess_factors. It ends the walk; a culled patch has 0.
+// - The points that `remaining` and `ahead` hold are those of the patch that are not walked yet (dv/formal).
 // - `along` and `across` are below the points of their contexts, which stay with the edge while the next patch is described.
-// - Registers behind `ahead` change only where `advance` is 1, so nothing is lost while out_ready is 0.
+// - Registers after `ahead` change only when `advance` is 1, so nothing is lost while out_ready is 0.
 `include "tess_types.svh"
 module tess_points (
     input  logic                               clk,
@@ -38,7 +38,7 @@ module tess_points (
 
     input  logic                               start_valid,
     output logic                               start_ready,
-    /* verilator lint_off UNUSEDSIGNAL */ // primitives are no matter here
+    /* verilator lint_off UNUSEDSIGNAL */ // the number of primitives is not used
     input  tess_patch_t                        start_patch,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic [tess_pkg::CONTEXTS_BITS-1:0] start_contexts,
@@ -56,24 +56,24 @@ module tess_points (
     localparam logic [2:0] AT_RING   = tess_pkg::AT_RING;
     localparam logic [2:0] AT_CENTRE = tess_pkg::AT_CENTRE;
 
-    logic advance; // the walker and what is behind it
+    logic advance; // the registers of the walk and after it may change
     assign advance = !out_valid || out_ready;
 
-    // ---- the edge that is described ------------------------------------------------------------
+    // ---- the edge that is being described ------------------------------------------------------
 
     logic                               active;
     logic                               is_quad;
     logic [tess_pkg::CONTEXTS_BITS-1:0] contexts;
-    logic [12:0]                        remaining; // points of the patch from here on, less one
+    logic [12:0]                        remaining; // points of this edge and later ones of the patch, less one
     logic [2:0]                         at;
-    logic [1:0]                         side;      // number of the edge, or of the corner
-    logic [5:0]                         ring;      // 0: outer edges; the number of a line
-    logic [6:0]                         further;   // points of this edge behind its first one
+    logic [1:0]                         side;      // number of the edge or the corner
+    logic [5:0]                         ring;      // 0 for outer edges; on isolines the number of the line
+    logic [6:0]                         further;   // points of this edge after its first one
     logic [6:0]                         end_u, end_v;   // the last positions of this ring
-    logic [6:0]                         rest_u, rest_v; // further points of its edges; ring 0 as the inside factors have it
-    logic                               row_along_u;    // the row of points at the centre lies along u
+    logic [6:0]                         rest_u, rest_v; // points of its edges after the first; for ring 0 by the inside factors
+    logic                               row_along_u;    // the row of points at the centre runs along u
 
-    /* verilator lint_off UNUSEDSIGNAL */ // the rest of each context
+    /* verilator lint_off UNUSEDSIGNAL */ // the rest of each context is not used
     function automatic logic [6:0] points_of(input logic [tess_pkg::CONTEXTS_BITS-1:0] all, input logic [2:0] i);
         unique case (i)
             3'd0:    points_of = all[BITS*0 +: 7];
@@ -91,7 +91,7 @@ module tess_points (
     assign runs_along_v = !side[0];
     assign backward     = side == 2'd0 || is_last_side; // the walk of this edge begins at the far end
 
-    // The first position, where the edge lies across, and whether placer A places what runs.
+    // The first position, the constant position across the edge, and whether placer A has the position that runs.
     logic [6:0] start, across, n_outer;
     logic       a_runs, is_backward;
     assign n_outer = points_of(contexts, {1'b0, side});
@@ -117,7 +117,7 @@ module tess_points (
                 end
             end
             AT_CENTRE: begin
-                // `ring` is now the number of the row; across it lies the middle of the shorter axis.
+                // `ring` is now the number of the row, the middle of the shorter axis.
                 a_runs      = row_along_u;
                 is_backward = !row_along_u;
                 start       = row_along_u ? {1'b0, ring} : end_v;
@@ -140,14 +140,14 @@ module tess_points (
         end
     end
 
-    // ---- the edge behind it --------------------------------------------------------------------
+    // ---- the next edge -------------------------------------------------------------------------
 
     logic describes, is_last_edge, ends_patch;
     assign is_last_edge = remaining[12:7] == 6'd0 && further >= remaining[6:0];
     assign ends_patch   = describes && is_last_edge;
     assign start_ready  = !active || ends_patch;
 
-    // No ring comes behind this one: on the shorter axis its edges would have no point.
+    // No ring follows: on the shorter axis its edges would have no points.
     logic       is_innermost;
     logic [6:0] next_outer;
     assign is_innermost = (row_along_u ? rest_v[6:1] : rest_u[6:1]) == 6'd0;
@@ -231,8 +231,8 @@ module tess_points (
 
     logic          walks;    // there is a point
     logic [6:0]    along;
-    logic [6:0]    to_come;  // points of this edge behind this one
-    logic          ends_edge; // none
+    logic [6:0]    to_come;  // points of this edge after this one
+    logic          ends_edge; // no point of this edge follows
     tess_context_t a_context, b_context;
     assign takes = advance && ahead_valid && (!walks || ends_edge);
 
@@ -275,7 +275,7 @@ module tess_points (
     tess_combine combine (
         .clk, .advance, .is_quad(quad_there), .at(at_there), .side(side_there), .in_a(a), .in_b(b), .u(out_u), .v(out_v));
 
-    logic [BEHIND-1:0] valids, lasts; // of the points behind the walk, the newest in the lowest bit
+    logic [BEHIND-1:0] valids, lasts; // of the points after the walk, the newest in the lowest bit
     always_ff @(posedge clk) begin
         if (rst) begin
             valids    <= '0;

@@ -1,5 +1,5 @@
 // reciprocal(n) for n = 1..64, 16 fraction bits, rounded half up: a table (specification, section 2).
-// n = 0, which no factor asks for, gives 0.
+// n = 0, which no factor needs, gives 0.
 module tess_reciprocal (
     input  logic [6:0]  n,
     output logic [16:0] value

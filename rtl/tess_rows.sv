@@ -1,14 +1,14 @@
-// The two rows of a stitch and the primitives between them (specification, sections 7.1 and 8): two entries of each row, of
-// which one advances, and the indices of the primitive a clock later.
+// The two rows of a stitch and the primitives between them (specification, sections 7.1 and 8). It holds two entries of each
+// row. In each step one row advances; a clock later the indices of the primitive follow.
 `include "tess_types.svh"
 module tess_rows (
     input  logic         clk,
     input  logic         rst,
-    input  logic         advance,     // everything moves on
+    input  logic         advance,     // all registers may change
     input  logic         step_valid,
     input  logic         step_begins, // the rows of `step_stitch` begin with this step
     input  tess_step_t   step,
-    /* verilator lint_off UNUSEDSIGNAL */ // the mask and what else the steps are made of
+    /* verilator lint_off UNUSEDSIGNAL */ // the mask and other fields that only tess_stitch uses
     input  tess_stitch_t step_stitch,
     /* verilator lint_on UNUSEDSIGNAL */
 
@@ -24,12 +24,12 @@ module tess_rows (
     logic        valid;
     tess_step_t  here;
     logic [12:0] outer_now, outer_next, inner_now, inner_next; // the entries that a primitive may use
-    logic [6:0]  outer_left, inner_left;                       // entries behind `now`
+    logic [6:0]  outer_left, inner_left;                       // entries after `now`
     logic        outer_closes, inner_closes, inner_descends, swaps;
     logic [12:0] outer_close, inner_close;
     logic [1:0]  size;
 
-    // The entry behind `next`.
+    // The entry after `next`.
     logic [12:0] outer_then, inner_then;
     assign outer_then = (outer_closes && outer_left == 7'd2) ? outer_close : outer_next + 13'd1;
     assign inner_then = (inner_closes && inner_left == 7'd2) ? inner_close

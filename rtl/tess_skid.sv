@@ -1,10 +1,9 @@
-// A register stage of a stream: `in_ready` and `out_valid` come from registers, so no logic of one side is in the path of the
-// other.
+// A register stage of a stream. `in_ready` and `out_valid` come from registers, so no path leads from one side to the other.
 //
 //   ENTRIES   elements            multiplexers
 //   0         wires               none
-//   1         one in two clocks   none: the entry must be free before the next element comes
-//   2         one in each clock   one per bit: `spare` takes the element that comes while the consumer stalls
+//   1         one in two clocks   none: the entry must be free before the next element arrives
+//   2         one in each clock   one per bit: `spare` takes the element that arrives while the consumer stalls
 //
 // With 2 entries, a stall of one clock:
 //
@@ -17,7 +16,7 @@ module tess_skid #(
     parameter int WIDTH   = 1,
     parameter int ENTRIES = 2
 ) (
-    /* verilator lint_off UNUSEDSIGNAL */ // wires have no clock
+    /* verilator lint_off UNUSEDSIGNAL */ // wires do not use the clock
     input  logic             clk,
     input  logic             rst,
     /* verilator lint_on UNUSEDSIGNAL */
@@ -28,7 +27,7 @@ module tess_skid #(
     input  logic             out_ready,
     output logic [WIDTH-1:0] out_data
 );
-    /* verilator lint_off UNUSEDSIGNAL */ // only with two entries
+    /* verilator lint_off UNUSEDSIGNAL */ // used only with two entries
     logic             is_full; // `spare` holds an element
     logic [WIDTH-1:0] spare;
     /* verilator lint_on UNUSEDSIGNAL */

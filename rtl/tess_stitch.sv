@@ -1,9 +1,9 @@
-// Walks a stitch, one step a clock: which row advances, and on which row the primitive begins (specification, sections
-// 7.2 to 7.4; 14.3 for the masks).
+// Walks a stitch, one step per clock. A step states which row advances, and on which row the primitive begins
+// (specification, sections 7.2 to 7.4; 14.3 for the masks).
 //
-// A transition walks two half edges in split order. Its mask has a bit for every position of each row that has a
-// point, so the next step is the lowest bit; the way back walks the mask with its bits reversed. Of which row that bit is
-// is found a clock later, from the bits of the outer row.
+// A transition walks two half edges in split order. Its mask has a bit for every position of each row that has a point, so
+// the next step is the lowest bit; the way back walks the mask with its bits reversed. The row of that bit is determined a
+// clock later, from the bits of the outer row.
 //
 //   mask of outer positions 2, 3 and inner position 2:  ..0011'1000     bit 2k inner, 2k + 1 outer, positions from 0 here
 //   way out   lowest bits:   inner 1, outer 1, outer 2 ..
@@ -11,7 +11,7 @@
 module tess_stitch (
     input  logic         clk,
     input  logic         rst,
-    input  logic         advance,     // everything moves on
+    input  logic         advance,     // all registers may change
     input  logic         ahead_valid,
     output logic         takes,       // `ahead` is taken
     input  tess_stitch_t ahead,
@@ -25,13 +25,13 @@ module tess_stitch (
 
     logic         walks;
     tess_stitch_t here;
-    logic [6:0]   to_come;    // steps of this stitch behind this one
-    logic         ends;       // none
+    logic [6:0]   to_come;    // steps of this stitch after this one
+    logic         ends;       // no step of this stitch follows
     logic         is_first, is_odd; // the number of the step: 0; odd
-    logic [6:0]   pairs;      // before the middle; negative behind it
+    logic [6:0]   pairs;      // pairs before the middle; negative after it
     logic [2:0]   phase;      // of a transition
-    logic [5:0]   masked;     // steps of this way behind this one
-    logic [63:0]  left;       // of the mask
+    logic [5:0]   masked;     // steps of this way after this one
+    logic [63:0]  left;       // the rest of the mask
 
     assign takes = advance && ahead_valid && (!walks || ends);
 
@@ -40,7 +40,7 @@ module tess_stitch (
         assign reversed[i] = here.mask[63-i];
     end
 
-    // What follows the steps of each kind, those left out that this transition does not have.
+    // The kind of step that follows each kind; kinds that this transition does not have are skipped.
     logic       has_masked, ends_way;
     logic [2:0] behind_inner, behind_out, behind_first, behind_outer, phase_next;
     assign has_masked   = here.masked != 6'd0;
@@ -83,7 +83,7 @@ module tess_stitch (
             ends     <= to_come == 7'd1;
             is_first <= 1'b0;
             is_odd   <= !is_odd;
-            // A pair ends with its second step; the first step of a ring stands before its pairs.
+            // A pair ends with its second step; the first step of a ring precedes its pairs.
             if (here.kind == tess_pkg::RING ? !is_odd && !is_first : is_odd) pairs <= pairs - 7'd1;
             phase    <= phase_next;
             masked   <= (is_masked && !ends_way) ? masked - 6'd1 : here.masked;
@@ -92,7 +92,7 @@ module tess_stitch (
         end
     end
 
-    // ---- the step, but for the row of a mask's bit ---------------------------------------------
+    // ---- the step, without the row of a mask's bit ---------------------------------------------
 
     tess_step_t next;
     logic       is_before_middle, is_middle;
@@ -119,7 +119,7 @@ module tess_stitch (
                 next.begins_outer   = 1'b0;
             end
             tess_pkg::STRIP_EXCEPT_MIDDLE: begin
-                // All diagonals forward but one.
+                // All diagonals forward except one.
                 next.advances_outer = is_odd == is_middle;
                 next.begins_outer   = is_middle || !is_odd;
             end
@@ -131,7 +131,7 @@ module tess_stitch (
     logic         made_valid, made_begins, made_masked, made_back;
     tess_step_t   made;
     tess_stitch_t made_stitch;
-    logic [31:0]  lowest; // the outer row's bits of it
+    logic [31:0]  lowest; // the lowest bit, if the outer row has it
     logic [63:0]  borrow;
     assign borrow = left - 64'd1;
     always_ff @(posedge clk) begin

@@ -1,9 +1,10 @@
-// A fixed-function tessellator: configuration and factors in, two streams out. See docs/rtl.md.
+// A fixed-function tessellator. Takes configurations and factors, and outputs streams of counts, points and primitives. See
+// docs/rtl.md.
 //
-// Every stream is valid/ready: an element passes at a rising edge of clk where both are 1. Each patch has one entry in
-// the stream of counts; then its points and its primitives come in the order of the specification, `last` with
-// the last of each. A culled patch has counts of 0, and nothing in the other streams. The three streams do not wait
-// for each other within a patch; none is more than one patch ahead of another.
+// Every stream is valid/ready: an element is transferred at a rising edge of clk at which both are 1. Each patch has one
+// element in the stream of counts. Its points and primitives follow the order of the specification, with `last` at the last
+// of each. A culled patch has counts of 0, and no elements in the other streams. The three streams do not wait for each
+// other within a patch; none is more than one patch ahead of another.
 `include "tess_types.svh"
 module tess_top #(
     parameter bit BUFFERED = 1'b0              // a register stage at each port: tess_skid
@@ -13,7 +14,7 @@ module tess_top #(
 
     input  logic         patch_valid,
     output logic         patch_ready,
-    input  logic [1:0]   patch_domain,       // numbers of tess_pkg; 3, which is not a domain, is culled
+    input  logic [1:0]   patch_domain,       // numbers of tess_pkg; 3 is not a domain, and its patches are culled
     input  logic [1:0]   patch_partitioning,
     input  logic [1:0]   patch_out,
     input  logic         patch_center,       // split order: 0 ruler, 1 center
@@ -38,7 +39,8 @@ module tess_top #(
     output logic [12:0]  primitive_i2,
     output logic         primitive_last
 );
-    // Patches take two clocks or more, culled ones too, so every other clock is enough for them and for their counts.
+    // Every patch, even a culled one, takes at least two clocks, so buffers for one element in two clocks are enough for
+    // patches and counts.
     localparam int EVERY_OTHER = BUFFERED ? 1 : 0;
     localparam int EVERY       = BUFFERED ? 2 : 0;
 
@@ -75,7 +77,7 @@ module tess_top #(
         .out_contexts(contexts)
     );
 
-    // A patch leaves the front end when all three have taken it.
+    // A patch leaves the front end when all three consumers have taken it.
     logic points_ready, connect_ready, counts_free;
     logic points_starts, connect_starts, counts_starts;
     tess_fork #(.N(3)) stage_fork (

@@ -1,5 +1,5 @@
-// Compares the circuit with the model in SystemC: the same patches through both, each with back-pressure of its own, and
-// every element of the three streams in order.
+// Compares the circuit with the model in SystemC: sends the same patches through both, each with its own back-pressure,
+// and compares every element of the three streams in order.
 //
 //   compare [--patches N] [--seed N] [--fault]      --fault: the model gets the other split order, which must be found
 //
@@ -19,7 +19,7 @@ struct patch_t {
     std::array<uint32_t, 6> factors;
 };
 
-// An element as it passed: counts 0, points 1, primitives 2.
+// The fields of one transferred element; unused ones are 0.
 struct element_t {
     std::array<uint32_t, 5> field;
     bool operator!=(const element_t &other) const { return field != other.field; }
@@ -33,7 +33,7 @@ static uint32_t next(uint32_t &state) {
     return state;
 }
 
-// Mostly 1 to 8 in steps of 1/16, now and then up to 64, or any bits.
+// Mostly 1 to 8 in steps of 1/16, sometimes up to 64, sometimes any bits.
 static uint32_t random_factor(uint32_t &state) {
     const uint32_t kind = next(state) % 16;
     if (kind == 0) return next(state);
@@ -54,7 +54,7 @@ static std::vector<patch_t> random_patches(uint32_t count, uint32_t seed) {
     return patches;
 }
 
-// Drives one device at falling edges and notes what passes at rising ones.
+// Drives one device at falling edges and records what is transferred at rising edges.
 struct harness : sc_core::sc_module {
     SC_HAS_PROCESS(harness);
     sc_core::sc_in<bool> clk{"clk"};

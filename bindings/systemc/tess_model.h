@@ -1,5 +1,5 @@
-// The golden model as a SystemC module: the elements and the order of the circuit, one of each stream a clock. Its clocks
-// between patches are its own. It links libtess_capi and needs nothing of rtl/.
+// The golden model as a SystemC module, with the elements and order of the circuit, one element of each stream per clock.
+// Its latency between patches differs from the circuit's. It links libtess_capi and needs nothing of rtl/.
 #ifndef TESS_MODEL_H
 #define TESS_MODEL_H
 
@@ -30,13 +30,14 @@ class tess_model : public tess_ports {
         bool last;
     };
 
-    std::vector<TessPoint> fixed; // of the patch that is tessellated
+    std::vector<TessPoint> fixed; // of the patch that is being tessellated
     std::vector<uint32_t> indices;
-    std::deque<TessCounts> counts; // to come
+    // Elements that are still to be output.
+    std::deque<TessCounts> counts;
     std::deque<point_t> points;
     std::deque<primitive_t> primitives;
 
-    // A rising edge: what was taken goes, what was offered comes.
+    // At a rising edge, removes the elements that were taken, and takes the patch that was offered.
     void step() {
         if (rst.read()) {
             counts.clear();
@@ -78,7 +79,7 @@ class tess_model : public tess_ports {
     }
 
     void offer() {
-        // Room for what one more patch can have.
+        // Accepts a patch only if less than one patch's largest output is waiting.
         patch_ready.write(!rst.read() && points.size() < TESS_MAX_POINTS && counts.size() < 2);
         counts_valid.write(!counts.empty());
         point_valid.write(!points.empty());

@@ -1,5 +1,5 @@
-// The ports of the tessellator in SystemC: those of rtl/tess_top.sv, with the types that Verilator gives them.
-// An element of a stream passes at a rising edge of `clk` where its valid and its ready are true. docs/rtl.md says more.
+// The ports of the tessellator in SystemC: those of rtl/tess_top.sv, with the types that Verilator uses. An element of a
+// stream is transferred at a rising edge of `clk` at which its valid and ready are true. See docs/rtl.md.
 #ifndef TESS_PORTS_H
 #define TESS_PORTS_H
 

@@ -1,8 +1,8 @@
 /* tess_vulkan [-d DEVICE] [-t RUNS] FOLDER FACTORS...
 
-   Tessellates each file of factors (binary32, little-endian, patch after patch) with the shaders in
-   FOLDER. Writes FACTORS.points, FACTORS.indices and FACTORS.draw beside it, as the device wrote them.
-   Exit codes: 0 done, 2 bad usage or a file, 3 the device. */
+   Tessellates each file of factors (binary32, little-endian, one patch after another) with the shaders in
+   FOLDER. Writes FACTORS.points, FACTORS.indices and FACTORS.draw next to it, as the device wrote them.
+   Exit codes: 0 done, 2 bad usage or a file error, 3 a device error. */
 #include "tess_shaders.h"
 #include "tess_vulkan.h"
 
@@ -45,7 +45,7 @@ static uint32_t *read_factors(const char *name, uint32_t *patches)
     return factors;
 }
 
-/* The first run has hardly any room and says how much is needed. */
+/* Runs the batch twice: first with minimal room, to get the sizes that are needed. */
 static int tessellate(struct tess_vulkan *host, const char *name, uint32_t runs)
 {
     char message[256] = "";

@@ -39,7 +39,7 @@ struct batch {
     VkCommandBuffer recorded;
 };
 
-/* Ends the function that it stands in, with a message, when a call of Vulkan fails. */
+/* Returns -1 from the enclosing function, with a message, if a Vulkan call fails. */
 #define TRY(call)                                                                 \
     do {                                                                          \
         VkResult result_ = (call);                                                \
@@ -275,7 +275,7 @@ static int submit(struct tess_vulkan *host, struct batch *batch, char message[25
     return 0;
 }
 
-/* Copies between the staging buffer and a resource's, to it or from it. */
+/* Copies from the staging buffer to a resource's buffer, or back. */
 static int copy(struct tess_vulkan *host, struct batch *batch, uint32_t resource, size_t bytes,
                 int to_device, char message[256])
 {
@@ -290,7 +290,7 @@ static int copy(struct tess_vulkan *host, struct batch *batch, uint32_t resource
     return submit(host, batch, message);
 }
 
-/* Writes what the host writes: jobs, factors and tables. */
+/* Writes the resources that the host writes: jobs, factors and tables. */
 static int upload(struct tess_vulkan *host, const struct tess_plan *plan,
                   const uint32_t variables[4], const uint32_t *factors, struct batch *batch,
                   char message[256])
@@ -355,7 +355,7 @@ static int make_sets(struct tess_vulkan *host, const struct tess_plan *plan,
     return 0;
 }
 
-/* Every dispatch sees what earlier commands wrote, as arguments too. */
+/* Makes the writes of earlier commands visible to later ones, including as indirect arguments. */
 static void barrier(VkCommandBuffer recorded)
 {
     VkMemoryBarrier all = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
@@ -401,7 +401,7 @@ static int dispatch_all(struct tess_vulkan *host, const struct tess_plan *plan,
     return submit(host, batch, message);
 }
 
-/* Copies the beginning of a resource to memory of the caller's. */
+/* Copies the beginning of a resource to the caller's memory. */
 static int download(struct tess_vulkan *host, struct batch *batch, uint32_t resource, void *to,
                     size_t bytes, char message[256])
 {

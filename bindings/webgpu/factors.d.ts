@@ -17,13 +17,13 @@ export function edgeByLength(a: Point, b: Point, pixelsPerUnit: number, segment:
 export function edgeByDistance(a: Point, b: Point, eye: Point, scale: number): number;
 
 /**
- * The factors of an edge beside two edges of half its length, from the factor that a rule has for the whole edge: of the
- * whole, a power of two from 2 to 64, and of each half, half as much. With these both sides have the same points under
- * `integer` and `pow2`.
+ * The factors of an edge next to two edges of half its length, from the factor that a rule gives the whole edge. The
+ * whole edge gets a power of two from 2 to 64, at least the rule's factor; each half gets half of it. Both sides then
+ * have the same points under `integer` and `pow2`. Neighbours must compute both factors from the whole edge.
  */
 export function edgeBesideHalves(factor: number): [whole: number, half: number];
 
-/** A factor of at most `most`, as HLSL's `maxtessfactor`. A factor that culls still does. */
+/** A factor of at most `most`, like HLSL's `maxtessfactor`. A factor that culls still culls if `most` is positive. */
 export function atMost(factor: number, most: number): number;
 
 /** The inside factors along u and v of a quad with these factors on its edges u = 0, v = 0, u = 1, v = 1. */

@@ -1,7 +1,7 @@
 // Factor rules on the CPU, for factors that a page computes itself and writes to `batch.buffers.factors`. They are
-// `tess_edge_by_length` and its siblings of shaders/surfaces/factors.wgsl. Each step is rounded to binary32, so the
-// results have the bits of the Rust and C functions. Both patches of an edge get the same factor, whichever end comes
-// first, so no crack opens. factors.d.ts has the interface.
+// the functions for straight edges and insides of shaders/surfaces/factors.wgsl. Each step is rounded to binary32, so
+// the results have the bits of the Rust and C functions. Both patches of an edge get the same factor, whichever end
+// comes first, so no crack opens. factors.d.ts has the interface.
 
 const f32 = Math.fround;
 
@@ -12,7 +12,7 @@ function distance(a, b) {
   return f32(Math.sqrt(f32(f32(f32(x * x) + f32(y * y)) + f32(z * z))));
 }
 
-// dividend / divisor within 1 to 64, for a divisor of 0 too; 1 unless both are numbers and dividend > divisor >= 0.
+// dividend / divisor within 1 to 64, also for a divisor of 0; 1 unless both are numbers and dividend > divisor >= 0.
 function quotient(dividend, divisor) {
   if (!(dividend > divisor && divisor >= 0)) return 1;
   return f32(dividend / 64) >= divisor ? 64 : clampFactor(f32(dividend / divisor));

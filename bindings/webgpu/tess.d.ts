@@ -1,6 +1,6 @@
 /// <reference types="@webgpu/types" />
 
-/** WGSL: `tess_point(packed: vec2u) -> TessPoint { uv: vec2f, of_patch: u32 }` unpacks the two words of a vertex. */
+/** WGSL: `tess_point(packed: vec2u) -> TessPoint { uv: vec2f, of_patch: u32 }`, which unpacks the two words of a vertex. */
 export const unpackWgsl: string;
 
 /** A module of WGSL functions; `shaders/surfaces/README.md` has a table of them. */
@@ -9,7 +9,7 @@ export type SurfaceModule =
   | "bezier" | "bezier_factors" | "pn" | "pn_triangle" | "displacement";
 
 /**
- * The WGSL of these modules and of those that they need, to put before shaders of yours. `base` is as in `Setup`. Rejects
+ * The WGSL of these modules and of those that they need, to put before your shaders. `base` is that of `Setup`. Rejects
  * with a `RangeError` if there is no such module.
  */
 export function surfacesWgsl(names: SurfaceModule[], base?: URL | string): Promise<string>;
@@ -17,11 +17,11 @@ export function surfacesWgsl(names: SurfaceModule[], base?: URL | string): Promi
 export interface Setup {
   domain: "isoline" | "tri" | "quad";
   partitioning: "integer" | "pow2" | "fractional_odd" | "fractional_even";
-  /** The folder `shaders` of the package, with a slash at its end; by default it is beside the module. */
+  /** The address of the package's folder `shaders`, with a slash at its end; by default the folder next to the module. */
   base?: URL | string;
 }
 
-/** Elements that a batch has memory for. */
+/** The numbers of elements that a batch has memory for. */
 export interface Room { points: number; primitives: number }
 
 export interface Output {
@@ -29,7 +29,7 @@ export interface Output {
   uv: Float32Array;
   /** The patch of each point. */
   patches: Uint32Array;
-  /** Two for each line (isoline) or three for each triangle, clockwise; they count through the batch. */
+  /** Two per line (isoline) or three per triangle, clockwise; they count from the first point of the batch. */
   indices: Uint32Array;
 }
 
@@ -37,23 +37,26 @@ export class Tessellator {
   /** Loads the shaders. Rejects with a `RangeError` if there is no such setup. */
   static load(device: GPUDevice, setup: Setup): Promise<Tessellator>;
   /**
-   * Counts, makes room, tessellates and reads back. Factors are patch after patch: 2 (isoline), 4 (tri) or 6 (quad). Rejects
-   * with a `RangeError` if they are not whole patches.
+   * Counts, makes room, tessellates and reads back. `factors` has the factors of one patch after another, 2 (isoline),
+   * 4 (tri) or 6 (quad) per patch. Rejects with a `RangeError` if they are not whole patches.
    */
   tessellate(factors: ArrayLike<number>): Promise<Output>;
-  /** Buffers for many frames, with room for one point and one primitive by default. Throws a `RangeError`. */
+  /**
+   * Makes buffers that you keep for many frames, by default with room for one point and one primitive. Throws a
+   * `RangeError` if `patches` is not a whole number, or if the batch or its room is too large.
+   */
   batch(patches: number, room?: Room): Batch;
 }
 
 export interface Batch {
   /**
-   * `factors`, which you write; `points`, `indices`, and `arguments` for `drawIndexedIndirect` at offset 0; `status`:
-   * https://github.com/tess-model/tess/blob/main/docs/shaders.md explains it.
+   * `factors`, which you write; `points`, `indices`, and `arguments` for `drawIndexedIndirect` at offset 0; `status`, which
+   * https://github.com/tess-model/tess/blob/main/docs/shaders.md explains.
    */
   readonly buffers: Readonly<Record<string, GPUBuffer>>;
-  /** Records the dispatches. If the room is too small, nothing is drawn, and `status` has the room that is needed. */
+  /** Records the dispatches. If the room is too small, the draw is empty, and `status` has the room that is needed. */
   encode(encoder: GPUCommandEncoder): void;
-  /** Runs the batch and returns the words of these buffers. */
+  /** Runs the batch and returns the contents of these buffers as words. */
   read(names: string[]): Promise<Record<string, Uint32Array>>;
   /** Frees the buffers. */
   destroy(): void;

@@ -1,4 +1,4 @@
-// Runs the shaders beside this file on a WebGPU device; tess.d.ts states the interface, docs/shaders.md the manifest.
+// Runs the shaders next to this file on a WebGPU device. tess.d.ts documents the interface, docs/shaders.md the manifest.
 
 export const unpackWgsl = `
 struct TessPoint { uv: vec2f, of_patch: u32 }
@@ -7,7 +7,7 @@ fn tess_point(packed: vec2u) -> TessPoint {
     return TessPoint(vec2f(vec2u(packed.x & 0x1ffffu, v)) / 65536.0, packed.y >> 2u);
 }`;
 
-// A formula of the manifest, which may be its value.
+// The value of a formula of the manifest. A constant formula is a number.
 function value(formula, numbers) {
   if (typeof formula === "number") return formula;
   const { constant, terms, multiple } = formula;
@@ -17,7 +17,7 @@ function value(formula, numbers) {
 
 const SHADERS = new URL("./shaders/", import.meta.url);
 
-// A file of the folder of shaders.
+// A file in the folder of shaders.
 async function get(name, base) {
   const response = await fetch(new URL(name, base));
   if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
@@ -50,7 +50,7 @@ export class Tessellator {
     device.queue.writeBuffer(tables, 0, words);
     const type = ({ kind, is_written }) => kind === "uniform" ? kind : is_written ? "storage" : "read-only-storage";
     const pipeline = async ({ name, file, entry_point: entryPoint, bindings }) => {
-      // Not every stage uses all that it is given.
+      // An explicit layout, because some stages do not use all of their bindings.
       const entries = bindings.map((entry) =>
         ({ binding: entry.binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: type(entry) } }));
       const layout = device.createPipelineLayout({ bindGroupLayouts: [device.createBindGroupLayout({ entries })] });

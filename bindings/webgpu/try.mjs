@@ -1,6 +1,6 @@
-// Tries the package in pages that have nothing else: node try.mjs FOLDER CASES. The folder has the package below
-// node_modules and the README's page as index.html. Recorded cases must come out to the bit, and factors as factors.json
-// beside this file has them.
+// Tests the package in pages that have nothing else: node try.mjs FOLDER CASES. FOLDER has the package in node_modules and
+// the README's page as index.html. The output must equal the recorded cases in the file CASES, bit for bit, and factors
+// must equal those of factors.json next to this file.
 
 import { createRequire } from "node:module";
 import { readFileSync, readdirSync } from "node:fs";
@@ -12,7 +12,7 @@ const packed = join(folder, "node_modules/tess-webgpu");
 const { chromium } = createRequire(join(process.env.EXPLORER_MODULES, "/"))("playwright-core");
 const PAGE = "http://localhost/";
 
-// Calls each factor rule with the recorded arguments, as bits; the number of calls.
+// Calls each factor rule with the recorded arguments, and compares the bits of the results.
 async function compareFactors() {
   const factors = await import(pathToFileURL(join(packed, "factors.js")));
   const numbers = (bits) => [...new Float32Array(new Uint32Array(bits).buffer)];
@@ -42,7 +42,7 @@ function recorded() {
   return batches;
 }
 
-// In the page: tessellates a batch of all patches, and says where it differs.
+// Runs in the page: tessellates all patches as one batch, and returns the differences.
 async function compare([domain, partitioning, batch]) {
   const { Tessellator, surfacesWgsl, unpackWgsl } = await import("/tess.js");
   const device = await (await navigator.gpu.requestAdapter()).requestDevice();
@@ -88,7 +88,7 @@ async function compare([domain, partitioning, batch]) {
   return { problems, points: expected.patches.length };
 }
 
-// The share of a picture (PNG, in base64) whose blue is full, as the README's triangle has it.
+// The share of a picture's pixels (PNG, in base64) with full blue, which the README's triangle has.
 async function share(picture) {
   const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${picture}`)).blob());
   const copy = new OffscreenCanvas(image.width, image.height).getContext("2d");
@@ -98,7 +98,7 @@ async function share(picture) {
   return filled / (image.width * image.height);
 }
 
-// Opens the README's page, which says how much it draws.
+// Opens the README's page, and checks its text and the picture that it draws.
 async function openReadmePage(page) {
   const errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
@@ -113,14 +113,14 @@ async function openReadmePage(page) {
   if (errors.length > 0 || text !== "19 points, 29 triangles") throw new Error(`the README's page: ${text} ${errors.join("\n")}`);
   const picture = (await page.locator("canvas").screenshot()).toString("base64");
   const filled = await page.evaluate(share, picture);
-  // Half of the square.
+  // The triangle covers half of the square.
   if (Math.abs(filled - 0.5) > 0.02) throw new Error(`the README's page fills ${filled} of its canvas, not half`);
   console.log("test the README's page ... ok");
 }
 
 const folders = readdirSync(join(packed, "shaders"));
 const args = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--no-sandbox"];
-// A canvas of WebGPU is only shown if the browser draws by the same driver, which makes everything slower.
+// A WebGPU canvas is shown only if the browser draws with the same driver, which makes everything slower.
 const drawing = [
   ...args, "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--enable-gpu", "--use-angle=swiftshader",
   "--enable-features=Vulkan", "--use-vulkan=swiftshader",

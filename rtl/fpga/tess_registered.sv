@@ -1,5 +1,5 @@
-// tess_top with a register at every port, so that placement measures the circuit and not the pads. Only for timing: the
-// registers break the handshakes.
+// tess_top with a register at every port, so that placement measures the circuit and not the pads. It is only for timing:
+// the registers break the handshakes.
 module tess_registered #(
     parameter bit BUFFERED = 1'b0 // of tess_top
 ) (

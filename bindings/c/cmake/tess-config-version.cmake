@@ -1,4 +1,4 @@
-# Before 1.0 every minor version may break programs, so the first two numbers must agree.
+# Before 1.0 any minor version may break programs, so the first two numbers must be equal.
 set(PACKAGE_VERSION "@VERSION@")
 string(REGEX MATCH "^[0-9]+\\.[0-9]+" TESS_SERIES "${PACKAGE_VERSION}")
 if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION

@@ -1,9 +1,9 @@
-# The library in front of this folder, for find_package(tess):
+# The installed library, for find_package(tess):
 #
-#   tess::tess    the shared library, or the archive where that is all there is
-#   tess::static  the archive, with what it needs from the system; the linker leaves out functions that nobody calls
+#   tess::tess    the shared library, or the archive if there is no shared library
+#   tess::static  the archive and the system's libraries that it needs; the linker omits functions that are not called
 #
-# Paths are relative to this file, so that the installation may move.
+# Paths are relative to this file, so that the installation can be moved.
 cmake_minimum_required(VERSION 3.13)
 include(CMakeFindDependencyMacro)
 get_filename_component(TESS_PREFIX "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)

@@ -1,7 +1,7 @@
 /*
  * Tessellates 1000 quads in one batch, then compares each with the model's patch.
  *
- * examples/cmake builds it with find_package(tess); or, from the workspace:
+ * examples/cmake builds it with find_package(tess). To build it in the workspace:
  *
  *   cargo build --release -p tess-capi
  *   cc -std=c99 -I bindings/c/include bindings/c/examples/batch.c target/release/libtess_capi.a \
@@ -22,7 +22,7 @@ static void must(TessStatus status)
     }
 }
 
-/* Two calls: one for sizes, one for output. Buffers of calloc have values, which is faster. */
+/* Two calls: one for the sizes, one for the output. calloc initialises the buffers, which is faster. */
 static TessBatchOutput tessellate(const TessConfig *config, const float *factors, TessBatchCounts *counts)
 {
     TessBatch *batch = NULL;

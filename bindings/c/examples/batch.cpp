@@ -1,4 +1,4 @@
-// As batch.c, in C++17: the same patches, one batch, each compared with the model's patch.
+// The program of batch.c in C++17: tessellates the same batch, and compares each patch with the model's.
 #include "tess.hpp"
 
 #include <algorithm>

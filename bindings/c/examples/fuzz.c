@@ -7,13 +7,13 @@
  *   clang -std=c99 -fsanitize=fuzzer,address -I bindings/c/include bindings/c/examples/fuzz.c \
  *         target/release/libtess_capi.a -lpthread -ldl -lm -o fuzz && ./fuzz
  *
- * Without it, the same entry on pseudo-random bytes, N times (any C compiler):
+ * With any C compiler, to call the same function N times with pseudo-random bytes:
  *
  *   cc -std=c99 -O2 -DTESS_FUZZ_MAIN -I bindings/c/include bindings/c/examples/fuzz.c \
  *      target/release/libtess_capi.a -lpthread -ldl -lm -o fuzz && ./fuzz 1000000
  *
- * A finding ends the program by abort(), with the case as a line on stderr. TESS_FUZZ_FAULT=1 in the
- * environment plants a fault.
+ * A finding ends the program with abort(), after the case is printed to stderr. To plant a fault, set
+ * TESS_FUZZ_FAULT=1 in the environment.
  */
 #include "tess.h"
 
@@ -22,7 +22,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* The tessellator under test: the library's own, with a point moved if the fault is planted. */
+/* The tessellator under test: the library's own. If the fault is planted, it moves a point. */
 static int32_t device(void *user, const TessConfig *config, const float *factors, size_t factor_count,
                       TessPoint *points, uint32_t *indices, TessCounts *counts)
 {
@@ -38,7 +38,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char message[1024] = "";
     int has_fault = getenv("TESS_FUZZ_FAULT") != NULL;
-    /* Every configuration, and the model's output index for index. */
+    /* All configurations; the output must be the model's, index for index. */
     const TessFuzzOptions options = {TESS_ORDER_EXACT, TESS_DENORMALS_KEEP, TESS_CONVERSION_EXACT,
                                      TESS_ANY, TESS_ANY, TESS_ANY, TESS_ANY};
     TessStatus status = tess_fuzz(data, size, device, &has_fault, &options, message, sizeof message);
@@ -63,7 +63,7 @@ int main(int argc, char **argv)
     }
     for (n = 0; n < inputs; n++) {
         for (i = 0; i < sizeof bytes; i++) {
-            /* A linear congruential generator; its upper bits are the good ones. */
+            /* A linear congruential generator: only its upper bits are random enough. */
             state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
             bytes[i] = (uint8_t)(state >> 56);
         }

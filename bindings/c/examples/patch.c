@@ -1,9 +1,9 @@
 /*
- * Prints one patch as a listing: the form of golden/cases.txt, which `tess check` reads.
+ * Prints one patch as a listing in the format of golden/cases.txt, which `tess check` reads.
  *
  *   patch quad fractional_odd triangle_cw ruler 40400000 40800000 40a00000 40c00000 40800000 40e00000
  *
- * Factors are bit patterns of binary32 numbers, in hex. Build and run, from the workspace:
+ * Factors are bit patterns of binary32 numbers, in hex. To build it in the workspace:
  *
  *   cargo build --release -p tess-capi
  *   cc -std=c99 -I bindings/c/include bindings/c/examples/patch.c target/release/libtess_capi.a \
@@ -24,7 +24,7 @@ static const char *const PARTITIONINGS[] = {"integer", "pow2", "fractional_odd",
 static const char *const OUTPUTS[] = {"point", "line", "triangle_cw", "triangle_ccw", NULL};
 static const char *const SPLITS[] = {"ruler", "center", NULL};
 
-/* The place of a name in a list that ends in NULL: the number that the library gives it. */
+/* The library's number of a name: its position in a list that ends in NULL. */
 static int number_of(const char *name, const char *const *names, uint32_t *number)
 {
     uint32_t i;
@@ -64,7 +64,7 @@ static void print_points(const TessPoint *points, uint32_t count)
     }
 }
 
-/* One line for each primitive. */
+/* Prints one line per primitive. */
 static void print_indices(const uint32_t *indices, const TessCounts *counts)
 {
     uint32_t size = counts->primitives == 0 ? 1 : counts->indices / counts->primitives;

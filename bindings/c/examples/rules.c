@@ -1,16 +1,16 @@
 /*
- * Judges a tessellator by what a standard demands of output. Put yours in place of `device`.
+ * Judges a tessellator by the rules that a standard has for its output. Put yours in place of `device`.
  *
  *   cc -std=c99 -I bindings/c/include bindings/c/examples/rules.c target/release/libtess_capi.a \
  *      -lpthread -ldl -lm -o rules && ./rules
  *
- * Prints each rule of Vulkan as held, broken or not exercised; exit code 1 if one is broken.
+ * Prints each rule of Vulkan as held, broken or not exercised. The exit code is 1 if a rule is broken.
  */
 #include "tess.h"
 
 #include <stdio.h>
 
-/* The tessellator under test: the library's own. It could leave out what it does not have. */
+/* The tessellator under test: the library's own. It returns TESS_DEVICE_UNSUPPORTED for what it does not have. */
 static int32_t device(void *user, const TessConfig *config, const float *factors, size_t factor_count,
                       TessPoint *points, uint32_t *indices, TessCounts *counts)
 {

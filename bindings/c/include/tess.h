@@ -1,8 +1,9 @@
 /*
  * Bit-exact Direct3D 11 class tessellation.
  *
- * The caller owns all memory; functions on one patch do not allocate. Every function returns TESS_OK,
- * or the reason why it did nothing; tess_status_message() puts it in words.
+ * The caller owns all memory. Only the functions on batches, tess_fuzz() and tess_check_rules()
+ * allocate. A function that can fail returns TESS_OK, or the reason for which it refused the call;
+ * tess_status_message() describes it.
  * Null and misaligned pointers, unknown numbers, and buffers that are too small or overlap are refused
  * with a status and are never undefined behaviour. The library cannot check that the memory behind a
  * pointer is as large as the call states: the caller must ensure it.
@@ -65,7 +66,7 @@
 #define TESS_PARTITIONING_INTEGER 0
 
 /**
- * Partitioning: as integer; only `tess_prepare` rounds to powers of two.
+ * Partitioning: tessellates as integer; only `tess_prepare` rounds to powers of two.
  */
 #define TESS_PARTITIONING_POW2 1
 
@@ -90,12 +91,12 @@
 #define TESS_OUTPUT_LINE 1
 
 /**
- * Output: clockwise triangles, seen with v pointing down (lines on an isoline domain).
+ * Output: triangles, clockwise as seen with v pointing down (lines on an isoline domain).
  */
 #define TESS_OUTPUT_TRIANGLE_CW 2
 
 /**
- * Output: counter-clockwise triangles (lines on an isoline domain).
+ * Output: triangles, counter-clockwise as seen with v pointing down (lines on an isoline domain).
  */
 #define TESS_OUTPUT_TRIANGLE_CCW 3
 
@@ -120,17 +121,17 @@
 #define TESS_PARITY_ODD 1
 
 /**
- * The most points that one patch has.
+ * The largest number of points of a patch.
  */
 #define TESS_MAX_POINTS 4225
 
 /**
- * The most indices that one patch has.
+ * The largest number of indices of a patch.
  */
 #define TESS_MAX_INDICES 24576
 
 /**
- * The most factors that a patch has.
+ * The largest number of factors of a patch.
  */
 #define TESS_MAX_FACTORS 6
 
@@ -140,7 +141,7 @@
 #define TESS_OUTCOME_CULLED 0
 
 /**
- * Every factor is one: the minimum patch of one triangle or two.
+ * Every factor is 1: the minimum patch, of one or two triangles.
  */
 #define TESS_OUTCOME_MINIMUM 1
 
@@ -170,12 +171,12 @@
 #define TESS_POINT_ORIGIN_RING 3
 
 /**
- * Origin of a point: point `p` of the point or row that ends an even interior.
+ * Origin of a point: point `p` of the centre of an even interior, a single point or a row.
  */
 #define TESS_POINT_ORIGIN_CENTRE 4
 
 /**
- * Origin of a primitive: number `step` of point output or of all points joined in order.
+ * Origin of a primitive: number `step` of point output, or of a line through all points in order.
  */
 #define TESS_PRIMITIVE_ORIGIN_SEQUENCE 0
 
@@ -230,7 +231,7 @@
 #define TESS_AXES_TWO 1
 
 /**
- * CPU level: the most capable one of this machine.
+ * CPU level: the most capable one that this machine has.
  */
 #define TESS_LEVEL_DETECT 0
 
@@ -265,13 +266,13 @@
 #define TESS_POINT_FIXED 0
 
 /**
- * Point format: two floats, which have the values of the 16.16 numbers exactly.
+ * Point format: two floats, exactly equal to the 16.16 numbers.
  */
 #define TESS_POINT_F32 1
 
 /**
  * Point format: as `TESS_POINT_F32`, but u and v in two arrays. `points` has `2 * point_capacity`
- * floats: first u of each point, then, from float number `point_capacity`, v of each point.
+ * floats: u of each point from float 0, v of each point from float `point_capacity`.
  */
 #define TESS_POINT_F32_APART 2
 
@@ -282,9 +283,9 @@
 
 /**
  * Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`. With
- * `TESS_NUMBERING_PER_BATCH` it numbers 65536 points. The last of these indices, 65535, restarts
- * primitives in WebGL 2 and wherever primitive restart is on: keep `base_vertex` and the points of
- * the batch together to `TESS_POINTS_WITHOUT_RESTART_U16` there.
+ * `TESS_NUMBERING_PER_BATCH` it numbers 65536 points. The last index, 65535, restarts primitives
+ * in WebGL 2 and wherever primitive restart is on. There, `base_vertex` plus the number of points
+ * in the batch must not exceed `TESS_POINTS_WITHOUT_RESTART_U16`.
  */
 #define TESS_INDEX_U16 1
 
@@ -309,13 +310,13 @@
 #define TESS_MEMORY_ANY 0
 
 /**
- * Memory: every byte of the buffers was written before, by `calloc`, `memset`, an earlier call or
- * the caller. This is faster, because nothing is cleared before it is written.
+ * Memory: every byte of the buffers has been written before, by `calloc`, `memset`, an earlier
+ * call or the caller. This is faster, because the call need not clear them first.
  */
 #define TESS_MEMORY_INITIALISED 1
 
 /**
- * A device's answer: it does not have the configuration that it was asked for. Not a finding.
+ * A device's answer: it does not have the requested configuration. Not a finding.
  */
 #define TESS_DEVICE_UNSUPPORTED -1
 
@@ -325,12 +326,13 @@
 #define TESS_ORDER_EXACT 0
 
 /**
- * Order: the model's order of primitives and of their vertices, each vertex by its coordinates.
+ * Order: the model's order of primitives and of their vertices, which are identified by their
+ * coordinates.
  */
 #define TESS_ORDER_SEQUENCE 1
 
 /**
- * Order: any, and any leading vertex of a triangle.
+ * Order: any order of primitives, and any leading vertex of a triangle.
  */
 #define TESS_ORDER_ANY 2
 
@@ -340,7 +342,7 @@
 #define TESS_DENORMALS_KEEP 0
 
 /**
- * Denormals: a positive denormal outer factor may be zero, which culls the patch.
+ * Denormals: a positive denormal outer factor may count as zero, which culls the patch.
  */
 #define TESS_DENORMALS_FLUSH 1
 
@@ -350,7 +352,7 @@
 #define TESS_CONVERSION_EXACT 0
 
 /**
- * Conversion: either neighbour where the fraction lies in 0.4 to 0.6.
+ * Conversion: to either neighbour if the fraction is between 0.4 and 0.6.
  */
 #define TESS_CONVERSION_WITHIN_0_6_ULP 1
 
@@ -380,12 +382,12 @@
 typedef struct TessBatch TessBatch;
 
 /**
- * The status that every function returns: `TESS_OK`, or the reason why it did nothing.
+ * The result of a call: `TESS_OK`, or the reason for which it was refused.
  */
 typedef uint32_t TessStatus;
 
 /**
- * A buffer that was too small. Of several it is the first of ranges, points, indices.
+ * A buffer that was too small. If several were, it is the first of ranges, points, indices.
  */
 typedef struct TessShortage {
   /**
@@ -393,17 +395,17 @@ typedef struct TessShortage {
    */
   uint32_t buffer;
   /**
-   * The elements that the output needs.
+   * Number of elements that the output needs.
    */
   size_t needed;
   /**
-   * The elements that the buffer had room for: its capacity.
+   * Number of elements that the buffer had room for: its capacity.
    */
   size_t got;
 } TessShortage;
 
 /**
- * The state of the tessellator, each field one of the constants that it names.
+ * The configuration of a tessellator. Each field is one of the constants with the given prefix.
  */
 typedef struct TessConfig {
   /**
@@ -477,11 +479,11 @@ typedef struct TessContext {
    */
   uint32_t fraction;
   /**
-   * Points on a half edge, the midpoint of an even edge not counted, 1..32.
+   * Points on a half edge without the midpoint of an even edge, 1..32.
    */
   uint32_t half_points;
   /**
-   * The position on the half edge that is being split off its predecessor.
+   * The position on the half edge that is splitting; `half_points + 1` if no position splits.
    */
   uint32_t split;
   /**
@@ -521,11 +523,11 @@ typedef struct TessProcessedPatch {
    */
   uint32_t outcome;
   /**
-   * The number of `factors` that are used: 0 if culled, else that of the domain.
+   * Number of elements of `factors` that are used: 0 if culled, else as many as the domain has.
    */
   uint32_t factor_count;
   /**
-   * The factors in the order of the input; the elements past `factor_count` are zero.
+   * The factors in the order of the input; elements past `factor_count` are zero.
    */
   struct TessProcessedFactor factors[6];
 } TessProcessedPatch;
@@ -565,13 +567,13 @@ typedef struct TessPointOrigin {
    */
   uint32_t edge;
   /**
-   * Number of the point in the direction of the walk.
+   * Number of the point, counted in the direction of the walk.
    */
   uint32_t p;
 } TessPointOrigin;
 
 /**
- * The origin of a primitive (specification, sections 7, 8). Fields that its kind does not use
+ * The origin of a primitive (specification, sections 7 and 8). Fields that its kind does not use
  * are 0.
  */
 typedef struct TessPrimitiveOrigin {
@@ -598,7 +600,7 @@ typedef struct TessPrimitiveOrigin {
 } TessPrimitiveOrigin;
 
 /**
- * How the factors of a patch are prepared, in the numbers `TESS_DOMAIN_...` and so on.
+ * The kind of preparation. Each field is one of the constants with the given prefix.
  */
 typedef struct TessPreparation {
   /**
@@ -610,11 +612,11 @@ typedef struct TessPreparation {
    */
   uint32_t partitioning;
   /**
-   * `TESS_REDUCTION_...`; without effect on isolines, but checked.
+   * `TESS_REDUCTION_...`; checked on isolines too, where it has no effect.
    */
   uint32_t reduction;
   /**
-   * `TESS_AXES_...`; without effect but on quads, but checked.
+   * `TESS_AXES_...`; checked on every domain, but has an effect only on quads.
    */
   uint32_t axes;
 } TessPreparation;
@@ -624,7 +626,7 @@ typedef struct TessPreparation {
  */
 typedef struct TessBatchCounts {
   /**
-   * Patches, culled ones included: elements of `ranges`.
+   * Patches, including culled ones: elements of `ranges`.
    */
   size_t patches;
   /**
@@ -638,8 +640,8 @@ typedef struct TessBatchCounts {
 } TessBatchCounts;
 
 /**
- * The part of a batch's output that belongs to one patch or one group. A culled patch has no
- * points and no indices.
+ * The part of a batch's output that belongs to one patch or one group. A culled patch has neither
+ * points nor indices.
  */
 typedef struct TessRange {
   /**
@@ -663,8 +665,6 @@ typedef struct TessRange {
 /**
  * The buffers and formats of a batch's output. Capacities count elements. A buffer of
  * capacity 0 may be null.
- *
- * `ranges` is optional: null with capacity 0 asks for no ranges.
  */
 typedef struct TessBatchOutput {
   /**
@@ -672,7 +672,7 @@ typedef struct TessBatchOutput {
    */
   void *points;
   /**
-   * The elements that `points` has room for.
+   * Number of elements that `points` has room for.
    */
   size_t point_capacity;
   /**
@@ -680,16 +680,16 @@ typedef struct TessBatchOutput {
    */
   void *indices;
   /**
-   * The elements that `indices` has room for.
+   * Number of elements that `indices` has room for.
    */
   size_t index_capacity;
   /**
-   * Receives one range for each patch. Null, with a `range_capacity` of 0, if they are not
-   * wanted.
+   * Receives one range for each patch. Null, with a `range_capacity` of 0, if you do not want
+   * ranges.
    */
   struct TessRange *ranges;
   /**
-   * The elements that `ranges` has room for.
+   * Number of elements that `ranges` has room for.
    */
   size_t range_capacity;
   /**
@@ -705,7 +705,7 @@ typedef struct TessBatchOutput {
    */
   uint32_t numbering;
   /**
-   * The number of the batch's first point under `TESS_NUMBERING_PER_BATCH`, else ignored.
+   * The number of the batch's first point with `TESS_NUMBERING_PER_BATCH`, else ignored.
    */
   uint32_t base_vertex;
   /**
@@ -759,10 +759,10 @@ typedef struct TessMat4 {
 /**
  * A tessellator under test: it writes the points and indices of one patch and their counts.
  *
- * `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices;
- * both and `counts` are zero before the call, and `counts->primitives` is not looked at. `user` is
- * what the function that calls it was given. It answers 0, `TESS_DEVICE_UNSUPPORTED`, or any other
- * number if it could not run, which is a finding.
+ * `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices.
+ * Both and `counts` are zero before the call; `counts->primitives` is ignored. `user` is the
+ * pointer that was passed to `tess_fuzz` or `tess_check_rules`. The tessellator returns 0, or
+ * `TESS_DEVICE_UNSUPPORTED`, or any other number if it failed, which is a finding.
  */
 typedef int32_t (*TessDevice)(void *user,
                               const struct TessConfig *config,
@@ -773,7 +773,7 @@ typedef int32_t (*TessDevice)(void *user,
                               struct TessCounts *counts);
 
 /**
- * Strength of the comparison, and the configurations that are asked for.
+ * Strength of the comparison, and the configurations to test.
  */
 typedef struct TessFuzzOptions {
   /**
@@ -812,27 +812,27 @@ typedef struct TessFuzzOptions {
 #define TESS_OK 0
 
 /**
- * A pointer that must point somewhere is null.
+ * A required pointer is null.
  */
 #define TESS_NULL_POINTER 1
 
 /**
- * A pointer is not aligned for what it points to.
+ * A pointer is not aligned for its type.
  */
 #define TESS_MISALIGNED 2
 
 /**
- * An enumeration (domain, partitioning, ...) has a value that is not listed.
+ * An enumeration (domain, partitioning, ...) has an unknown value.
  */
 #define TESS_UNKNOWN_VALUE 3
 
 /**
- * The number of factors does not fit the domain: 2 (isoline), 4 (triangle), 6 (quad).
+ * The number of factors does not fit the domain: 2 (isoline), 4 (triangle) or 6 (quad) per patch.
  */
 #define TESS_WRONG_FACTOR_COUNT 4
 
 /**
- * A buffer is too small. The counts that were asked for have the sizes that are needed, and
+ * A buffer is too small. The call has written the sizes that are needed to its counts, and
  * `tess_shortage` names the buffer.
  */
 #define TESS_BUFFER_TOO_SMALL 5
@@ -853,7 +853,7 @@ typedef struct TessFuzzOptions {
 #define TESS_OVERLAP 8
 
 /**
- * A size is larger than memory can be, or a batch has more than 2^32 - 1 points or indices.
+ * A size exceeds the address space, or a batch has more than 2^32 - 1 points or indices.
  */
 #define TESS_TOO_LARGE 9
 
@@ -884,7 +884,7 @@ typedef struct TessFuzzOptions {
 #define TESS_LEFT_OUT 14
 
 /**
- * The system starts no more threads.
+ * The system refused to start threads.
  */
 #define TESS_NO_THREADS 15
 
@@ -893,9 +893,9 @@ extern "C" {
 #endif // __cplusplus
 
 /**
- * The version of the library that is linked, in the form of `TESS_VERSION`.
+ * The version of the linked library, in the form of `TESS_VERSION`.
  *
- * A program that was compiled with another header can compare the two.
+ * It differs from `TESS_VERSION` if the program was compiled with the header of another version.
  */
 uint32_t tess_version(void);
 
@@ -915,8 +915,8 @@ const char *tess_version_string(void);
 const char *tess_status_message(TessStatus status);
 
 /**
- * Says which buffer was too small in the calling thread's last call that gave
- * `TESS_BUFFER_TOO_SMALL`. `TESS_OUT_OF_RANGE` if there was no such call.
+ * Gets the buffer that was too small in the calling thread's last call that returned
+ * `TESS_BUFFER_TOO_SMALL`. Returns `TESS_OUT_OF_RANGE` if there was no such call.
  *
  * The caller must ensure:
  * - `shortage`, if not null and aligned, is valid for writing one structure.
@@ -946,7 +946,7 @@ TessStatus tess_count(const struct TessConfig *config,
  * only `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With
  * any other status nothing is written. Buffers and `counts` must not overlap (`TESS_OVERLAP`). A
  * buffer of capacity 0 may be null. `TESS_MAX_POINTS` and `TESS_MAX_INDICES` are enough for any
- * patch. Allocates nothing.
+ * patch. The call does not allocate.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -956,7 +956,7 @@ TessStatus tess_count(const struct TessConfig *config,
  * - `indices` for writing `index_capacity` indices,
  * - `counts` for writing one structure,
  *
- * and no other thread may use the written ones at the same time.
+ * and no other thread may use the memory that is written during the call.
  */
 TessStatus tess_patch(const struct TessConfig *config,
                       const float *factors,
@@ -984,15 +984,16 @@ TessStatus tess_process(const struct TessConfig *config,
 /**
  * Converts the bits of a binary32 number to an unsigned 15.16 number (specification, section 2).
  *
- * To nearest, ties to even; NaN and negative numbers give 0, 2^15 and more 0x7FFFFFFF.
+ * Rounds to nearest, ties to even. NaN and negative numbers give 0; 2^15 and larger numbers give
+ * 0x7FFFFFFF.
  */
 uint32_t tess_fixed_factor(uint32_t binary32_bits);
 
 /**
- * The context of a 15.16 factor (specification, sections 4 and 10).
+ * Computes the context of a 15.16 factor (specification, sections 4 and 10).
  *
- * `parity` is `TESS_PARITY_...`, `split` is `TESS_SPLIT_...`. A factor outside 1..63 (odd) or
- * 1..64 (even) counts as the nearest end.
+ * `parity_number` is `TESS_PARITY_...`, `split` is `TESS_SPLIT_...`. A factor outside 1..63 (odd)
+ * or 1..64 (even) is clamped to that range.
  *
  * The caller must ensure:
  * - `context`, if not null and aligned, must be valid for writing one structure.
@@ -1003,10 +1004,10 @@ TessStatus tess_context(uint32_t fixed_factor,
                         struct TessContext *context);
 
 /**
- * The location of point `p` along an edge with this context (specification, section 5).
+ * Computes the location of point `p` along an edge with this context (specification, section 5).
  *
- * `p` is below the context's `points`, else `TESS_OUT_OF_RANGE`. A context that no factor has
- * gives `TESS_NOT_A_CONTEXT`. `location` is an unsigned 16.16 number, 0..0x10000.
+ * `location` receives an unsigned 16.16 number, 0..0x10000. Returns `TESS_OUT_OF_RANGE` unless `p`
+ * is below the context's `points`, and `TESS_NOT_A_CONTEXT` if no factor has this context.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1016,7 +1017,7 @@ TessStatus tess_context(uint32_t fixed_factor,
 TessStatus tess_place(const struct TessContext *context, uint32_t p, uint32_t *location);
 
 /**
- * Point `i` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
+ * Gets point `i` of a patch, in constant time; `TESS_OUT_OF_RANGE` if there is no such point.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1031,7 +1032,8 @@ TessStatus tess_point(const struct TessConfig *config,
                       struct TessPoint *point);
 
 /**
- * Primitive `t` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
+ * Gets primitive `t` of a patch, in constant time; `TESS_OUT_OF_RANGE` if there is no such
+ * primitive.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1046,7 +1048,7 @@ TessStatus tess_primitive(const struct TessConfig *config,
                           struct TessPrimitive *primitive);
 
 /**
- * The origin of point `i` of a patch; `TESS_OUT_OF_RANGE` if it has fewer points.
+ * Gets the origin of point `i` of a patch; `TESS_OUT_OF_RANGE` if there is no such point.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1061,7 +1063,7 @@ TessStatus tess_locate_point(const struct TessConfig *config,
                              struct TessPointOrigin *origin);
 
 /**
- * The origin of primitive `t` of a patch; `TESS_OUT_OF_RANGE` if it has fewer primitives.
+ * Gets the origin of primitive `t` of a patch; `TESS_OUT_OF_RANGE` if there is no such primitive.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1077,13 +1079,13 @@ TessStatus tess_locate_primitive(const struct TessConfig *config,
 
 /**
  * Prepares the factors of one patch, as the HLSL functions `Process...TessFactors` do in Shader
- * Model 5 (compiler FXC). DXC generates another form, which this library does not have
+ * Model 5 (compiler FXC). DXC compiles them to other operations, which this library does not have
  * (specification, section 9).
  *
  * `requested` holds the outer factors and, in the places of the inside factors, the inside
- * scales. `unrounded` and `rounded` receive `factor_count` factors each; the rounded ones are
- * then tessellated. All three may be the same array or overlap: inputs are read first, and
- * `rounded` is written last.
+ * scales. `unrounded` and `rounded` receive `factor_count` factors each; tessellate the rounded
+ * ones. All three may be the same array or overlap: the input is read first, and `rounded` is
+ * written last.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1100,11 +1102,11 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
 /**
  * Makes a tessellator for batches of one domain in one configuration.
  *
- * `level` is `TESS_LEVEL_...`. All levels give the same bits; one that this machine lacks gives
- * `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
- * millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it
- * grows, at most 1.2 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with
- * `tess_batch_free`.
+ * `level` is `TESS_LEVEL_...`. All levels produce the same bits. If this machine lacks the level,
+ * the call returns `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration
+ * takes about a millisecond, later ones a microsecond. The batch learns from patches, and its
+ * memory grows by at most 1.2 MB per thread; `tess_batch_reserve` allocates all of it in advance.
+ * Free the handle with `tess_batch_free`.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1116,7 +1118,7 @@ TessStatus tess_batch_create(const struct TessConfig *config,
                              struct TessBatch **batch);
 
 /**
- * Frees what `tess_batch_create` made. Null is allowed and does nothing.
+ * Frees a batch. Null is allowed and does nothing.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, is not in use and is not used again.
@@ -1124,8 +1126,7 @@ TessStatus tess_batch_create(const struct TessConfig *config,
 void tess_batch_free(struct TessBatch *batch);
 
 /**
- * Takes all the memory that a batch may ever need, 1.2 MB per thread, so that no later call
- * allocates.
+ * Allocates all memory that a batch can need, 1.2 MB per thread, so that no later call allocates.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1133,11 +1134,11 @@ void tess_batch_free(struct TessBatch *batch);
 TessStatus tess_batch_reserve(struct TessBatch *batch);
 
 /**
- * Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch has the
- * specification's.
+ * Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch uses the
+ * specification's order.
  *
- * `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two
- * to four times as long with it. The batch forgets what it learned of patches.
+ * `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. With it, patches of more than about 300 points
+ * take two to four times as long. The batch discards what it has learned from patches.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1146,17 +1147,17 @@ TessStatus tess_batch_set_triangles(struct TessBatch *batch, uint32_t order);
 
 /**
  * Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads`
- * threads. A new batch has one; 0 gives `TESS_OUT_OF_RANGE`. The output does not depend on the
- * number.
+ * threads. A new batch uses one; 0 returns `TESS_OUT_OF_RANGE`. The output does not depend on the
+ * number of threads.
  *
- * A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the
- * process share: a thread for each processor, or as many as the environment variable
- * `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.2 MB. The batch forgets what it learned
- * of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and changes
- * nothing.
+ * A call uses one thread for each 256 KiB of output. The threads belong to a pool that all batches
+ * of the process share. It has one thread per processor, or as many as the environment variable
+ * `RAYON_NUM_THREADS` states. Each thread takes up to 1.2 MB of memory. The batch discards what it
+ * has learned from patches. If the system refuses to start threads, the call returns
+ * `TESS_NO_THREADS` and changes nothing.
  *
- * After `fork` the child may use batches that its parent made, with any number of threads: it
- * starts threads of its own with the first large batch. Where it cannot, it writes batches on the
+ * After `fork` the child may use batches that its parent made, with any number of threads: its
+ * first large batch starts threads of its own. If it cannot start them, it tessellates on the
  * calling thread. No other thread may be in a call on these batches when the process forks.
  *
  * The caller must ensure:
@@ -1165,7 +1166,7 @@ TessStatus tess_batch_set_triangles(struct TessBatch *batch, uint32_t order);
 TessStatus tess_batch_set_threads(struct TessBatch *batch, uint32_t threads);
 
 /**
- * Gets the CPU level that a batch runs at, `TESS_LEVEL_...`.
+ * Gets the CPU level of a batch, `TESS_LEVEL_...`.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`.
@@ -1174,10 +1175,11 @@ TessStatus tess_batch_set_threads(struct TessBatch *batch, uint32_t threads);
 TessStatus tess_batch_level(const struct TessBatch *batch, uint32_t *level);
 
 /**
- * Counts a batch: the sizes of its output.
+ * Computes the sizes of a batch's output.
  *
- * `factors` holds the factors of one patch after another; `factor_count` counts floats and is a
- * multiple of the domain's number of factors, else `TESS_WRONG_FACTOR_COUNT`.
+ * `factors` holds the factors of one patch after another. `factor_count` is the number of floats;
+ * if it is not a multiple of the domain's number of factors, the call returns
+ * `TESS_WRONG_FACTOR_COUNT`.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1198,8 +1200,8 @@ TessStatus tess_batch_count(struct TessBatch *batch,
  * its sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the sizes that are
  * needed; `tess_shortage` names the buffer. With any other status nothing is written. No ranges
  * are written if `ranges` is null and `range_capacity` 0. Buffers, factors and `counts` must not
- * overlap (`TESS_OVERLAP`). A call allocates where a patch has point counts that this batch has
- * not met before; after `tess_batch_reserve` none does.
+ * overlap (`TESS_OVERLAP`). A call allocates if a patch has point counts that are new to this
+ * batch; after `tess_batch_reserve` no call does.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1207,11 +1209,11 @@ TessStatus tess_batch_count(struct TessBatch *batch,
  * Other pointers that are not null and aligned must be valid:
  * - `factors` for reading `factor_count` floats,
  * - `output` for reading one structure,
- * - the buffers that it names for writing as many elements of their formats as it says, and with
- *   `TESS_MEMORY_INITIALISED` for reading them,
+ * - its buffers for writing as many elements of their formats as their capacities state, and with
+ *   `TESS_MEMORY_INITIALISED` also for reading them,
  * - `counts` for writing one structure,
  *
- * and no other thread may use any of them at the same time.
+ * and no other thread may use any of them during the call.
  */
 TessStatus tess_batch_run(struct TessBatch *batch,
                           const float *factors,
@@ -1222,11 +1224,11 @@ TessStatus tess_batch_run(struct TessBatch *batch,
 /**
  * Gets the range of each group of patches in a batch's output.
  *
- * `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them; `starts`
+ * `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them. `starts`
  * holds the numbers of the patches at which `group_count` groups begin, in ascending order. A
- * group ends where the next one begins, the last one at the end of the batch. A start below the
- * one before it, or past the end of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written.
- * `groups` must not overlap the other arrays (`TESS_OVERLAP`).
+ * group ends where the next one begins, the last one at the end of the batch. If a start is below
+ * its predecessor, or past the end of the batch, the call returns `TESS_OUT_OF_RANGE` and writes
+ * nothing. `groups` must not overlap the other arrays (`TESS_OVERLAP`).
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -1234,7 +1236,7 @@ TessStatus tess_batch_run(struct TessBatch *batch,
  * - `starts` for reading `group_count` numbers,
  * - `groups` for writing `group_count` ranges,
  *
- * and no other thread may write any of them at the same time.
+ * and no other thread may write any of them during the call.
  */
 TessStatus tess_batch_groups(const struct TessRange *ranges,
                              size_t patch_count,
@@ -1251,14 +1253,14 @@ TessStatus tess_batch_groups(const struct TessRange *ranges,
  * `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only
  * `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With any
  * other status nothing is written. Up to 64 elements past the output may be overwritten in either
- * buffer, as far as it has room for them; a call with that much room is the fastest. Buffers,
- * factors and `counts` must not overlap (`TESS_OVERLAP`).
+ * buffer, but never past its capacity; calls are fastest with that much room. Buffers, factors and
+ * `counts` must not overlap (`TESS_OVERLAP`).
  *
  * A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of
  * 2022 with AVX-512). With `TESS_MEMORY_INITIALISED` and the same factors as the previous patch,
  * it takes 19 ns and 28 ns on a server of 2024. It is faster than `tess_batch_run` with one patch,
- * which counts twice; for large patches the two take equally long. A call allocates where a patch
- * has point counts that this batch has not met before; after `tess_batch_reserve` none does.
+ * which counts twice; for large patches the two take equally long. A call allocates if a patch has
+ * point counts that are new to this batch; after `tess_batch_reserve` no call does.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1266,11 +1268,11 @@ TessStatus tess_batch_groups(const struct TessRange *ranges,
  * Other pointers that are not null and aligned must be valid:
  * - `factors` for reading as many floats as the domain has factors,
  * - `output` for reading one structure,
- * - the buffers that it names for writing as many elements of their formats as it says, and with
- *   `TESS_MEMORY_INITIALISED` for reading them,
+ * - its buffers for writing as many elements of their formats as their capacities state, and with
+ *   `TESS_MEMORY_INITIALISED` also for reading them,
  * - `counts` for writing one structure,
  *
- * and no other thread may use any of them at the same time.
+ * and no other thread may use any of them during the call.
  */
 TessStatus tess_batch_patch(struct TessBatch *batch,
                             const float *factors,
@@ -1298,16 +1300,16 @@ float tess_edge_by_length(struct TessVec3 a,
                           float segment);
 
 /**
- * The factor of an edge beside two edges of half its length, a power of two in 2..=64, from the
- * factor that a rule has for the whole edge; each half gets half as much. With these both sides
- * have the same points under integer and power-of-two partitioning. Neighbours must compute both
- * from the whole edge.
+ * The factor of an edge next to two edges of half its length, from the factor that a rule gives
+ * the whole edge. The result is a power of two in 2..=64, at least the rule's factor. Give the two
+ * short edges half of it: both sides then have the same points under integer and power-of-two
+ * partitioning. Neighbours must compute both factors from the whole edge.
  */
 float tess_edge_beside_halves(float factor);
 
 /**
- * A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative
- * or NaN, still does if `most` is positive.
+ * A factor of at most `most`, like HLSL's `maxtessfactor`. A factor that culls (0, negative or
+ * NaN) still culls if `most` is positive.
  */
 float tess_at_most(float factor, float most);
 
@@ -1336,13 +1338,13 @@ float tess_inside_quad(float one, float other);
 
 /**
  * Whether a ball is wholly outside one of the six planes of a projection with z from 0 to w, as in
- * Direct3D, Vulkan, Metal and WebGPU: 1 or 0. The ball must hold the whole patch, including its
- * displacement. Give a patch that is outside factors of 0.
+ * Direct3D, Vulkan, Metal and WebGPU: 1 or 0. The ball must contain the whole patch, including its
+ * displacement. If the result is 1, give the patch factors of 0.
  */
 uint32_t tess_is_outside(struct TessMat4 clip_from_world, struct TessVec3 center, float radius);
 
 /**
- * Whether all of a surface faces away from the eye: 1 or 0. The ball holds the surface. Its
+ * Whether all of a surface faces away from the eye: 1 or 0. The surface is inside a ball, and its
  * normals are within an angle of less than 90 degrees of the unit vector `axis`; `sine` is the
  * sine of that angle.
  */
@@ -1353,17 +1355,17 @@ uint32_t tess_faces_away(struct TessVec3 center,
                          struct TessVec3 eye);
 
 /**
- * Compares a tessellator with the model on the patch that a fuzzer's bytes stand for.
+ * Compares a tessellator with the model on the patch that a fuzzer's bytes encode.
  *
- * Any bytes are a patch of a configuration that the options ask for. Most patches are small, and
- * boundaries are frequent. Without options (null) the comparison is exact, and every configuration
- * is asked for.
+ * Any bytes encode a patch of a configuration that the options select. Most patches are small, and
+ * boundary cases are frequent. Without options (null) the comparison is exact, and all
+ * configurations are tested.
  *
  * - `TESS_OK`: equal.
  * - `TESS_LEFT_OUT`: the tessellator does not have the configuration; nothing was compared. Count
- *   these: a run in which every patch is left out shows nothing.
+ *   these: a run in which every patch is left out proves nothing.
  * - `TESS_DIFFERENT`: a finding. `message` receives the case as a line for `tess patch --cases`, a
- *   command that shows the right output, and the first difference. The message ends with a zero
+ *   command that shows the correct output, and the first difference. The message ends with a zero
  *   byte and is cut off at `message_capacity` bytes; 1024 are enough.
  *
  * `message` must not overlap `data` (`TESS_OVERLAP`; nothing was compared). This function
@@ -1388,14 +1390,14 @@ TessStatus tess_fuzz(const uint8_t *data,
  * Asks a tessellator for the patches of `tess gen --rules`, and judges its outputs by the rules of
  * a standard.
  *
- * `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come
- * after the 12 671 systematic ones of the standard split order. For Direct3D 11 the model says
- * where vertices are; for the other standards it is not asked. Patches of configurations that the
- * tessellator does not have are left out.
+ * `specification` is `TESS_SPECIFICATION_...`. The patches are 12 671 systematic ones in the
+ * standard split order, then `random` patches that depend on `seed`. For Direct3D 11 the correct
+ * locations of vertices come from the model; the other standards are judged without it. Patches of
+ * configurations that the tessellator does not have are left out.
  *
  * - `TESS_OK`: no rule is broken.
  * - `TESS_DIFFERENT`: a rule is broken, or the tessellator failed.
- * - `TESS_LEFT_OUT`: it has none of the configurations; nothing was judged.
+ * - `TESS_LEFT_OUT`: the tessellator has none of the configurations; nothing was judged.
  *
  * `report` receives the text that `tess check --rules` prints: each rule as held, broken or not
  * exercised, with the smallest patches that break it; or the patch at which the tessellator

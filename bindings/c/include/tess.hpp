@@ -1,5 +1,5 @@
-// The functions of tess.h for C++17: enumerations for numbers, containers for pointers and sizes, exceptions for
-// statuses, a batch that frees itself. Everything is inline; link what a C program links.
+// The functions of tess.h for C++17, with enumerations instead of numbers, containers instead of pointers and sizes,
+// exceptions instead of statuses, and a batch that frees itself. Everything is inline: link the library as for C.
 //
 //   tess::Batch batch({tess::Domain::quad, tess::Partitioning::integer});
 //   std::vector<float> factors(6 * patches, 4.0f);
@@ -51,7 +51,7 @@ enum class Level : uint32_t {
 enum class Triangles : uint32_t { specified = TESS_TRIANGLES_SPECIFIED, vertex_cache = TESS_TRIANGLES_VERTEX_CACHE };
 enum class Numbering : uint32_t { per_patch = TESS_NUMBERING_PER_PATCH, per_batch = TESS_NUMBERING_PER_BATCH };
 
-/// A status that is not TESS_OK.
+/// A status other than TESS_OK.
 class Error : public std::runtime_error {
 public:
     explicit Error(TessStatus status) : Error(status, tess_status_message(status)) {}
@@ -61,7 +61,7 @@ protected:
     Error(TessStatus status, const std::string &message) : std::runtime_error(message), status(status) {}
 };
 
-/// TESS_BUFFER_TOO_SMALL: which buffer, and how many elements it needs.
+/// TESS_BUFFER_TOO_SMALL, with the buffer and the number of elements that it needs.
 class BufferTooSmall : public Error {
 public:
     explicit BufferTooSmall(const TessShortage &shortage)
@@ -82,7 +82,7 @@ inline void check(TessStatus status) {
     if (status != TESS_OK) throw Error(status);
 }
 
-/// The settings of a tessellator.
+/// The configuration of a tessellator.
 struct Config {
     Domain domain = Domain::triangle;
     Partitioning partitioning = Partitioning::integer;
@@ -94,12 +94,12 @@ struct Config {
     }
 };
 
-/// A point as a pair of binary32, for TESS_POINT_F32.
+/// A point as a pair of binary32 numbers, for TESS_POINT_F32.
 struct PointF32 {
     float u, v;
 };
 
-/// Points and primitives of one patch. `Factors` is any contiguous container of float, such as std::array.
+/// Counts the output of one patch. `Factors` is any contiguous container of float, such as std::array.
 template <class Factors>
 TessCounts count(const Config &config, const Factors &factors) {
     const TessConfig c = config;
@@ -108,7 +108,7 @@ TessCounts count(const Config &config, const Factors &factors) {
     return counts;
 }
 
-/// One patch by the model, into contiguous containers of TessPoint and uint32_t.
+/// Tessellates one patch by the model, into contiguous containers of TessPoint and uint32_t.
 template <class Factors, class Points, class Indices>
 TessCounts patch(const Config &config, const Factors &factors, Points &points, Indices &indices) {
     const TessConfig c = config;
@@ -118,7 +118,7 @@ TessCounts patch(const Config &config, const Factors &factors, Points &points, I
     return counts;
 }
 
-/// Many patches of one configuration at the speed of tess-simd. Keep it: it learns from patches.
+/// A tessellator for many patches of one configuration, at the speed of tess-simd. Keep it: it learns from patches.
 class Batch {
 public:
     explicit Batch(const Config &config, Level level = Level::detect)
@@ -135,7 +135,7 @@ public:
         return Level(number);
     }
 
-    /// Allocates all memory that later calls need.
+    /// Allocates all memory that later calls can need.
     void reserve() { check(tess_batch_reserve(batch.get())); }
 
     void set_triangles(Triangles order) { check(tess_batch_set_triangles(batch.get(), uint32_t(order))); }
@@ -148,26 +148,26 @@ public:
         return counts;
     }
 
-    /// All patches. Points are of TessPoint or PointF32, indices of uint32_t or uint16_t.
+    /// Tessellates all patches. Points are TessPoint or PointF32, indices uint32_t or uint16_t.
     template <class Factors, class Points, class Indices, class Ranges,
               class = decltype(std::data(std::declval<Ranges &>()))>
     TessBatchCounts run(const Factors &factors, Points &points, Indices &indices, Ranges &ranges,
                         Numbering numbering = Numbering::per_patch, uint32_t base_vertex = 0) {
         TessBatchOutput output = described(points, indices, numbering, base_vertex);
-        TessRange none; // An empty container may have no memory, but null asks for no ranges.
+        TessRange none; // The data of an empty container may be null, which would ask for no ranges.
         output.ranges = std::data(ranges) ? std::data(ranges) : &none;
         output.range_capacity = std::size(ranges);
         return run(factors, output);
     }
 
-    /// All patches, without the ranges.
+    /// Tessellates all patches, without ranges.
     template <class Factors, class Points, class Indices>
     TessBatchCounts run(const Factors &factors, Points &points, Indices &indices,
                         Numbering numbering = Numbering::per_patch, uint32_t base_vertex = 0) {
         return run(factors, described(points, indices, numbering, base_vertex));
     }
 
-    /// One patch; up to 64 elements behind its output may change.
+    /// Tessellates one patch. Up to 64 elements past its output may be overwritten.
     template <class Factors, class Points, class Indices>
     TessCounts patch(const Factors &factors, Points &points, Indices &indices) {
         if (std::size(factors) != factors_of_a_patch) throw Error(TESS_WRONG_FACTOR_COUNT);
@@ -187,7 +187,7 @@ private:
         return counts;
     }
 
-    /// Containers of C++ have values, so every buffer is initialised.
+    /// The elements of C++ containers are initialised, so TESS_MEMORY_INITIALISED holds.
     template <class Points, class Indices>
     static TessBatchOutput described(Points &points, Indices &indices, Numbering numbering, uint32_t base_vertex) {
         using Point = std::remove_reference_t<decltype(*std::data(points))>;

@@ -28,7 +28,7 @@ use run::run;
 use tess_core::{Domain, DomainPoint, Order};
 use tess_simd::{BatchBuffer, Error, Level, PatchRange, Tessellator, group_ranges};
 
-/// CPU level: the most capable one of this machine.
+/// CPU level: the most capable one that this machine has.
 pub const TESS_LEVEL_DETECT: u32 = 0;
 /// CPU level: the instructions that the library was compiled for; always available.
 pub const TESS_LEVEL_BASELINE: u32 = 1;
@@ -46,11 +46,11 @@ pub struct TessBatch {
 
 /// Makes a tessellator for batches of one domain in one configuration.
 ///
-/// `level` is `TESS_LEVEL_...`. All levels give the same bits; one that this machine lacks gives
-/// `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
-/// millisecond, later ones a microsecond. The batch's knowledge of patches takes memory as it
-/// grows, at most 1.2 MB; `tess_batch_reserve` takes all of it in advance. Free the handle with
-/// `tess_batch_free`.
+/// `level` is `TESS_LEVEL_...`. All levels produce the same bits. If this machine lacks the level,
+/// the call returns `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration
+/// takes about a millisecond, later ones a microsecond. The batch learns from patches, and its
+/// memory grows by at most 1.2 MB per thread; `tess_batch_reserve` allocates all of it in advance.
+/// Free the handle with `tess_batch_free`.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -72,13 +72,13 @@ pub unsafe extern "C" fn tess_batch_create(
                 .map_err(|_| TESS_LEVEL_UNAVAILABLE)?,
         };
         let made = Box::into_raw(Box::new(TessBatch { tessellator, domain }));
-        // SAFETY: `batch` is writable, as the caller promises; it was checked above, so that
-        // nothing is lost here.
+        // SAFETY: `batch` is writable, as the caller promises. It was checked above, so the box
+        // cannot leak here.
         unsafe { boundary::write(batch, made) }
     })
 }
 
-/// Frees what `tess_batch_create` made. Null is allowed and does nothing.
+/// Frees a batch. Null is allowed and does nothing.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, is not in use and is not used again.
@@ -90,8 +90,7 @@ pub unsafe extern "C" fn tess_batch_free(batch: *mut TessBatch) {
     }
 }
 
-/// Takes all the memory that a batch may ever need, 1.2 MB per thread, so that no later call
-/// allocates.
+/// Allocates all memory that a batch can need, 1.2 MB per thread, so that no later call allocates.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -111,11 +110,11 @@ pub const TESS_TRIANGLES_SPECIFIED: u32 = 0;
 /// Triangle order: the same triangles and points, in columns that suit the vertex caches of GPUs.
 pub const TESS_TRIANGLES_VERTEX_CACHE: u32 = 1;
 
-/// Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch has the
-/// specification's.
+/// Sets the order of triangles for later calls, `TESS_TRIANGLES_...`. A new batch uses the
+/// specification's order.
 ///
-/// `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two
-/// to four times as long with it. The batch forgets what it learned of patches.
+/// `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. With it, patches of more than about 300 points
+/// take two to four times as long. The batch discards what it has learned from patches.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -132,17 +131,17 @@ pub unsafe extern "C" fn tess_batch_set_triangles(batch: *mut TessBatch, order: 
 }
 
 /// Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads`
-/// threads. A new batch has one; 0 gives `TESS_OUT_OF_RANGE`. The output does not depend on the
-/// number.
+/// threads. A new batch uses one; 0 returns `TESS_OUT_OF_RANGE`. The output does not depend on the
+/// number of threads.
 ///
-/// A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the
-/// process share: a thread for each processor, or as many as the environment variable
-/// `RAYON_NUM_THREADS` asks for. Each thread takes up to 1.2 MB. The batch forgets what it learned
-/// of patches. If the system starts no threads, the call gives `TESS_NO_THREADS` and changes
-/// nothing.
+/// A call uses one thread for each 256 KiB of output. The threads belong to a pool that all batches
+/// of the process share. It has one thread per processor, or as many as the environment variable
+/// `RAYON_NUM_THREADS` states. Each thread takes up to 1.2 MB of memory. The batch discards what it
+/// has learned from patches. If the system refuses to start threads, the call returns
+/// `TESS_NO_THREADS` and changes nothing.
 ///
-/// After `fork` the child may use batches that its parent made, with any number of threads: it
-/// starts threads of its own with the first large batch. Where it cannot, it writes batches on the
+/// After `fork` the child may use batches that its parent made, with any number of threads: its
+/// first large batch starts threads of its own. If it cannot start them, it tessellates on the
 /// calling thread. No other thread may be in a call on these batches when the process forks.
 ///
 /// # Safety
@@ -165,7 +164,7 @@ pub unsafe extern "C" fn tess_batch_set_threads(batch: *mut TessBatch, threads: 
     })
 }
 
-/// Gets the CPU level that a batch runs at, `TESS_LEVEL_...`.
+/// Gets the CPU level of a batch, `TESS_LEVEL_...`.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`.
@@ -180,17 +179,18 @@ pub unsafe extern "C" fn tess_batch_level(batch: *const TessBatch, level: *mut u
             Level::Baseline => TESS_LEVEL_BASELINE,
             Level::Avx2 => TESS_LEVEL_AVX2,
             Level::Avx512 => TESS_LEVEL_AVX512,
-            _ => return Err(TESS_INTERNAL), // a level that has no number yet
+            _ => return Err(TESS_INTERNAL), // a level without a number
         };
         // SAFETY: `level` is writable, as the caller promises.
         unsafe { boundary::write(level, number) }
     })
 }
 
-/// Counts a batch: the sizes of its output.
+/// Computes the sizes of a batch's output.
 ///
-/// `factors` holds the factors of one patch after another; `factor_count` counts floats and is a
-/// multiple of the domain's number of factors, else `TESS_WRONG_FACTOR_COUNT`.
+/// `factors` holds the factors of one patch after another. `factor_count` is the number of floats;
+/// if it is not a multiple of the domain's number of factors, the call returns
+/// `TESS_WRONG_FACTOR_COUNT`.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -224,8 +224,8 @@ pub unsafe extern "C" fn tess_batch_count(
 /// its sizes. With `TESS_BUFFER_TOO_SMALL` only `counts` is written, with the sizes that are
 /// needed; `tess_shortage` names the buffer. With any other status nothing is written. No ranges
 /// are written if `ranges` is null and `range_capacity` 0. Buffers, factors and `counts` must not
-/// overlap (`TESS_OVERLAP`). A call allocates where a patch has point counts that this batch has
-/// not met before; after `tess_batch_reserve` none does.
+/// overlap (`TESS_OVERLAP`). A call allocates if a patch has point counts that are new to this
+/// batch; after `tess_batch_reserve` no call does.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -233,11 +233,11 @@ pub unsafe extern "C" fn tess_batch_count(
 /// Other pointers that are not null and aligned must be valid:
 /// - `factors` for reading `factor_count` floats,
 /// - `output` for reading one structure,
-/// - the buffers that it names for writing as many elements of their formats as it says, and with
-///   `TESS_MEMORY_INITIALISED` for reading them,
+/// - its buffers for writing as many elements of their formats as their capacities state, and with
+///   `TESS_MEMORY_INITIALISED` also for reading them,
 /// - `counts` for writing one structure,
 ///
-/// and no other thread may use any of them at the same time.
+/// and no other thread may use any of them during the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tess_batch_run(
     batch: *mut TessBatch,
@@ -262,11 +262,11 @@ pub unsafe extern "C" fn tess_batch_run(
 
 /// Gets the range of each group of patches in a batch's output.
 ///
-/// `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them; `starts`
+/// `ranges` holds the ranges of `patch_count` patches, as `tess_batch_run` wrote them. `starts`
 /// holds the numbers of the patches at which `group_count` groups begin, in ascending order. A
-/// group ends where the next one begins, the last one at the end of the batch. A start below the
-/// one before it, or past the end of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written.
-/// `groups` must not overlap the other arrays (`TESS_OVERLAP`).
+/// group ends where the next one begins, the last one at the end of the batch. If a start is below
+/// its predecessor, or past the end of the batch, the call returns `TESS_OUT_OF_RANGE` and writes
+/// nothing. `groups` must not overlap the other arrays (`TESS_OVERLAP`).
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -274,7 +274,7 @@ pub unsafe extern "C" fn tess_batch_run(
 /// - `starts` for reading `group_count` numbers,
 /// - `groups` for writing `group_count` ranges,
 ///
-/// and no other thread may write any of them at the same time.
+/// and no other thread may write any of them during the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tess_batch_groups(
     ranges: *const TessRange,
@@ -310,11 +310,11 @@ fn status_of(error: &Error) -> TessStatus {
             BatchBuffer::Points => too_small(TESS_BUFFER_POINTS, needed, got),
             BatchBuffer::Indices => too_small(TESS_BUFFER_INDICES, needed, got),
             BatchBuffer::Ranges => too_small(TESS_BUFFER_RANGES, needed, got),
-            _ => TESS_INTERNAL, // a buffer that has no number yet
+            _ => TESS_INTERNAL, // a buffer without a number
         },
         Error::IndexTooLarge { .. } => TESS_INDEX_TOO_LARGE,
         Error::BatchTooLarge { .. } => TESS_TOO_LARGE,
-        // Batches from C have no columns, and the list of errors may grow.
+        // Errors of columns, which batches from C do not have, and errors that are added later.
         _ => TESS_INTERNAL,
     }
 }

@@ -1,7 +1,7 @@
-//! Where pointers become values: the only place that looks through a caller's pointer.
+//! Conversion of pointers to values: only this module dereferences a caller's pointers.
 //!
-//! Null and misaligned pointers are refused. That the memory behind a pointer is there cannot be
-//! checked: every function says so under `# Safety`.
+//! Null and misaligned pointers are refused. Whether a pointer leads to memory cannot be checked:
+//! every function states this requirement under `# Safety`.
 
 use crate::status::{TESS_MISALIGNED, TESS_NULL_POINTER, TESS_OVERLAP, TESS_TOO_LARGE, TessStatus};
 use std::mem::MaybeUninit;
@@ -21,8 +21,8 @@ pub(crate) fn check<T>(pointer: *const T) -> Result<(), TessStatus> {
 /// The addresses of a caller's array.
 pub(crate) type Bytes = Range<usize>;
 
-/// The addresses of an array of `len` values. Refuses arrays larger than memory can be, and null
-/// where there are values: two such arrays do not share memory.
+/// The addresses of an array of `len` values. Refuses arrays that exceed the address space, and
+/// null pointers to one value or more.
 pub(crate) fn bytes<T>(pointer: *const T, len: usize) -> Result<Bytes, TessStatus> {
     if len > 0 && pointer.is_null() {
         return Err(TESS_NULL_POINTER);
@@ -40,7 +40,7 @@ fn check_apart(a: &Bytes, b: &Bytes) -> Result<(), TessStatus> {
     if apart { Ok(()) } else { Err(TESS_OVERLAP) }
 }
 
-/// Refuses arrays of which any two share memory.
+/// Refuses arrays if any two of them share memory.
 pub(crate) fn check_all_apart(arrays: &[Bytes]) -> Result<(), TessStatus> {
     for (i, a) in arrays.iter().enumerate() {
         for b in arrays.iter().skip(i + 1) {
@@ -50,7 +50,7 @@ pub(crate) fn check_all_apart(arrays: &[Bytes]) -> Result<(), TessStatus> {
     Ok(())
 }
 
-/// Copies what a pointer points to.
+/// Copies the value that a pointer points to.
 ///
 /// # Safety
 /// - If not null and aligned, `pointer` points to a `T` that is initialised and can be read.
@@ -71,7 +71,7 @@ pub(crate) unsafe fn write<T: Copy>(pointer: *mut T, value: T) -> Result<(), Tes
     Ok(())
 }
 
-/// A caller's input array. With `len` 0 the pointer is not looked at.
+/// A caller's input array. If `len` is 0, the pointer is ignored.
 ///
 /// # Safety
 /// - If not null and aligned, `pointer` points to `len` values that are initialised, can be read,
@@ -86,8 +86,7 @@ pub(crate) unsafe fn list<'a, T>(pointer: *const T, len: usize) -> Result<&'a [T
     Ok(unsafe { std::slice::from_raw_parts(pointer, len) })
 }
 
-/// A caller's output array, which need not be initialised. With `len` 0 the pointer is not
-/// looked at.
+/// A caller's output array, which need not be initialised. If `len` is 0, the pointer is ignored.
 ///
 /// # Safety
 /// - If not null and aligned, `pointer` points to memory for `len` values that can be written and
@@ -101,35 +100,35 @@ pub(crate) unsafe fn room<'a, T>(
     }
     check_array(pointer, len)?;
     // SAFETY: not null, aligned and of a possible size, as was just checked; room for `len` values
-    // that is ours alone, as the caller promises. `MaybeUninit<T>` has the layout of `T`.
+    // that nothing else uses, as the caller promises. `MaybeUninit<T>` has the layout of `T`.
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), len) })
 }
 
-/// Whether a caller's output arrays hold values.
+/// Whether a caller's output arrays are initialised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct MemoryState {
     is_initialised: bool,
 }
 
 impl MemoryState {
-    /// Nothing is known.
+    /// They may be uninitialised.
     pub(crate) const ANY: Self = Self { is_initialised: false };
 
-    /// All of it holds values.
+    /// They are initialised.
     ///
     /// # Safety
-    /// - Every array that [`initialised`] gets together with this is initialised.
+    /// - Every array that is passed to [`initialised`] with this value is initialised.
     pub(crate) const unsafe fn initialised() -> Self {
         Self { is_initialised: true }
     }
 
-    /// Whether all of it holds values.
+    /// Whether they are initialised.
     pub(crate) const fn is_initialised(self) -> bool {
         self.is_initialised
     }
 }
 
-/// An initialised array: unless the caller's memory is, `value` is written to every element.
+/// The array as an initialised one: writes `value` to every element unless `memory` is initialised.
 pub(crate) fn initialised<T: Copy>(
     room: &mut [MaybeUninit<T>],
     memory: MemoryState,
@@ -138,7 +137,7 @@ pub(crate) fn initialised<T: Copy>(
     if !memory.is_initialised {
         room.fill(MaybeUninit::new(value));
     }
-    // SAFETY: every element was just written, or is initialised as whoever made `memory` promised;
+    // SAFETY: every element was just written, or is initialised, as the maker of `memory` promised;
     // `MaybeUninit<T>` has the layout of `T`.
     unsafe { &mut *(std::ptr::from_mut(room) as *mut [T]) }
 }

@@ -1,4 +1,4 @@
-//! Contexts that callers pass in, and the steps of placing a point with one.
+//! Contexts that callers pass in, and the steps that place a point with a context.
 
 use crate::status::{TESS_NOT_A_CONTEXT, TESS_OUT_OF_RANGE, TessStatus};
 use crate::types::{TessContext, parity};
@@ -7,14 +7,14 @@ use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder, place};
 
 /// The model's context with these numbers; `TESS_NOT_A_CONTEXT` if no factor has it.
 ///
-/// `half_points` and `fraction` determine half the factor, and with it one context for each split
-/// order. Other numbers are refused, so that the arithmetic of placement cannot overflow.
+/// `half_points` and `fraction` determine half the factor, and thus one context for each split
+/// order. All other numbers are refused, so that the arithmetic of placement cannot overflow.
 pub(crate) fn checked(given: TessContext) -> Result<FactorContext, TessStatus> {
     let parity = parity(given.parity)?;
     if given.half_points == 0 || given.half_points > 32 || given.fraction >= ONE {
         return Err(TESS_NOT_A_CONTEXT);
     }
-    // half = C if it has no fraction, else C - 1 and the fraction; at most 32.
+    // half = C if the fraction is 0, else C - 1 plus the fraction; at most 32.
     let below = if given.fraction == 0 { 0 } else { ONE };
     let half = (given.half_points << 16) - below + given.fraction;
     let factor = match parity {
@@ -32,10 +32,10 @@ pub(crate) fn checked(given: TessContext) -> Result<FactorContext, TessStatus> {
 /// them (specification, section 5):
 ///
 /// - flip: 1 on the second half of the edge, else 0,
-/// - the position on the half edge, 0..32; equal to `half_points` in the exact middle,
-/// - the place in the coarser subdivision; in the exact middle 0,
-/// - the place in the finer subdivision; in the exact middle 0,
-/// - the location on the half edge, rounded; in the exact middle one half,
+/// - the position on the half edge, 0..32; `half_points` in the exact middle,
+/// - the place in the coarser subdivision; 0 in the exact middle,
+/// - the place in the finer subdivision; 0 in the exact middle,
+/// - the location on the half edge, rounded; one half in the exact middle,
 /// - the location, 0..0x10000.
 pub(crate) fn place_steps(context: &FactorContext, p: u32) -> Result<[u32; 6], TessStatus> {
     if p >= context.points {
@@ -53,7 +53,7 @@ mod tests {
     use crate::status::TESS_UNKNOWN_VALUE;
     use tess_core::fixed_point::HALF;
 
-    /// Integers and halves with their neighbours, in range.
+    /// The contexts of integers, halves and their neighbours.
     fn contexts() -> impl Iterator<Item = FactorContext> {
         let factors = (2..=128u32).flat_map(|halves| {
             [halves * HALF - 1, halves * HALF, halves * HALF + 1, halves * HALF + 0x1234]
@@ -90,7 +90,7 @@ mod tests {
         assert!(altered_seen > 10_000, "only {altered_seen} contexts");
     }
 
-    /// The formula of section 5 from the steps gives the location that the model gives.
+    /// The formula of section 5, applied to the steps, gives the model's location.
     #[test]
     fn steps_lead_to_the_location() {
         for context in contexts() {

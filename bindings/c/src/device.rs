@@ -7,15 +7,15 @@ use std::mem::MaybeUninit;
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::Case;
 
-/// A device's answer: it does not have the configuration that it was asked for. Not a finding.
+/// A device's answer: it does not have the requested configuration. Not a finding.
 pub const TESS_DEVICE_UNSUPPORTED: i32 = -1;
 
 /// A tessellator under test: it writes the points and indices of one patch and their counts.
 ///
-/// `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices;
-/// both and `counts` are zero before the call, and `counts->primitives` is not looked at. `user` is
-/// what the function that calls it was given. It answers 0, `TESS_DEVICE_UNSUPPORTED`, or any other
-/// number if it could not run, which is a finding.
+/// `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices.
+/// Both and `counts` are zero before the call; `counts->primitives` is ignored. `user` is the
+/// pointer that was passed to `tess_fuzz` or `tess_check_rules`. The tessellator returns 0, or
+/// `TESS_DEVICE_UNSUPPORTED`, or any other number if it failed, which is a finding.
 pub type TessDevice = Option<
     unsafe extern "C" fn(
         user: *mut c_void,
@@ -30,11 +30,11 @@ pub type TessDevice = Option<
 
 /// Outcome of a question to a device.
 pub(crate) enum Asked {
-    /// It gave an output.
+    /// It produced an output.
     Output(Tessellation),
     /// It does not have the configuration.
     Unsupported,
-    /// It failed, in words.
+    /// It failed, with a description.
     Failed(String),
 }
 
@@ -77,7 +77,7 @@ fn output(points: &[TessPoint], indices: &[u32], counts: TessCounts) -> Asked {
     Asked::Output(Tessellation { points, indices: indices.to_vec() })
 }
 
-/// Writes a text and a zero byte, as much of it as there is room for.
+/// Writes a text, as much of it as fits, and a zero byte.
 pub(crate) fn write(room: &mut [MaybeUninit<c_char>], text: &str) {
     let Some(most) = room.len().checked_sub(1) else { return };
     let bytes = text.bytes().take(most).chain([0]);

@@ -1,12 +1,12 @@
-//! Functions that `verilog/tess_dpi.sv` imports: only scalars and bit patterns.
+//! Functions that `verilog/tess_dpi.sv` imports. They pass only scalars and bit patterns.
 //!
-//! In `SystemVerilog` every argument is an `int unsigned`, outputs included, or the `chandle` of a
+//! In `SystemVerilog` every argument, including outputs, is an `int unsigned` or the `chandle` of a
 //! held patch, so that calls are the same in every simulator. That file declares and documents the
-//! functions, with typed wrappers around them; the C header does not have them.
+//! functions and has typed wrappers for them; the C header does not have them.
 //!
 //! A function on a patch takes the four numbers of its configuration and the bits of six binary32
-//! factors, of which the domain's first two, four or six are read. Numbers go out through pointers:
-//! all of them, or none if a pointer is null or misaligned.
+//! factors, of which it reads the first two, four or six, as the domain has. Results are written
+//! through pointers: all of them, or none if a pointer is null or misaligned.
 
 pub mod held;
 
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn tess_dpi_context(
     })
 }
 
-/// The placement of point `p` of an edge, every signal on the way.
+/// The placement of point `p` of an edge, with every intermediate signal.
 ///
 /// # Safety
 /// - Every pointer, if not null and aligned, must be valid for writing one number.
@@ -70,8 +70,8 @@ pub unsafe extern "C" fn tess_dpi_place(
     })
 }
 
-/// Factor `number` of a patch after factor processing; if the patch is culled, only `outcome` means
-/// something.
+/// Factor `number` of a patch after factor processing. If the patch is culled, only `outcome` is
+/// meaningful.
 ///
 /// # Safety
 /// - Every pointer, if not null and aligned, must be valid for writing one number.
@@ -198,8 +198,8 @@ pub unsafe extern "C" fn tess_dpi_primitive(
 
 /// The number of the `i`-th coverage bin that a patch hits; `TESS_OUT_OF_RANGE` past the last one.
 ///
-/// Bins are numbered as `tess_verify::cover` lists them, in alphabetical order; one that is hit
-/// twice comes twice. Unlike the other functions this one allocates.
+/// Bins are numbered in the alphabetical order of `tess_verify::cover`. A bin that is hit twice
+/// occurs twice. This function allocates.
 ///
 /// # Safety
 /// - `bin`, if not null and aligned, must be valid for writing one number.
@@ -232,13 +232,13 @@ fn context(factor: u32, parity_number: u32, split: u32) -> Result<FactorContext,
     Ok(FactorContext::new(FixedFactor::from_bits(factor), parity(parity_number)?, split))
 }
 
-/// The patch with these bits of binary32 factors, of which the first of its domain's number count.
+/// The patch with these bits of binary32 factors, of which only the domain's number are read.
 fn case(config: TessConfig, factors: [u32; 6]) -> Result<Case, TessStatus> {
     let (config, domain) = config.decode()?;
     Ok(Case { config, factors: factors_of(domain, factors) })
 }
 
-/// The first of these bits of binary32, as many as a patch of the domain has.
+/// The factors with the first of these bits of binary32, as many as the domain has.
 fn factors_of(domain: Domain, factors: [u32; 6]) -> PatchFactors {
     PatchFactors::from_fn(domain, |i| f32::from_bits(factors[i]))
 }

@@ -1,4 +1,4 @@
-//! Differential fuzzing: a tessellator behind a function pointer, against the model.
+//! Differential fuzzing of a tessellator, given as a function pointer, against the model.
 
 use crate::boundary;
 use crate::device::{Asked, TessDevice, ask, write};
@@ -13,19 +13,20 @@ use tess_verify::generate::{GenLevel, Selection};
 
 /// Order: the model's, index for index.
 pub const TESS_ORDER_EXACT: u32 = 0;
-/// Order: the model's order of primitives and of their vertices, each vertex by its coordinates.
+/// Order: the model's order of primitives and of their vertices, which are identified by their
+/// coordinates.
 pub const TESS_ORDER_SEQUENCE: u32 = 1;
-/// Order: any, and any leading vertex of a triangle.
+/// Order: any order of primitives, and any leading vertex of a triangle.
 pub const TESS_ORDER_ANY: u32 = 2;
 
 /// Denormals: a positive denormal outer factor is greater than zero.
 pub const TESS_DENORMALS_KEEP: u32 = 0;
-/// Denormals: a positive denormal outer factor may be zero, which culls the patch.
+/// Denormals: a positive denormal outer factor may count as zero, which culls the patch.
 pub const TESS_DENORMALS_FLUSH: u32 = 1;
 
 /// Conversion of factors to 16 fraction bits: to the nearest, ties to even.
 pub const TESS_CONVERSION_EXACT: u32 = 0;
-/// Conversion: either neighbour where the fraction lies in 0.4 to 0.6.
+/// Conversion: to either neighbour if the fraction is between 0.4 and 0.6.
 pub const TESS_CONVERSION_WITHIN_0_6_ULP: u32 = 1;
 
 /// A configuration's field: any value.
@@ -35,7 +36,7 @@ const ORDERS: [ListOrder; 3] = [ListOrder::Exact, ListOrder::Sequence, ListOrder
 const DENORMALS: [Denormals; 2] = [Denormals::Keep, Denormals::Flush];
 const CONVERSIONS: [Conversion; 2] = [Conversion::Exact, Conversion::Within06Ulp];
 
-/// Strength of the comparison, and the configurations that are asked for.
+/// Strength of the comparison, and the configurations to test.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TessFuzzOptions {
@@ -55,7 +56,7 @@ pub struct TessFuzzOptions {
     pub split: u32,
 }
 
-/// Options that a null pointer stands for.
+/// The options that a null pointer selects.
 impl Default for TessFuzzOptions {
     fn default() -> Self {
         Self {
@@ -70,17 +71,17 @@ impl Default for TessFuzzOptions {
     }
 }
 
-/// Compares a tessellator with the model on the patch that a fuzzer's bytes stand for.
+/// Compares a tessellator with the model on the patch that a fuzzer's bytes encode.
 ///
-/// Any bytes are a patch of a configuration that the options ask for. Most patches are small, and
-/// boundaries are frequent. Without options (null) the comparison is exact, and every configuration
-/// is asked for.
+/// Any bytes encode a patch of a configuration that the options select. Most patches are small, and
+/// boundary cases are frequent. Without options (null) the comparison is exact, and all
+/// configurations are tested.
 ///
 /// - `TESS_OK`: equal.
 /// - `TESS_LEFT_OUT`: the tessellator does not have the configuration; nothing was compared. Count
-///   these: a run in which every patch is left out shows nothing.
+///   these: a run in which every patch is left out proves nothing.
 /// - `TESS_DIFFERENT`: a finding. `message` receives the case as a line for `tess patch --cases`, a
-///   command that shows the right output, and the first difference. The message ends with a zero
+///   command that shows the correct output, and the first difference. The message ends with a zero
 ///   byte and is cut off at `message_capacity` bytes; 1024 are enough.
 ///
 /// `message` must not overlap `data` (`TESS_OVERLAP`; nothing was compared). This function

@@ -23,7 +23,7 @@ pub unsafe extern "C" fn tess_count(
     factor_count: usize,
     counts: *mut TessCounts,
 ) -> TessStatus {
-    // SAFETY: as this function asks for it.
+    // SAFETY: the requirements are those of this function.
     unsafe {
         types::of_patch((config, factors, factor_count), counts, |patch| Some(patch.counts()))
     }
@@ -35,7 +35,7 @@ pub unsafe extern "C" fn tess_count(
 /// only `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With
 /// any other status nothing is written. Buffers and `counts` must not overlap (`TESS_OVERLAP`). A
 /// buffer of capacity 0 may be null. `TESS_MAX_POINTS` and `TESS_MAX_INDICES` are enough for any
-/// patch. Allocates nothing.
+/// patch. The call does not allocate.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn tess_count(
 /// - `indices` for writing `index_capacity` indices,
 /// - `counts` for writing one structure,
 ///
-/// and no other thread may use the written ones at the same time.
+/// and no other thread may use the memory that is written during the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tess_patch(
     config: *const TessConfig,
@@ -67,8 +67,8 @@ pub unsafe extern "C" fn tess_patch(
             boundary::bytes(counts, 1)?,
         ])?;
         let needed = patch.counts();
-        // SAFETY: writable, as the caller promises, and apart from the indices and `counts`; inputs
-        // were copied, so nothing else is used.
+        // SAFETY: writable, as the caller promises, and apart from the indices and `counts`; the
+        // inputs were copied, so nothing else is read or written.
         let points = unsafe { boundary::room(points, point_capacity) }?;
         // SAFETY: as above.
         let indices = unsafe { boundary::room(indices, index_capacity) }?;

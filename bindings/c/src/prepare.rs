@@ -21,7 +21,7 @@ pub const TESS_AXES_TWO: u32 = 1;
 const REDUCTIONS: [Reduction; 3] = [Reduction::Min, Reduction::Max, Reduction::Average];
 const AXES: [QuadAxes; 2] = [QuadAxes::One, QuadAxes::Two];
 
-/// How the factors of a patch are prepared, in the numbers `TESS_DOMAIN_...` and so on.
+/// The kind of preparation. Each field is one of the constants with the given prefix.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct TessPreparation {
@@ -29,20 +29,20 @@ pub struct TessPreparation {
     pub domain: u32,
     /// `TESS_PARTITIONING_...`
     pub partitioning: u32,
-    /// `TESS_REDUCTION_...`; without effect on isolines, but checked.
+    /// `TESS_REDUCTION_...`; checked on isolines too, where it has no effect.
     pub reduction: u32,
-    /// `TESS_AXES_...`; without effect but on quads, but checked.
+    /// `TESS_AXES_...`; checked on every domain, but has an effect only on quads.
     pub axes: u32,
 }
 
 /// Prepares the factors of one patch, as the HLSL functions `Process...TessFactors` do in Shader
-/// Model 5 (compiler FXC). DXC generates another form, which this library does not have
+/// Model 5 (compiler FXC). DXC compiles them to other operations, which this library does not have
 /// (specification, section 9).
 ///
 /// `requested` holds the outer factors and, in the places of the inside factors, the inside
-/// scales. `unrounded` and `rounded` receive `factor_count` factors each; the rounded ones are
-/// then tessellated. All three may be the same array or overlap: inputs are read first, and
-/// `rounded` is written last.
+/// scales. `unrounded` and `rounded` receive `factor_count` factors each; tessellate the rounded
+/// ones. All three may be the same array or overlap: the input is read first, and `rounded` is
+/// written last.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -80,7 +80,7 @@ pub unsafe extern "C" fn tess_prepare(
 ///
 /// # Safety
 /// - If not null and aligned, `out` points to memory for the factors of the domain that can be
-///   written and that nothing else uses meanwhile.
+///   written and that nothing else uses during the call.
 unsafe fn store(factors: PatchFactors, out: *mut f32) -> Result<(), TessStatus> {
     // SAFETY: as the caller promises.
     let out = unsafe { boundary::room(out, factors.domain().factors()) }?;

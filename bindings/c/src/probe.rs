@@ -24,7 +24,7 @@ pub const TESS_POINT_ORIGIN_LINE: u32 = 1;
 pub const TESS_POINT_ORIGIN_OUTER_EDGE: u32 = 2;
 /// Origin of a point: point `p` of edge `edge` of interior ring `ring`.
 pub const TESS_POINT_ORIGIN_RING: u32 = 3;
-/// Origin of a point: point `p` of the point or row that ends an even interior.
+/// Origin of a point: point `p` of the centre of an even interior, a single point or a row.
 pub const TESS_POINT_ORIGIN_CENTRE: u32 = 4;
 
 /// The origin of a point (specification, section 6). Fields that its kind does not use are 0.
@@ -39,11 +39,11 @@ pub struct TessPointOrigin {
     pub ring: u32,
     /// Number of the edge: U=0, V=0, then W=0 or U=1, V=1.
     pub edge: u32,
-    /// Number of the point in the direction of the walk.
+    /// Number of the point, counted in the direction of the walk.
     pub p: u32,
 }
 
-/// Origin of a primitive: number `step` of point output or of all points joined in order.
+/// Origin of a primitive: number `step` of point output, or of a line through all points in order.
 pub const TESS_PRIMITIVE_ORIGIN_SEQUENCE: u32 = 0;
 /// Origin of a primitive: segment `step` of isoline `line`.
 pub const TESS_PRIMITIVE_ORIGIN_LINE: u32 = 1;
@@ -56,7 +56,7 @@ pub const TESS_PRIMITIVE_ORIGIN_RING: u32 = 4;
 /// Origin of a primitive: triangle `step` inside the innermost ring.
 pub const TESS_PRIMITIVE_ORIGIN_CENTRE: u32 = 5;
 
-/// The origin of a primitive (specification, sections 7, 8). Fields that its kind does not use
+/// The origin of a primitive (specification, sections 7 and 8). Fields that its kind does not use
 /// are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -75,16 +75,17 @@ pub struct TessPrimitiveOrigin {
 
 /// Converts the bits of a binary32 number to an unsigned 15.16 number (specification, section 2).
 ///
-/// To nearest, ties to even; NaN and negative numbers give 0, 2^15 and more 0x7FFFFFFF.
+/// Rounds to nearest, ties to even. NaN and negative numbers give 0; 2^15 and larger numbers give
+/// 0x7FFFFFFF.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_fixed_factor(binary32_bits: u32) -> u32 {
     FixedFactor::from_f32(f32::from_bits(binary32_bits)).to_bits()
 }
 
-/// The context of a 15.16 factor (specification, sections 4 and 10).
+/// Computes the context of a 15.16 factor (specification, sections 4 and 10).
 ///
-/// `parity` is `TESS_PARITY_...`, `split` is `TESS_SPLIT_...`. A factor outside 1..63 (odd) or
-/// 1..64 (even) counts as the nearest end.
+/// `parity_number` is `TESS_PARITY_...`, `split` is `TESS_SPLIT_...`. A factor outside 1..63 (odd)
+/// or 1..64 (even) is clamped to that range.
 ///
 /// # Safety
 /// - `context`, if not null and aligned, must be valid for writing one structure.
@@ -104,10 +105,10 @@ pub unsafe extern "C" fn tess_context(
     })
 }
 
-/// The location of point `p` along an edge with this context (specification, section 5).
+/// Computes the location of point `p` along an edge with this context (specification, section 5).
 ///
-/// `p` is below the context's `points`, else `TESS_OUT_OF_RANGE`. A context that no factor has
-/// gives `TESS_NOT_A_CONTEXT`. `location` is an unsigned 16.16 number, 0..0x10000.
+/// `location` receives an unsigned 16.16 number, 0..0x10000. Returns `TESS_OUT_OF_RANGE` unless `p`
+/// is below the context's `points`, and `TESS_NOT_A_CONTEXT` if no factor has this context.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -130,7 +131,7 @@ pub unsafe extern "C" fn tess_place(
     })
 }
 
-/// Point `i` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
+/// Gets point `i` of a patch, in constant time; `TESS_OUT_OF_RANGE` if there is no such point.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -145,11 +146,12 @@ pub unsafe extern "C" fn tess_point(
     i: u32,
     point: *mut TessPoint,
 ) -> TessStatus {
-    // SAFETY: as this function asks for it.
+    // SAFETY: the requirements are those of this function.
     unsafe { types::of_patch((config, factors, factor_count), point, |patch| patch.point(i)) }
 }
 
-/// Primitive `t` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
+/// Gets primitive `t` of a patch, in constant time; `TESS_OUT_OF_RANGE` if there is no such
+/// primitive.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -164,13 +166,13 @@ pub unsafe extern "C" fn tess_primitive(
     t: u32,
     primitive: *mut TessPrimitive,
 ) -> TessStatus {
-    // SAFETY: as this function asks for it.
+    // SAFETY: the requirements are those of this function.
     unsafe {
         types::of_patch((config, factors, factor_count), primitive, |patch| patch.primitive(t))
     }
 }
 
-/// The origin of point `i` of a patch; `TESS_OUT_OF_RANGE` if it has fewer points.
+/// Gets the origin of point `i` of a patch; `TESS_OUT_OF_RANGE` if there is no such point.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -185,13 +187,13 @@ pub unsafe extern "C" fn tess_locate_point(
     i: u32,
     origin: *mut TessPointOrigin,
 ) -> TessStatus {
-    // SAFETY: as this function asks for it.
+    // SAFETY: the requirements are those of this function.
     unsafe {
         types::of_patch((config, factors, factor_count), origin, |patch| patch.locate_point(i))
     }
 }
 
-/// The origin of primitive `t` of a patch; `TESS_OUT_OF_RANGE` if it has fewer primitives.
+/// Gets the origin of primitive `t` of a patch; `TESS_OUT_OF_RANGE` if there is no such primitive.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -206,7 +208,7 @@ pub unsafe extern "C" fn tess_locate_primitive(
     t: u32,
     origin: *mut TessPrimitiveOrigin,
 ) -> TessStatus {
-    // SAFETY: as this function asks for it.
+    // SAFETY: the requirements are those of this function.
     unsafe {
         types::of_patch((config, factors, factor_count), origin, |patch| patch.locate_primitive(t))
     }

@@ -7,7 +7,7 @@ use tess_core::{ProcessedFactor, ProcessedPatch};
 
 /// The patch is culled: no points, no indices, no processed factors.
 pub const TESS_OUTCOME_CULLED: u32 = 0;
-/// Every factor is one: the minimum patch of one triangle or two.
+/// Every factor is 1: the minimum patch, of one or two triangles.
 pub const TESS_OUTCOME_MINIMUM: u32 = 1;
 /// Every other patch.
 pub const TESS_OUTCOME_REGULAR: u32 = 2;
@@ -32,9 +32,9 @@ pub struct TessProcessedFactor {
 pub struct TessProcessedPatch {
     /// `TESS_OUTCOME_...`
     pub outcome: u32,
-    /// The number of `factors` that are used: 0 if culled, else that of the domain.
+    /// Number of elements of `factors` that are used: 0 if culled, else as many as the domain has.
     pub factor_count: u32,
-    /// The factors in the order of the input; the elements past `factor_count` are zero.
+    /// The factors in the order of the input; elements past `factor_count` are zero.
     pub factors: [TessProcessedFactor; 6],
 }
 

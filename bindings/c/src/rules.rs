@@ -1,4 +1,4 @@
-//! Rules of a standard for a tessellator's output, judged without the model.
+//! The rules that a standard has for the output of a tessellator.
 
 use crate::boundary;
 use crate::device::{Asked, TessDevice, ask, write};
@@ -22,14 +22,14 @@ const SPECIFICATIONS: [Specification; 3] =
 /// Asks a tessellator for the patches of `tess gen --rules`, and judges its outputs by the rules of
 /// a standard.
 ///
-/// `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come
-/// after the 12 671 systematic ones of the standard split order. For Direct3D 11 the model says
-/// where vertices are; for the other standards it is not asked. Patches of configurations that the
-/// tessellator does not have are left out.
+/// `specification` is `TESS_SPECIFICATION_...`. The patches are 12 671 systematic ones in the
+/// standard split order, then `random` patches that depend on `seed`. For Direct3D 11 the correct
+/// locations of vertices come from the model; the other standards are judged without it. Patches of
+/// configurations that the tessellator does not have are left out.
 ///
 /// - `TESS_OK`: no rule is broken.
 /// - `TESS_DIFFERENT`: a rule is broken, or the tessellator failed.
-/// - `TESS_LEFT_OUT`: it has none of the configurations; nothing was judged.
+/// - `TESS_LEFT_OUT`: the tessellator has none of the configurations; nothing was judged.
 ///
 /// `report` receives the text that `tess check --rules` prints: each rule as held, broken or not
 /// exercised, with the smallest patches that break it; or the patch at which the tessellator

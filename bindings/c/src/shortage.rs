@@ -1,4 +1,4 @@
-//! Which buffer was too small.
+//! The buffer that was too small.
 
 use crate::boundary;
 use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_OUT_OF_RANGE, TessStatus, answer};
@@ -11,15 +11,15 @@ pub const TESS_BUFFER_INDICES: u32 = 1;
 /// Buffer: the ranges, one for each patch.
 pub const TESS_BUFFER_RANGES: u32 = 2;
 
-/// A buffer that was too small. Of several it is the first of ranges, points, indices.
+/// A buffer that was too small. If several were, it is the first of ranges, points, indices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TessShortage {
     /// `TESS_BUFFER_...`
     pub buffer: u32,
-    /// The elements that the output needs.
+    /// Number of elements that the output needs.
     pub needed: usize,
-    /// The elements that the buffer had room for: its capacity.
+    /// Number of elements that the buffer had room for: its capacity.
     pub got: usize,
 }
 
@@ -27,8 +27,8 @@ thread_local! {
     static LAST: Cell<Option<TessShortage>> = const { Cell::new(None) };
 }
 
-/// Says which buffer was too small in the calling thread's last call that gave
-/// `TESS_BUFFER_TOO_SMALL`. `TESS_OUT_OF_RANGE` if there was no such call.
+/// Gets the buffer that was too small in the calling thread's last call that returned
+/// `TESS_BUFFER_TOO_SMALL`. Returns `TESS_OUT_OF_RANGE` if there was no such call.
 ///
 /// # Safety
 /// - `shortage`, if not null and aligned, is valid for writing one structure.
@@ -46,7 +46,7 @@ pub(crate) fn check(buffer: u32, needed: usize, got: usize) -> Result<(), TessSt
     if got < needed { Err(report(TessShortage { buffer, needed, got })) } else { Ok(()) }
 }
 
-/// Keeps a shortage for [`tess_shortage`]; gives its status.
+/// Keeps a shortage for [`tess_shortage`] and returns its status.
 pub(crate) fn report(shortage: TessShortage) -> TessStatus {
     LAST.set(Some(shortage));
     TESS_BUFFER_TOO_SMALL

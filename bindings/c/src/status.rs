@@ -2,20 +2,20 @@
 
 use std::ffi::{CStr, c_char};
 
-/// The status that every function returns: `TESS_OK`, or the reason why it did nothing.
+/// The result of a call: `TESS_OK`, or the reason for which it was refused.
 pub type TessStatus = u32;
 
 /// Done.
 pub const TESS_OK: TessStatus = 0;
-/// A pointer that must point somewhere is null.
+/// A required pointer is null.
 pub const TESS_NULL_POINTER: TessStatus = 1;
-/// A pointer is not aligned for what it points to.
+/// A pointer is not aligned for its type.
 pub const TESS_MISALIGNED: TessStatus = 2;
-/// An enumeration (domain, partitioning, ...) has a value that is not listed.
+/// An enumeration (domain, partitioning, ...) has an unknown value.
 pub const TESS_UNKNOWN_VALUE: TessStatus = 3;
-/// The number of factors does not fit the domain: 2 (isoline), 4 (triangle), 6 (quad).
+/// The number of factors does not fit the domain: 2 (isoline), 4 (triangle) or 6 (quad) per patch.
 pub const TESS_WRONG_FACTOR_COUNT: TessStatus = 4;
-/// A buffer is too small. The counts that were asked for have the sizes that are needed, and
+/// A buffer is too small. The call has written the sizes that are needed to its counts, and
 /// `tess_shortage` names the buffer.
 pub const TESS_BUFFER_TOO_SMALL: TessStatus = 5;
 /// The patch or edge has no element with this number, or a number is outside its range.
@@ -24,7 +24,7 @@ pub const TESS_OUT_OF_RANGE: TessStatus = 6;
 pub const TESS_NOT_A_CONTEXT: TessStatus = 7;
 /// Two buffers share memory, and one of them is written.
 pub const TESS_OVERLAP: TessStatus = 8;
-/// A size is larger than memory can be, or a batch has more than 2^32 - 1 points or indices.
+/// A size exceeds the address space, or a batch has more than 2^32 - 1 points or indices.
 pub const TESS_TOO_LARGE: TessStatus = 9;
 /// An index does not fit the index format: use wider indices, or number each patch from 0.
 pub const TESS_INDEX_TOO_LARGE: TessStatus = 10;
@@ -37,7 +37,7 @@ pub const TESS_INTERNAL: TessStatus = 12;
 pub const TESS_DIFFERENT: TessStatus = 13;
 /// Nothing was compared: the tessellator under test does not have the configuration.
 pub const TESS_LEFT_OUT: TessStatus = 14;
-/// The system starts no more threads.
+/// The system refused to start threads.
 pub const TESS_NO_THREADS: TessStatus = 15;
 
 /// Every status with its message, in the order of their numbers.
@@ -70,7 +70,7 @@ pub extern "C" fn tess_status_message(status: TessStatus) -> *const c_char {
     message.copied().unwrap_or(c"unknown status").as_ptr()
 }
 
-/// Does the work of a function and turns its result into the number that C sees.
+/// Runs the body of a function and turns its result into a status.
 pub(crate) fn answer(work: impl FnOnce() -> Result<(), TessStatus>) -> TessStatus {
     match work() {
         Ok(()) => TESS_OK,

@@ -1,9 +1,9 @@
-//! The steps of an engine before tessellation: factors that open no cracks, and tests that cull
+//! Steps of an engine before tessellation: factors that open no cracks, and tests that cull
 //! patches.
 //!
-//! The factor of an edge depends only on data that both patches of the edge share, and is the same
-//! to the bit whichever end comes first. All factors are within 1..=64; NaN gives 1. The formulas
-//! and their sources are `tess-surface`'s.
+//! The factor of an edge depends only on data that both patches of the edge share, and has the same
+//! bits whichever end comes first. All factors are in 1..=64; NaN gives 1. `tess-surface` documents
+//! the formulas and their sources.
 
 use tess_surface::glam::{Mat4, Vec3};
 use tess_surface::{PnCorner, culling, factors};
@@ -76,18 +76,18 @@ pub extern "C" fn tess_edge_by_length(
     factors::edge_by_length([a.into(), b.into()], pixels_per_unit, segment)
 }
 
-/// The factor of an edge beside two edges of half its length, a power of two in 2..=64, from the
-/// factor that a rule has for the whole edge; each half gets half as much. With these both sides
-/// have the same points under integer and power-of-two partitioning. Neighbours must compute both
-/// from the whole edge.
+/// The factor of an edge next to two edges of half its length, from the factor that a rule gives
+/// the whole edge. The result is a power of two in 2..=64, at least the rule's factor. Give the two
+/// short edges half of it: both sides then have the same points under integer and power-of-two
+/// partitioning. Neighbours must compute both factors from the whole edge.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_edge_beside_halves(factor: f32) -> f32 {
     let [whole, _] = factors::edge_beside_halves(factor);
     whole
 }
 
-/// A factor of at most `most`, as HLSL's `maxtessfactor` has it. A factor that culls, 0 or negative
-/// or NaN, still does if `most` is positive.
+/// A factor of at most `most`, like HLSL's `maxtessfactor`. A factor that culls (0, negative or
+/// NaN) still culls if `most` is positive.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_at_most(factor: f32, most: f32) -> f32 {
     factors::at_most(factor, most)
@@ -127,15 +127,15 @@ pub extern "C" fn tess_inside_quad(one: f32, other: f32) -> f32 {
 }
 
 /// Whether a ball is wholly outside one of the six planes of a projection with z from 0 to w, as in
-/// Direct3D, Vulkan, Metal and WebGPU: 1 or 0. The ball must hold the whole patch, including its
-/// displacement. Give a patch that is outside factors of 0.
+/// Direct3D, Vulkan, Metal and WebGPU: 1 or 0. The ball must contain the whole patch, including its
+/// displacement. If the result is 1, give the patch factors of 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_is_outside(clip_from_world: TessMat4, center: TessVec3, radius: f32) -> u32 {
     let matrix = Mat4::from_cols_array(&clip_from_world.columns);
     u32::from(culling::is_outside(&matrix, center.into(), radius))
 }
 
-/// Whether all of a surface faces away from the eye: 1 or 0. The ball holds the surface. Its
+/// Whether all of a surface faces away from the eye: 1 or 0. The surface is inside a ball, and its
 /// normals are within an angle of less than 90 degrees of the unit vector `axis`; `sine` is the
 /// sine of that angle.
 #[unsafe(no_mangle)]

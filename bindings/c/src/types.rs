@@ -18,7 +18,7 @@ pub const TESS_DOMAIN_QUAD: u32 = 2;
 
 /// Partitioning: factors rounded up to integers, 1..64.
 pub const TESS_PARTITIONING_INTEGER: u32 = 0;
-/// Partitioning: as integer; only `tess_prepare` rounds to powers of two.
+/// Partitioning: tessellates as integer; only `tess_prepare` rounds to powers of two.
 pub const TESS_PARTITIONING_POW2: u32 = 1;
 /// Partitioning: an odd number of segments, 1..63.
 pub const TESS_PARTITIONING_FRACTIONAL_ODD: u32 = 2;
@@ -29,9 +29,9 @@ pub const TESS_PARTITIONING_FRACTIONAL_EVEN: u32 = 3;
 pub const TESS_OUTPUT_POINT: u32 = 0;
 /// Output: line segments.
 pub const TESS_OUTPUT_LINE: u32 = 1;
-/// Output: clockwise triangles, seen with v pointing down (lines on an isoline domain).
+/// Output: triangles, clockwise as seen with v pointing down (lines on an isoline domain).
 pub const TESS_OUTPUT_TRIANGLE_CW: u32 = 2;
-/// Output: counter-clockwise triangles (lines on an isoline domain).
+/// Output: triangles, counter-clockwise as seen with v pointing down (lines on an isoline domain).
 pub const TESS_OUTPUT_TRIANGLE_CCW: u32 = 3;
 
 /// Split order: bit-reversed, the standard.
@@ -44,14 +44,14 @@ pub const TESS_PARITY_EVEN: u32 = 0;
 /// Parity: an odd number of segments.
 pub const TESS_PARITY_ODD: u32 = 1;
 
-/// The most points that one patch has.
+/// The largest number of points of a patch.
 pub const TESS_MAX_POINTS: u32 = 4225;
-/// The most indices that one patch has.
+/// The largest number of indices of a patch.
 pub const TESS_MAX_INDICES: u32 = 24576;
-/// The most factors that a patch has.
+/// The largest number of factors of a patch.
 pub const TESS_MAX_FACTORS: u32 = 6;
 
-/// The state of the tessellator, each field one of the constants that it names.
+/// The configuration of a tessellator. Each field is one of the constants with the given prefix.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct TessConfig {
@@ -99,9 +99,9 @@ pub struct TessContext {
     pub inv_ceil: u32,
     /// Weight of the finer subdivision, 16 fraction bits, below 0x10000.
     pub fraction: u32,
-    /// Points on a half edge, the midpoint of an even edge not counted, 1..32.
+    /// Points on a half edge without the midpoint of an even edge, 1..32.
     pub half_points: u32,
-    /// The position on the half edge that is being split off its predecessor.
+    /// The position on the half edge that is splitting; `half_points + 1` if no position splits.
     pub split: u32,
     /// Points on the whole edge, both ends included, 2..65.
     pub points: u32,
@@ -200,7 +200,7 @@ pub(crate) unsafe fn patch(
     Ok(Patch::new(config, factors))
 }
 
-/// Writes what the patch that a caller describes gives; `TESS_OUT_OF_RANGE` if it gives nothing.
+/// Writes `value` of the patch that a caller describes; `TESS_OUT_OF_RANGE` if it is `None`.
 ///
 /// # Safety
 /// - As for [`patch`]; `out`, if not null and aligned, must be valid for writing one structure.

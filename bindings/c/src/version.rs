@@ -1,13 +1,13 @@
-//! Which version of the library this is.
+//! The version of the library.
 
 use std::ffi::c_char;
 
 /// The version as three numbers: `major << 16 | minor << 8 | patch`.
 pub const TESS_VERSION: u32 = 0x0000_0100;
 
-/// The version of the library that is linked, in the form of `TESS_VERSION`.
+/// The version of the linked library, in the form of `TESS_VERSION`.
 ///
-/// A program that was compiled with another header can compare the two.
+/// It differs from `TESS_VERSION` if the program was compiled with the header of another version.
 #[unsafe(no_mangle)]
 pub extern "C" fn tess_version() -> u32 {
     TESS_VERSION

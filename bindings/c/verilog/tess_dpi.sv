@@ -1,10 +1,10 @@
 // The golden tessellator in SystemVerilog: DPI-C imports and typed wrappers.
 //
-// Link the simulation with the library of tess-capi (libtess_capi.a or .so). All numbers cross as
-// `int unsigned`, so that the calls are the same in every simulator: factors as the bits of binary32 or
-// 15.16 numbers, coordinates as 16.16 bits. Only the handle of a held patch is a chandle. Each import
-// returns a status: 0 (TESS_OK), or the reason why its outputs were not written, which
-// tess_status_message() puts in words.
+// Link the simulation with the library of tess-capi (libtess_capi.a or .so). All numbers are passed as
+// `int unsigned`, so that calls are the same in every simulator: factors as the bits of binary32 or
+// 15.16 numbers, coordinates as 16.16 bits. Only the handle of a held patch is a chandle. An import that
+// has outputs returns a status: 0 (TESS_OK), or the reason why its outputs were not written, which
+// tess_status_message() describes.
 //
 // The wrappers below take enumerations and return structures. If the model refuses the arguments, they
 // end the simulation with $fatal and the reason, so that nothing is compared with undefined values.
@@ -21,7 +21,7 @@ package tess_dpi;
     typedef enum int unsigned { EVEN = 0, ODD = 1 } parity_e;
     typedef enum int unsigned { CULLED = 0, MINIMUM = 1, REGULAR = 2 } outcome_e;
 
-    // The tessellator's settings.
+    // The configuration of a tessellator.
     typedef struct {
         domain_e       domain;
         partitioning_e partitioning;
@@ -30,7 +30,7 @@ package tess_dpi;
     } config_t;
 
     // The bits of a patch's binary32 factors, [0] first, in the order of the domain: density, detail;
-    // outer U=0, V=0, W=0, inside; or outer U=0, V=0, U=1, V=1, inside U, V. The rest is ignored.
+    // outer U=0, V=0, W=0, inside; or outer U=0, V=0, U=1, V=1, inside U, V. Further elements are ignored.
     typedef bit [5:0][31:0] factors_t;
 
     // The context of a factor (specification, section 4).
@@ -53,7 +53,7 @@ package tess_dpi;
         int unsigned location;      // mirrored back: 16.16, 0..0x10000
     } placement_t;
 
-    // One factor after factor processing (specification, section 3). Culled: all but outcome are 0.
+    // One factor after factor processing (specification, section 3). If culled, all fields except outcome are 0.
     typedef struct {
         outcome_e    outcome; // of the whole patch
         int unsigned clamped; // binary32 bits
@@ -118,7 +118,7 @@ package tess_dpi;
         output int unsigned size,
         output int unsigned i0, output int unsigned i1, output int unsigned i2);
 
-    // The number of the i-th coverage bin that a patch hits; TESS_OUT_OF_RANGE past the last one.
+    // Gets the number of the i-th coverage bin that a patch hits; TESS_OUT_OF_RANGE past the last one.
     import "DPI-C" function int unsigned tess_dpi_coverage(
         input int unsigned domain, input int unsigned partitioning,
         input int unsigned out, input int unsigned split_order,
@@ -126,7 +126,7 @@ package tess_dpi;
         input int unsigned f3, input int unsigned f4, input int unsigned f5,
         input int unsigned i, output int unsigned bin);
 
-    // One whole patch at a time, held until the next one: for benches that read all of its elements.
+    // A handle holds one patch until the next one is tessellated, for benches that read all of its elements.
     import "DPI-C" function int unsigned tess_dpi_open(
         input int unsigned domain, input int unsigned partitioning,
         input int unsigned out, input int unsigned split_order, output chandle held);
@@ -151,7 +151,7 @@ package tess_dpi;
         if (status != 0) $fatal(1, "tess_dpi: %s: %s", call, tess_status_message(status));
     endfunction
 
-    // The context of a 15.16 factor; a factor out of range counts as the nearest end of the range.
+    // The context of a 15.16 factor. A factor out of range is clamped.
     function automatic context_t model_context(
             input int unsigned factor, input parity_e parity, input split_order_e split_order);
         context_t c;
@@ -239,8 +239,8 @@ package tess_dpi;
         return index;
     endfunction
 
-    // The i-th coverage bin that a patch hits, numbered as in tess_covergroups.svh of tess_uvm; 0 if there
-    // is none.
+    // Gets the i-th coverage bin that a patch hits, numbered as in tess_covergroups.svh of tess_uvm. Returns
+    // 0 if the patch hits no more bins.
     function automatic bit model_coverage(
             input config_t cfg, input factors_t x, input int unsigned i, output int unsigned bin);
         int unsigned status = tess_dpi_coverage(cfg.domain, cfg.partitioning, cfg.out,

@@ -1,8 +1,8 @@
-"""The Python call beside the Rust call: 10000 quads of factor 8 into arrays that are kept.
+"""Compares the Python call with the Rust call: 10000 quads of factor 8 into existing arrays.
 
     python benches/speed.py
 
-The two take turns; each figure is the best of 30 calls in each of 5 turns. It needs cargo.
+The two alternate; each figure is the best of 5 turns of 30 calls each. It needs cargo.
 """
 
 import subprocess

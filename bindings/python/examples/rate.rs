@@ -1,5 +1,5 @@
-//! Times the Rust call that `benches/speed.py` compares the Python call with: seconds for 10000
-//! quads of factor 8 into buffers that are kept, the best of 30.
+//! Times the Rust call with which `benches/speed.py` compares the Python call: seconds for 10000
+//! quads of factor 8 into existing buffers, the best of 30 calls.
 #![expect(clippy::print_stdout, reason = "a program prints its result")]
 
 use std::time::{Duration, Instant};

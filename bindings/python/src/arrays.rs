@@ -14,9 +14,9 @@ use tess_core::{Domain, DomainPoint};
 use tess_simd::PatchRange;
 use tess_verify::Named;
 
-/// The factors of a batch: a copy, so that a thread that writes to the array meanwhile changes
-/// nothing. Errors: nothing of shape (patches, factors of the domain): floats that are binary32
-/// numbers exactly, or uint32 (bit patterns). Other integers are refused: they could be either.
+/// A copy of the factors of a batch, so that other threads may write to the array meanwhile. It has
+/// the shape (patches, factors of the domain), and is of floats that are exactly binary32 numbers,
+/// or of uint32 (bit patterns). Errors: any other array; other integers could be either.
 pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
     let factors = domain.factors();
     let wrong = |found: String| {
@@ -56,15 +56,15 @@ pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<
     }
 }
 
-/// The binary32 number that this is, if it is one; a NaN may lose its payload.
+/// The number as a binary32 number, if it is exactly one; a NaN may lose its payload.
 #[expect(clippy::cast_possible_truncation, reason = "what is lost is looked for")]
 fn narrowed(factor: f64) -> Option<f32> {
     let narrow = factor as f32;
     (factor.is_nan() || f64::from(narrow).to_bits() == factor.to_bits()).then_some(narrow)
 }
 
-/// Integers as uint32: an array of any integer type, or what numpy makes one of, if nothing is
-/// lost. Errors: something else than integers, or one that is negative or 2**32 and more.
+/// Integers as uint32, from an array of any integer type or a value that numpy converts to one.
+/// Errors: anything other than integers, or an integer outside 0..2**32 - 1.
 pub(crate) fn exact_words<'py>(
     what: &str,
     integers: &Bound<'py, PyAny>,
@@ -89,8 +89,8 @@ pub(crate) fn exact_words<'py>(
     Ok(words.cast_into()?)
 }
 
-/// The elements in a new vector. Errors: `MemoryError`: a broadcast array can have more elements
-/// than there is memory.
+/// The elements in a new vector. Errors: `MemoryError`, because a broadcast array can have more
+/// elements than memory can hold.
 pub(crate) fn copied<T>(elements: impl ExactSizeIterator<Item = T>) -> PyResult<Vec<T>> {
     let mut copy = Vec::new();
     copy.try_reserve_exact(elements.len()).map_err(|_| {
@@ -109,7 +109,7 @@ pub(crate) fn zeros<'py, T: Element, D: Dimension>(
     Ok(made.cast_into()?)
 }
 
-/// Refuses numpy's masked arrays, whose mask would be lost. Errors: the array is one.
+/// Refuses numpy's masked arrays, whose mask would be lost. Errors: the array is masked.
 pub(crate) fn refuse_masked(what: &str, array: &Bound<'_, PyAny>) -> PyResult<()> {
     if array.hasattr("mask")? && array.hasattr("filled")? {
         return Err(argument(format!(
@@ -124,8 +124,8 @@ pub(crate) fn described(array: &Bound<'_, PyUntypedArray>) -> String {
     format!("{} of shape {:?}", array.dtype(), array.shape())
 }
 
-/// An array of `out`, which is C-contiguous (see [`addresses`]), to be written as one slice.
-/// Errors: it is read-only, misaligned, or borrowed by another call.
+/// An array of `out` as one slice to write. It is C-contiguous (see [`addresses`]). Errors: it is
+/// read-only, misaligned, or borrowed by another call.
 pub(crate) fn writable<'py, T: Element, D: Dimension>(
     what: &str,
     array: &Bound<'py, PyArray<T, D>>,
@@ -139,8 +139,8 @@ pub(crate) fn writable<'py, T: Element, D: Dimension>(
     })
 }
 
-/// The addresses that an array of `out` covers. Errors: it is not C-contiguous: its elements may
-/// lie before its first one, and apart.
+/// The addresses that an array of `out` covers. Errors: it is not C-contiguous, so its elements may
+/// have gaps between them or precede the first one.
 pub(crate) fn addresses<T: Element, D: Dimension>(
     what: &str,
     array: &Bound<'_, PyArray<T, D>>,
@@ -157,12 +157,12 @@ pub(crate) fn overlap(one: &Range<usize>, other: &Range<usize>) -> bool {
     one.start.max(other.start) < one.end.min(other.end)
 }
 
-/// Points as a new array, a row each.
+/// A new array with a row for each point.
 pub(crate) fn fixed_array<'py>(py: Python<'py>, points: &[DomainPoint]) -> Array2<'py, u32> {
     rows_of(py, points, |point| [point.u.to_bits(), point.v.to_bits()])
 }
 
-/// A new array of what each point gives, a row each.
+/// A new array with a row of values for each point.
 ///
 /// # Panics
 /// Never: each row has two elements.

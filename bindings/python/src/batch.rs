@@ -15,18 +15,20 @@ use tess_simd::{BatchCounts, Numbering, OutputPoint, PatchRange};
 use tess_verify::Named;
 use work::{ArrayRoom, BatchSizes, BatchWork, How};
 
-/// Tessellates batches in one configuration, on the CPU's vector units.
+/// A tessellator for batches in one configuration, on the CPU's vector units.
 ///
-/// Making the first one of a configuration takes about a millisecond, others a microsecond. Any
-/// number of threads may use it at a time; its knowledge of patches takes up to 1.2 MB for each of
-/// them. The interpreter's lock is not held.
+/// The first tessellator of a configuration takes about a millisecond to make, later ones a
+/// microsecond. A tessellator learns from patches, so keep it. Any number of threads may use it at
+/// the same time; each takes up to 1.2 MB of memory. Calls release the interpreter's lock.
 ///
-/// Args: partitioning, output, split: As for :class:`Patch`. threads: The number of threads that
-/// write a batch, 1..256. The output does not depend on it. A forked child starts its own threads.
+/// Args:
+///     partitioning, output, split: As for :class:`Patch`.
+///     threads: The number of threads that write a batch, 1..256. The output does not depend on it.
+///         A forked child starts its own threads.
 ///
 /// Raises:
-///     ArgumentError: Wrong names, or another number of threads.
-///     TessError: The system starts no threads.
+///     ArgumentError: Unknown names, or a number of threads outside 1..256.
+///     TessError: The system refused to start threads.
 ///
 /// A tessellator can be pickled and copied: the copy has the same settings and its own memory.
 ///
@@ -42,7 +44,7 @@ pub(crate) struct Tessellator {
     config: Config,
     threads: usize,
     level: tess_simd::Level,
-    /// Those that no call uses now.
+    /// Those that are not in use by a call.
     idle: Mutex<Vec<tess_simd::Tessellator>>,
 }
 
@@ -69,7 +71,7 @@ impl Tessellator {
         Ok(Self { config, threads, level: first.level(), idle: Mutex::new(vec![first]) })
     }
 
-    /// The CPU level in use: ``baseline``, ``avx2`` or ``avx512``. All give the same bits.
+    /// The CPU level in use: ``baseline``, ``avx2`` or ``avx512``. All produce the same bits.
     #[getter]
     fn level(&self) -> &'static str {
         self.level.name()
@@ -98,7 +100,7 @@ impl Tessellator {
         (py.get_type::<Self>(), arguments)
     }
 
-    /// The sizes of a batch's output, :class:`BatchCounts`: the room that ``out`` needs.
+    /// Computes the sizes of a batch's output, :class:`BatchCounts`: the room that ``out`` needs.
     fn count<'py>(
         &self,
         py: Python<'py>,
@@ -116,21 +118,28 @@ impl Tessellator {
 
     /// Tessellates a batch into a :class:`Batch`.
     ///
-    /// Args: domain: ``isoline``, ``tri`` or ``quad``. factors: Array of shape (patches, k), k
-    /// being 2, 4 or 6: raw factors in the order of :class:`Patch`, outer then inside, float32, or
-    /// uint32 for their bit patterns. Any strides. points: ``float32`` or ``fixed``
-    /// (uint32, 16.16); both exact. indices: ``uint32`` or ``uint16``. With ``base_vertex`` 16 bits
-    /// number 65536 points; the last index, 65535, restarts primitives in WebGL 2 and wherever
-    /// primitive restart is on. base_vertex: ``None`` if the indices of each patch count from its
-    /// own first point; a number if they count through the batch, whose first point has that
-    /// number. out: Arrays (points, indices) or (points, indices, ranges) to write instead of new
-    /// ones: C-contiguous, of shapes (>= points, 2), (>= indices,) and (>= patches, 4). Their types
-    /// are the formats. The result has views of them; elements past the output keep their values.
+    /// Args:
+    ///     domain: ``isoline``, ``tri`` or ``quad``.
+    ///     factors: Array of shape (patches, k), where k is 2, 4 or 6: raw factors in the order of
+    ///         :class:`Patch`, outer then inside. Either float32 (other floats must be exactly
+    ///         binary32 numbers), or uint32 bit patterns. Any strides.
+    ///     points: ``float32`` or ``fixed`` (uint32, 16.16); both are exact.
+    ///     indices: ``uint32`` or ``uint16``. With ``base_vertex``, 16 bits number 65536 points;
+    ///         the last index, 65535, restarts primitives in WebGL 2 and wherever primitive restart
+    ///         is on.
+    ///     base_vertex: ``None`` to count the indices of each patch from its own first point; a
+    ///         number to count through the batch, whose first point has that number.
+    ///     out: Arrays (points, indices) or (points, indices, ranges) to write to instead of new
+    ///         ones: C-contiguous, of shapes (>= points, 2), (>= indices,) and (>= patches, 4).
+    ///         Their types are the formats. The result has views of them; elements past the output
+    ///         keep their values.
     ///
-    /// Raises: ArgumentError: Wrong names or factors; indices that do not fit 16 bits; more than
-    /// 2**32 - 1 points or indices. OutputError: An array of ``out`` cannot be written. Nothing was
-    /// written. KeyboardInterrupt: Or another exception of a signal handler; a part of ``out`` may
-    /// be written then.
+    /// Raises:
+    ///     ArgumentError: Unknown names; factors of another shape or type; indices that do not fit
+    ///         16 bits; more than 2**32 - 1 points or indices.
+    ///     OutputError: An array of ``out`` cannot be written. Nothing was written.
+    ///     KeyboardInterrupt: Or another exception of a signal handler. A part of ``out`` may have
+    ///         been written.
     #[pyo3(signature = (domain, factors, *, points = "float32", indices = "uint32",
         base_vertex = None, out = None))]
     #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
@@ -169,7 +178,7 @@ impl Tessellator {
 type TessellatorArguments = (&'static str, &'static str, &'static str, usize);
 
 impl Tessellator {
-    /// Lends a tessellator that no other call uses. Errors: those of `borrow`.
+    /// Lends a tessellator that no other call is using. Errors: those of `borrow`.
     fn with<T>(
         &self,
         borrow: impl FnOnce(&mut tess_simd::Tessellator) -> PyResult<T>,
@@ -198,7 +207,7 @@ fn of<const N: usize, T: From<[f32; N]>>(flat: &[f32]) -> PyResult<Vec<T>> {
     arrays::copied(flat.as_chunks::<N>().0.iter().map(|factors| T::from(*factors)))
 }
 
-/// Patches of one domain in the layout that is the fastest.
+/// Patches of one domain in the fastest layout.
 enum BatchPatches {
     Isolines(Vec<IsolineFactors>),
     Triangles(Vec<TriangleFactors>),
@@ -227,7 +236,7 @@ enum Indices<'py> {
     Short(Array1<'py, u16>),
 }
 
-/// Does the same with an array of whatever format.
+/// Does the same with an array of any format.
 macro_rules! each {
     ($value:expr, $kind:ident::{$one:ident, $other:ident}, $array:ident => $work:expr) => {
         match $value {
@@ -237,7 +246,7 @@ macro_rules! each {
     };
 }
 
-/// Arrays that a batch is written to.
+/// The arrays to which a batch is written.
 struct Arrays<'py> {
     points: Points<'py>,
     indices: Indices<'py>,
@@ -346,7 +355,7 @@ impl<'py> Arrays<'py> {
         })
     }
 
-    /// The written elements, as views where the arrays are larger.
+    /// The written elements, as views if the arrays are larger.
     fn result(self, py: Python<'py>, counts: BatchCounts) -> PyResult<Bound<'py, PyAny>> {
         let points = each!(self.points, Points::{Float, Fixed}, array => array.into_any());
         let indices = each!(self.indices, Indices::{Long, Short}, array => array.into_any());
@@ -374,7 +383,7 @@ fn rows<'py, T: numpy::Element>(
     (array.shape()[1] == columns).then(|| array.clone())
 }
 
-/// The error of an array that is of another type or shape.
+/// The error of an array that has another type or shape.
 fn wrong(array: &PyResult<Bound<'_, PyAny>>, what: &str, expected: &str) -> PyErr {
     let found = array.as_ref().ok().map(|array| match array.cast::<PyUntypedArray>() {
         Ok(array) => described(array),

@@ -15,14 +15,14 @@ use tess_verify::cover::Exclusions;
 use tess_verify::generate::configurations_among;
 use tess_verify::{Case, Named};
 
-/// How many patches are taken from the interpreter before they are counted.
+/// The number of patches that are taken from the interpreter before they are counted.
 const RECORDED_TOGETHER: usize = 4096;
 
-/// Which of the specification's cases were hit, and how often.
+/// Counts of how often each of the specification's cases was hit.
 ///
 /// A bin is a path such as ``middle/ruler/oddxeven``; its first part is its group. All bins are
-/// declared, so that each missed one has a name. Any number of threads may count. It can be pickled
-/// and copied.
+/// declared, so that each missed one has a name. Any number of threads may record patches. Coverage
+/// can be pickled and copied.
 ///
 /// >>> from tess_model import Coverage, Patch
 /// >>> coverage = Coverage()
@@ -34,7 +34,7 @@ const RECORDED_TOGETHER: usize = 4096;
 #[derive(Default)]
 pub(crate) struct Coverage(Arc<Mutex<tess_verify::cover::Coverage>>, Arc<Mutex<Option<Case>>>);
 
-/// What is pickled: UCIS XML, and the line of the case that was recorded last.
+/// The pickled state: UCIS XML, and the line of the case that was recorded last.
 type CoverageState = (String, Option<String>);
 
 #[pymethods]
@@ -44,8 +44,8 @@ impl Coverage {
         Self::default()
     }
 
-    /// Counts the bins that one patch or several patches hit. Returns the number of bins that were
-    /// hit for the first time, so that a bench can choose the patches that are worth their clocks.
+    /// Records the bins that one or several patches hit. Returns the number of bins that were hit
+    /// for the first time, so that a bench can choose the patches that are worth simulating.
     fn record(&self, py: Python<'_>, patches: &Bound<'_, PyAny>) -> PyResult<usize> {
         if let Ok(patch) = patches.cast::<Patch>() {
             return Ok(self.record_cases(&[patch.get().case]));
@@ -65,9 +65,8 @@ impl Coverage {
         }
     }
 
-    /// Counts the bins of one factor's context, those of the groups ``context`` and
-    /// ``exceptional``, for the bench of a stage that sees no patch. The arguments are those of
-    /// :func:`context`.
+    /// Records the bins of one factor's context, in the groups ``context`` and ``exceptional``, for
+    /// the bench of a stage that does not see patches. The arguments are those of :func:`context`.
     #[pyo3(signature = (factor, parity, split_order = "ruler"))]
     fn record_context(
         &self,
@@ -80,14 +79,14 @@ impl Coverage {
         Ok(())
     }
 
-    /// Adds to the hits of one bin.
+    /// Adds ``hits`` to the hits of one bin.
     #[pyo3(signature = (bin, hits = 1))]
     fn add(&self, bin: &str, #[pyo3(from_py_with = whole)] hits: u64) -> PyResult<()> {
         let found = self.lock().add(bin, hits);
         if found { Ok(()) } else { Err(argument(format!("there is no bin {bin:?}"))) }
     }
 
-    /// Adds the hits of another coverage, such as another shard's.
+    /// Adds the hits of another coverage, such as that of another shard.
     fn merge(&self, other: &Self) {
         let other = other.lock().clone();
         self.lock().merge(&other);
@@ -119,9 +118,10 @@ impl Coverage {
 
     /// The bins that were never hit and are not excluded, in alphabetical order.
     ///
-    /// Args: exclude: Patterns of bins that cannot be hit, such as the result of
-    /// :func:`exclusions`: a bin's path or its first parts, each of which may be ``*``. The lines
-    /// of a file are accepted: the text after a ``#`` is ignored.
+    /// Args:
+    ///     exclude: Patterns of bins that cannot be hit, such as the result of :func:`exclusions`.
+    ///         A pattern is a bin's path or its first parts, each of which may be ``*``. It may be
+    ///         a line of a file: the text after a ``#`` is ignored.
     #[pyo3(signature = (exclude = None))]
     fn holes(&self, exclude: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         let exclusions = patterns(exclude)?;
@@ -129,7 +129,7 @@ impl Coverage {
     }
 
     /// The text report of ``tess coverage``: a line for each group, by stage of the specification,
-    /// then every hole. ``exclude`` is as in :meth:`holes`.
+    /// then every hole. ``exclude`` is that of :meth:`holes`.
     #[pyo3(signature = (exclude = None))]
     fn report(&self, exclude: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
         let exclusions = patterns(exclude)?;
@@ -203,8 +203,9 @@ impl Coverage {
 /// The bins that no patch of a device's configurations can hit, for ``exclude`` of
 /// :meth:`Coverage.report`.
 ///
-/// Args: domain, partitioning, output, split: The device's configurations, a name or several;
-/// ``None``: all.
+/// Args:
+///     domain, partitioning, output, split: The device's configurations: one name, several names,
+///         or ``None`` for all.
 ///
 /// >>> import tess_model
 /// >>> bins = tess_model.exclusions(domain=["tri", "quad"], partitioning="integer")
@@ -224,13 +225,13 @@ pub(crate) fn exclusions(
     Ok(Exclusions::outside(has).bins().map(str::to_owned).collect())
 }
 
-/// The values of a name or of several; none for `None`.
+/// The values of one or several names; an empty list for `None`.
 fn names<T: Named>(argument: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<T>> {
     let Some(argument) = argument else { return Ok(Vec::new()) };
     strings(argument)?.iter().map(|name| named(name)).collect()
 }
 
-/// A text, or the texts of an iterable.
+/// One text, or the texts of an iterable.
 fn strings(argument: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
     if let Ok(one) = argument.extract::<String>() {
         return Ok(vec![one]);
@@ -251,8 +252,8 @@ impl Coverage {
         Self(Arc::clone(&self.0), Arc::clone(&self.1))
     }
 
-    /// Counts the bins that patches hit, which follow those that were recorded last; gives how many
-    /// of the bins were hit for the first time.
+    /// Records the bins that patches hit, which follow the patch that was recorded last. Returns
+    /// the number of bins that were hit for the first time.
     fn record_cases(&self, cases: &[Case]) -> usize {
         let mut coverage = self.lock();
         let mut before = self.1.lock().unwrap_or_else(PoisonError::into_inner);
@@ -262,7 +263,7 @@ impl Coverage {
         missed - coverage.missed().count()
     }
 
-    /// The coverage, alone; nothing waits for the interpreter while it holds this.
+    /// Locks the coverage. The holder never waits for the interpreter.
     pub(crate) fn lock(&self) -> MutexGuard<'_, tess_verify::cover::Coverage> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

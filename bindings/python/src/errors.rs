@@ -10,7 +10,7 @@ pyo3::import_exception!(tess_model.errors, OutputError);
 pyo3::import_exception!(tess_model.errors, FileFormatError);
 pyo3::import_exception!(tess_model.errors, TessError);
 
-/// An argument that stands for nothing.
+/// An argument without a meaning.
 pub(crate) fn argument(message: impl Display) -> PyErr {
     ArgumentError::new_err(message.to_string())
 }
@@ -30,7 +30,7 @@ pub(crate) fn no_such_element(message: impl Display) -> PyErr {
     NoSuchElementError::new_err(message.to_string())
 }
 
-/// Why a check gave no verdict.
+/// The reason why a check has no verdict.
 pub(crate) fn check(error: CheckError) -> PyErr {
     match error {
         CheckError::Vectors(error) | CheckError::Malformed { error, .. } => file_format(error),
@@ -39,12 +39,12 @@ pub(crate) fn check(error: CheckError) -> PyErr {
     }
 }
 
-/// Why threads cannot be started.
+/// The reason why threads cannot be started.
 pub(crate) fn threads(error: tess_simd::ThreadsError) -> PyErr {
     TessError::new_err(error.to_string())
 }
 
-/// Why a batch was refused.
+/// The reason why a batch was refused.
 pub(crate) fn batch(error: tess_simd::Error) -> PyErr {
     match error {
         tess_simd::Error::BufferTooSmall { .. } => output(error),

@@ -1,12 +1,13 @@
 //! The Python package `tess-model`: the model, its batches and its verification kit as Python
 //! objects.
 //!
-//! `patch` is one patch, `batch` many; `stages` single numbers of one stage; `vectors`, `rules` and
-//! `coverage` the verification kit. `names` and `arrays` turn arguments into the libraries' types,
-//! `values` makes the named tuples of `python/tess_model/values.py`, `errors` the exceptions;
-//! `signals` lets Ctrl-C end what takes long.
+//! `patch` has one patch, `batch` many patches, and `stages` single numbers of one stage.
+//! `vectors`, `rules` and `coverage` are the verification kit. `names` and `arrays` convert
+//! arguments to the libraries' types; `values` makes the named tuples of
+//! `python/tess_model/values.py`, and `errors` the exceptions. `signals` lets Ctrl-C end long
+//! calls.
 //!
-//! Nothing here holds the interpreter's lock while it tessellates or compares.
+//! The interpreter's lock is never held during tessellation or comparison.
 
 mod arrays;
 mod batch;

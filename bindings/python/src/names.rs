@@ -43,15 +43,15 @@ pub(crate) fn factors(domain: Domain, outer: &[f32], inner: &[f32]) -> PyResult<
     PatchFactors::from_slice(domain, &[outer, inner].concat()).ok_or_else(wrong)
 }
 
-/// One factor or several, as binary32 rounded to the nearest. Errors: something else than a number,
-/// a sequence of numbers or an array.
+/// One factor or several, rounded to the nearest binary32. Errors: anything other than a number, a
+/// sequence of numbers or an array.
 #[expect(clippy::cast_possible_truncation, reason = "to the nearest binary32, as documented")]
 pub(crate) fn floats(factors: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
     let all: Vec<f64> = one_or_many(factors, "numbers")?;
     Ok(all.into_iter().map(|factor| factor as f32).collect())
 }
 
-/// One factor or several, from the bits of binary32 numbers. Errors: something else than an integer
+/// One factor or several, from the bits of binary32 numbers. Errors: anything other than an integer
 /// below 2^32, a sequence of such integers or an array.
 pub(crate) fn bits(factors: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
     let all: Vec<u32> = one_or_many(factors, "integers from 0 to 2**32 - 1")?;
@@ -72,7 +72,7 @@ where
     found.ok_or_else(|| argument(format!("factors are {what}, not {}", shown(factors))))
 }
 
-/// A value for a message: as Python shows it, if that is short.
+/// A value in a message: as Python shows it, if that is short.
 fn shown(value: &Bound<'_, PyAny>) -> String {
     let repr = value.repr().map(|repr| repr.to_string()).unwrap_or_default();
     match repr.chars().count() {
@@ -81,7 +81,7 @@ fn shown(value: &Bound<'_, PyAny>) -> String {
     }
 }
 
-/// A whole number of the range of `T`, for arguments. Errors: any other value.
+/// An argument as a whole number in the range of `T`. Errors: any other value.
 pub(crate) fn whole<T>(value: &Bound<'_, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObjectOwned<'a>,
@@ -92,7 +92,7 @@ where
     })
 }
 
-/// The same, or `None`. Errors: as for [`whole`].
+/// An argument like that of [`whole`], or `None`. Errors: those of [`whole`].
 pub(crate) fn whole_or_none<T>(value: &Bound<'_, PyAny>) -> PyResult<Option<T>>
 where
     T: for<'a> FromPyObjectOwned<'a>,

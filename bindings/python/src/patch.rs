@@ -1,4 +1,4 @@
-//! One patch, with everything that the model knows of it.
+//! One patch, with everything that the model knows about it.
 
 use crate::errors::{argument, no_such_element};
 use crate::names::{bits, case, config, factors, floats, named, whole, whole_or_none};
@@ -17,12 +17,15 @@ use tess_verify::{Case, Named};
 
 /// One patch: a configuration and raw factors, and the model's results for them.
 ///
-/// Args: domain: ``isoline``, ``tri`` or ``quad``. outer: The outer factors, floats: density,
-/// detail (isoline); u0, v0, w0 (tri); u0, v0, u1, v1 (quad). Each is rounded to the nearest
-/// binary32; any value is valid, including NaN. inner: The inside factors: none (isoline), one or a
-/// plain number (tri), along u and along v (quad). partitioning: ``integer``, ``pow2``,
-/// ``fractional_odd`` or ``fractional_even``. output: ``point``, ``line``, ``triangle_cw`` or
-/// ``triangle_ccw``. split: ``ruler`` (the standard) or ``center``.
+/// Args:
+///     domain: ``isoline``, ``tri`` or ``quad``.
+///     outer: The outer factors, floats: density, detail (isoline); u0, v0, w0 (tri); u0, v0, u1,
+///         v1 (quad). Each is rounded to the nearest binary32; any value is valid, including NaN.
+///     inner: The inside factors: none (isoline), a number or a sequence of one (tri), along u and
+///         along v (quad).
+///     partitioning: ``integer``, ``pow2``, ``fractional_odd`` or ``fractional_even``.
+///     output: ``point``, ``line``, ``triangle_cw`` or ``triangle_ccw``.
+///     split: ``ruler`` (the standard) or ``center``.
 ///
 /// Raises:
 ///     ArgumentError: An unknown name, or a wrong number of factors.
@@ -56,8 +59,8 @@ impl Patch {
         Self::of(domain, &floats(outer)?, &inner, config(partitioning, output, split)?)
     }
 
-    /// The patch whose factors have these binary32 bit patterns: like the constructor, with
-    /// integers below 2**32 as factors.
+    /// Makes a patch from the binary32 bit patterns of its factors: like the constructor, but with
+    /// integers below 2**32.
     ///
     /// >>> from tess_model import Patch
     /// >>> Patch.from_bits("isoline", [0x40000000, 0x7fc00000]).kind
@@ -77,8 +80,9 @@ impl Patch {
         Self::of(domain, &bits(outer)?, &inner, config(partitioning, output, split)?)
     }
 
-    /// The patch of a case line, the form of vector files and of :attr:`case`:
-    /// ``case DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...``, each factor 8 hex digits of its bits.
+    /// Makes a patch from a case line, the form of vector files and of :attr:`case`:
+    /// ``case DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...``, each factor as the 8 hex digits of its
+    /// bits.
     #[staticmethod]
     fn from_case(line: &str) -> PyResult<Self> {
         Ok(Self { case: case(line)? })
@@ -184,13 +188,13 @@ impl Patch {
         PyArray1::from_vec(py, indices).reshape([primitives, size])
     }
 
-    /// Point ``i`` as (u, v), 16.16 integers, in constant time.
+    /// Computes point ``i`` as (u, v), 16.16 integers, in constant time.
     fn point(&self, #[pyo3(from_py_with = whole)] i: u32) -> PyResult<(u32, u32)> {
         let point = self.case.patch().point(i).ok_or_else(|| self.missing(Part::Point(i)))?;
         Ok((point.u.to_bits(), point.v.to_bits()))
     }
 
-    /// Primitive ``t`` as its 1, 2 or 3 indices, in constant time.
+    /// Computes the 1, 2 or 3 indices of primitive ``t`` in constant time.
     fn primitive<'py>(
         &self,
         py: Python<'py>,
@@ -223,9 +227,9 @@ impl Patch {
         values::primitive_origin(py, origin)
     }
 
-    /// The location of point ``p`` of an edge with a factor of this patch, with every step:
-    /// :class:`Placement`. ``factor`` is a name as in :attr:`processed`; ``p`` is below the
-    /// ``points`` of its context.
+    /// Computes the location of point ``p`` of an edge with a factor of this patch, with every
+    /// step: a :class:`Placement`. ``factor`` is a name as in :attr:`processed`; ``p`` is less than
+    /// the ``points`` of its context.
     fn place<'py>(
         &self,
         py: Python<'py>,
@@ -255,8 +259,8 @@ impl Patch {
         Ok(self.report(part(point, primitive, factor)?)?.0)
     }
 
-    /// Compares a circuit's signals for a point, a primitive, a factor or (without any of these)
-    /// the patch's counts with the model. Returns a :class:`SignalDifference` for each signal that
+    /// Compares a circuit's signals with the model, for a point, a primitive, a factor or (without
+    /// any of these) the patch's counts. Returns a :class:`SignalDifference` for each signal that
     /// differs, in the order of the data flow. ``observed`` maps signal names, which ``tess
     /// explain --help`` lists, to values.
     ///
@@ -306,10 +310,10 @@ impl Patch {
         py.import("json")?.getattr("loads")?.call1((json,))
     }
 
-    /// The patch as an SVG picture.
+    /// Draws the patch as an SVG picture.
     ///
     /// Args:
-    ///     indices: Number the points.
+    ///     indices: Whether to number the points.
     ///     colours: ``plain``; ``order``, which also numbers the primitives; or ``rings``.
     ///     size: Width and height in pixels, 64..8192.
     #[pyo3(signature = (*, indices = false, colours = "plain", size = 800))]
@@ -411,7 +415,7 @@ impl Patch {
     }
 }
 
-/// The element that is asked for.
+/// The requested element.
 fn part(point: Option<u32>, primitive: Option<u32>, factor: Option<u32>) -> PyResult<Part> {
     match (point, primitive, factor) {
         (None, None, None) => Ok(Part::Patch),

@@ -1,4 +1,4 @@
-//! Rules of a standard for output, judged without the model.
+//! The rules that a standard has for the output of a tessellator.
 
 use crate::errors::{self, argument, file_format};
 use crate::names::named;
@@ -16,11 +16,13 @@ use tess_verify::vectors::{Kind, Record};
 /// Judges outputs by the rules of a standard, without the model (docs/rules.md).
 ///
 /// Args:
-///     answers: As for :func:`check_device`; or the path of a file of listings.
+///     answers: As for :func:`check_device`, or the path of a file of listings.
 ///     specification: ``vulkan``, ``opengl`` or ``d3d11``.
 ///
-/// Returns: A :class:`RulesReport`. ``generate(rules=True, split="ruler")`` gives patches that
-/// exercise every rule.
+/// Returns:
+///     A :class:`RulesReport`.
+///
+/// ``generate(rules=True, split="ruler")`` makes patches that exercise every rule.
 ///
 /// >>> from tess_model import Patch, check_rules
 /// >>> patch = Patch.from_bits("isoline", [0x3f800000, 0x40400001], partitioning="fractional_odd", output="line")

@@ -1,5 +1,5 @@
-//! Signals such as Ctrl-C: Python handles them between its own steps, so what takes long asks for
-//! them.
+//! Signals such as Ctrl-C. Python handles them only between its own steps, so long calls must ask
+//! for them.
 
 use crate::errors::TessError;
 use pyo3::prelude::*;
@@ -10,14 +10,14 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// How many steps of a loop go by between two looks.
+/// The number of steps of a loop between two checks for signals.
 pub(crate) const STEPS: u32 = 256;
-/// How long a call waits for its thread between two looks.
+/// The time that a call waits for its thread between two checks for signals.
 const PATIENCE: Duration = Duration::from_millis(20);
-/// How long a call that is interrupted waits for its thread to end.
+/// The time that an interrupted call waits for its thread to end.
 const GRACE: Duration = Duration::from_millis(500);
 
-/// Looks for signals in a loop that runs without the interpreter.
+/// Checks for signals in a loop that runs without the interpreter.
 #[derive(Default)]
 pub(crate) struct Watch {
     steps: u32,
@@ -25,7 +25,7 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// Whether the loop is to go on: no handler of a signal has raised an exception.
+    /// Whether the loop may continue: no signal handler has raised an exception.
     pub(crate) fn goes_on(&mut self) -> bool {
         self.steps += 1;
         if self.steps.is_multiple_of(STEPS) && self.raised.is_none() {
@@ -40,10 +40,10 @@ impl Watch {
     }
 }
 
-/// The exception that a signal's handler raised, if one did.
+/// The exception that a signal handler raised, if one did.
 pub(crate) type Raised = Arc<Mutex<Option<PyErr>>>;
 
-/// A file whose reader or writer can be interrupted, also while it waits for a pipe.
+/// A file whose reader or writer can be interrupted, even while it waits for a pipe.
 pub(crate) struct Watched {
     file: File,
     stop: Arc<AtomicBool>,
@@ -56,7 +56,7 @@ impl Watched {
         Self { file, stop, raised: Arc::default() }
     }
 
-    /// Where the exception will be that a handler raised while this was read.
+    /// The place of an exception that a signal handler raises while this is read.
     pub(crate) fn raised(&self) -> Raised {
         Arc::clone(&self.raised)
     }
@@ -97,10 +97,10 @@ impl Read for Watched {
     }
 }
 
-/// Does work on another thread while this one looks for signals. If a handler raises, the flag that
-/// `work` got is set. Work that looks at it has ended when this returns; a thread that waits for a
-/// pipe, perhaps for ever, is left to end by itself. Errors: a signal handler's error; no thread
-/// can be started; the work panicked.
+/// Runs `work` on another thread while this one checks for signals. If a handler raises an
+/// exception, the flag that was passed to `work` is set. Work that checks the flag has ended when
+/// this returns; a thread that waits for a pipe, perhaps for ever, is left to end by itself.
+/// Errors: a signal handler's exception; no thread can be started; the work panicked.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(Arc<AtomicBool>) -> T + Send + 'static,
@@ -109,7 +109,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     let (give, take) = sync_channel(1);
     let take = Mutex::new(take);
     let own = Arc::clone(&stop);
-    // Nobody takes the result of work that was interrupted.
+    // The result of interrupted work is not received.
     let run = move || _ = give.send(work(own));
     let started = std::thread::Builder::new().spawn(run);
     started.map_err(|error| TessError::new_err(format!("a thread cannot be started: {error}")))?;

@@ -12,7 +12,7 @@ use tess_core::{
 };
 
 /// The context of a 15.16 factor. Errors: an unknown name, or a factor that factor processing never
-/// gives to this parity.
+/// produces with this parity.
 pub(crate) fn factor_context(
     factor: u32,
     parity: &str,
@@ -32,9 +32,10 @@ pub(crate) fn factor_context(
     Ok((split, FactorContext::new(FixedFactor::from_bits(factor), parity, split)))
 }
 
-/// The context of a factor (specification, section 4), a :class:`FactorContext`.
+/// Computes the context of a factor (specification, section 4), a :class:`FactorContext`.
 ///
-/// ``factor`` is a 15.16 integer, 1..63 if ``parity`` is ``odd``, 1 or 2..64 if it is ``even``.
+/// ``factor`` is a 15.16 number as an integer: 1..63 if ``parity`` is ``odd``, 1 or 2..64 if
+/// ``parity`` is ``even``.
 ///
 /// >>> import tess_model
 /// >>> tess_model.context(0x28000, "odd").points  # factor 2.5
@@ -50,12 +51,14 @@ pub(crate) fn context<'py>(
     values::context(py, &factor_context(factor, parity, split_order)?.1)
 }
 
-/// One factor after factor processing (specification, section 3), a :class:`ProcessedFactor`.
-/// ``None`` if it culls the patch: an outer factor that is NaN or not above 0.
+/// Processes one factor (specification, section 3). Returns a :class:`ProcessedFactor`, or ``None``
+/// if the factor culls the patch: an outer factor that is NaN or not greater than 0.
 ///
-/// Args: factor: The raw factor, rounded to the nearest binary32. partitioning, split: As for
-/// :class:`Patch`. role: ``outer`` or ``inside``: the factor ``u0`` or ``inside`` of a triangle
-/// patch whose others are 3.
+/// Args:
+///     factor: The raw factor, rounded to the nearest binary32.
+///     partitioning, split: As for :class:`Patch`.
+///     role: ``outer`` or ``inside``: the factor ``u0`` or ``inside`` of a triangle patch whose
+///         other factors are 3.
 ///
 /// >>> import tess_model
 /// >>> tess_model.process_factor(2.5, "fractional_odd").fixed
@@ -82,10 +85,11 @@ pub(crate) fn process_factor<'py>(
     processed.map(|factor| values::processed(py, name, raw, &factor)).transpose()
 }
 
-/// The location of point ``p`` of an edge, with every step (specification, section 5): a
+/// Computes the location of point ``p`` of an edge, with every step (specification, section 5): a
 /// :class:`Placement`.
 ///
-/// ``factor`` and ``parity`` are as for :func:`context`; ``p`` is below the context's ``points``.
+/// ``factor`` and ``parity`` are those of :func:`context`; ``p`` is less than the context's
+/// ``points``.
 ///
 /// >>> import tess_model
 /// >>> tess_model.place(0x28000, "odd", 1)  # doctest: +NORMALIZE_WHITESPACE

@@ -4,7 +4,7 @@ use crate::errors::argument;
 use pyo3::PyResult;
 use tess_verify::check::{Conversion, Denormals, Elements, ListOrder, Strength};
 
-/// The orders that `tess check` knows.
+/// The orders that `tess check` accepts.
 const ORDERS: [(&str, ListOrder); 3] =
     [("exact", ListOrder::Exact), ("sequence", ListOrder::Sequence), ("any", ListOrder::Any)];
 const ELEMENTS: [(&str, Elements); 2] =
@@ -13,7 +13,8 @@ const CONVERSIONS: [(&str, Conversion); 2] =
     [("exact", Conversion::Exact), ("0.6ulp", Conversion::Within06Ulp)];
 const DENORMALS: [(&str, Denormals); 2] = [("keep", Denormals::Keep), ("flush", Denormals::Flush)];
 
-/// Values that `tess check` takes as `--order`, `--points`, `--conversion` and `--denormals`.
+/// The strength from the values of the options `--order`, `--points`, `--conversion` and
+/// `--denormals` of `tess check`.
 pub(crate) fn strength(
     order: &str,
     elements: &str,

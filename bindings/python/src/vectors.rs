@@ -21,14 +21,14 @@ use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::vectors::{Header, Kind, Listing, write_cases};
 use tess_verify::{Backend, Case, CoreBackend, Named};
 
-/// Cases; `None` for one of another shard.
+/// Cases; `None` for each one that belongs to another shard.
 type CaseSource = Box<dyn Iterator<Item = Option<Case>> + Send>;
 
 /// An iterator over generated patches, the result of :func:`generate`.
 #[pyclass(frozen, module = "tess_model")]
 pub(crate) struct Cases {
     source: Mutex<CaseSource>,
-    /// Patches given: `list` takes them without a step of the interpreter between two.
+    /// Number of patches returned. `list` takes them without a step of the interpreter in between.
     given: AtomicU32,
 }
 
@@ -43,7 +43,7 @@ impl Cases {
             py.check_signals()?;
         }
         let mut watch = Watch::default();
-        // Between two patches of a shard there may be any number of other shards'.
+        // Any number of other shards' patches may separate two patches of this shard.
         let next = py.detach(|| {
             let mut cases = self.source.lock().unwrap_or_else(PoisonError::into_inner);
             cases.by_ref().take_while(|_| watch.goes_on()).find_map(|case| case)
@@ -52,16 +52,17 @@ impl Cases {
     }
 }
 
-/// Test patches, in the order of ``tess gen``; the same arguments give the same patches.
+/// Generates test patches, in the order of ``tess gen``. The same arguments give the same patches.
 ///
 /// Args:
-///     level: 1, every boundary once, hits every coverage bin; 2, every boundary in every position;
-///         3, only random patches.
+///     level: 1: every boundary once, which hits every coverage bin; 2: every boundary in every
+///         position; 3: only random patches.
 ///     seed: Seed of everything random.
-///     count: Number of random patches at the end; ``None``: 500, 20000 and 1000000.
+///     count: Number of random patches at the end; ``None``: 500, 20000 or 1000000 by level.
 ///     domain, partitioning, output, split: One name; ``None``: all.
-///     shard: ``(i, n)``, i in 1..n: one of n disjoint parts; ``None``: all.
-///     rules: Instead of a level, families of patches that :func:`check_rules` compares.
+///     shard: ``(i, n)``, i in 1..n: one of n disjoint parts; ``None``: all patches.
+///     rules: Whether to generate families of patches that :func:`check_rules` compares, instead
+///         of a level.
 ///
 /// >>> import tess_model
 /// >>> len(list(tess_model.generate(level=3, count=10, domain="tri")))
@@ -114,7 +115,7 @@ fn part_of_all(shard: &Bound<'_, PyAny>) -> PyResult<Option<(u64, u64)>> {
 /// Args:
 ///     path: The file.
 ///     patches: The patches, at least one.
-///     form: ``patches``, a row of counts and digests each, or ``listings``, whole outputs.
+///     form: ``patches``, a row of counts and digests per patch, or ``listings``, whole outputs.
 #[pyfunction]
 #[pyo3(signature = (path, patches, *, form = "patches"))]
 pub(crate) fn write_vectors(
@@ -143,8 +144,8 @@ fn patches_of(patches: &Bound<'_, PyAny>) -> PyResult<Vec<Case>> {
     all_of(patches, case, "at least one patch is needed")
 }
 
-/// The results of `each` for the elements of an iterable. Errors: the message `none` if there is
-/// none; signals.
+/// The results of `each` for the elements of an iterable. Errors: the message `none` if the
+/// iterable is empty; signals.
 fn all_of<T>(
     iterable: &Bound<'_, PyAny>,
     each: impl Fn(&Bound<'_, PyAny>) -> PyResult<T>,
@@ -167,7 +168,7 @@ pub(crate) struct VectorFile {
     /// The number of records; ``None`` if the file marks its end instead.
     #[pyo3(get)]
     count: Option<u64>,
-    /// The source of the results: a name for people.
+    /// The source of the results, a name for readers.
     #[pyo3(get)]
     source: String,
     records: Mutex<Reader>,
@@ -221,7 +222,7 @@ pub(crate) struct Record(tess_verify::vectors::Record);
 
 #[pymethods]
 impl Record {
-    /// The line of the file that it starts on, from 1.
+    /// The line of the file on which the record starts, from 1.
     #[getter]
     fn line(&self) -> u64 {
         self.0.line()
@@ -269,17 +270,25 @@ impl Record {
 
 /// Checks a vector file, as ``tess check`` does. A file of listings holds a device's answers, which
 /// are compared with the model. A file of any other kind, or any file with ``tested="model"``, is
-/// taken as right and the model is tested.
+/// taken as correct, and the model is tested against it.
 ///
-/// Args: path: The file. tested: ``auto``, or ``model``. order: ``exact``; ``sequence``: the
-/// model's order, with points told apart by coordinates; or ``any``. elements: ``primitives``, or
-/// only ``points``. conversion: ``exact``, or ``0.6ulp``. denormals: ``keep``, or ``flush``.
-/// coverage: A :class:`Coverage` that counts the bins that the file's patches hit. cases: The
-/// patches that the device was asked for: the file must answer each of them, in order.
+/// ``order``, ``elements``, ``conversion`` and ``denormals`` set the strength of a comparison with
+/// a device (docs/verification.md). They are refused if the model is tested.
+///
+/// Args:
+///     path: The file.
+///     tested: ``auto`` or ``model``.
+///     order: ``exact``; ``sequence``, the model's order, with points identified by their
+///         coordinates; or ``any``.
+///     elements: ``primitives``, or ``points`` to compare only the points.
+///     conversion: ``exact`` or ``0.6ulp``.
+///     denormals: ``keep`` or ``flush``.
+///     coverage: A :class:`Coverage` that records the bins that the file's patches hit.
+///     cases: The patches that the device was asked for. The file must answer each of them, in
+///         order.
 ///
 /// Returns:
-///     A :class:`Report`. ``order`` to ``denormals`` set the strength of a comparison with a device
-///     (docs/verification.md); they are refused if the model is tested.
+///     A :class:`Report`.
 #[pyfunction]
 #[pyo3(signature = (path, *, tested = "auto", order = "exact", elements = "primitives",
     conversion = "exact", denormals = "keep", coverage = None, cases = None))]
@@ -315,7 +324,7 @@ pub(crate) fn check<'py>(
     values::report(py, &report?)
 }
 
-/// Checks on every processor.
+/// Checks on all processors.
 fn run_check(
     file: Reader,
     tested: Tested,
@@ -338,12 +347,14 @@ fn run_check(
 
 /// Compares a device's answers with the model.
 ///
-/// Args: answers: Tuples (patch, points, indices): a :class:`Patch`, integers of shape (points, 2)
-/// in 16.16, and integers of any shape whose elements in order are the indices. Arrays of uint32
-/// are the fastest; arrays of other integer types and lists are accepted if every element is below
-/// 2**32. order, elements, conversion, denormals: As for :func:`check`. cases: The patches that the
-/// device was asked for. Answers for other patches, too few or too many raise
-/// :class:`ArgumentError`. There must be at least one answer.
+/// Args:
+///     answers: Tuples (patch, points, indices): a :class:`Patch`, integers of shape (points, 2) in
+///         16.16, and integers of any shape whose elements in order are the indices. At least one.
+///         Arrays of uint32 are the fastest; arrays of other integer types and lists are accepted
+///         if every element is in 0..2**32 - 1.
+///     order, elements, conversion, denormals: As for :func:`check`.
+///     cases: The patches that the device was asked for. Answers for other patches, too few or too
+///         many raise :class:`ArgumentError`.
 ///
 /// >>> from tess_model import Patch, check_device
 /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)
@@ -383,7 +394,7 @@ pub(crate) fn device_answers(answers: &Bound<'_, PyAny>) -> PyResult<Vec<(Case, 
     all_of(answers, device_answer, "there is no answer to check")
 }
 
-/// Refuses answers for other cases than those that were asked.
+/// Refuses answers for cases other than the requested ones.
 fn require_answers(asked: &[Case], answers: &[(Case, Tessellation)]) -> PyResult<()> {
     let pairs = asked.iter().zip(answers).enumerate();
     for (number, (asked, (answered, _))) in pairs {

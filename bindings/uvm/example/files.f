@@ -1,4 +1,4 @@
-// The example's files, with paths from this folder: an argument `-F` of Questa, VCS, Xcelium and slang.
+// The example's files, relative to this folder, for the option `-F` of Questa, VCS, Xcelium and slang.
 +incdir+.
 -F ../../../rtl/tess.f
 tess_if.sv

@@ -1,4 +1,4 @@
-// rtl/tess_top under the environment of tess_example. +UVM_TESTNAME=tess_file_test +tess_cases=FILE
+// rtl/tess_top in the environment of tess_example. Run with +UVM_TESTNAME=tess_file_test +tess_cases=FILE
 module tb_example;
     import uvm_pkg::*;
     import tess_example::*;

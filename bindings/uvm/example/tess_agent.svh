@@ -6,7 +6,7 @@ class tess_sequencer extends uvm_sequencer #(tess_patch_item);
     endfunction
 endclass
 
-// All that touches the ports of one tessellator.
+// The components that access the ports of one tessellator.
 class tess_agent extends uvm_agent;
     tess_sequencer sequencer;
     tess_driver    driver;

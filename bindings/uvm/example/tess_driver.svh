@@ -1,4 +1,4 @@
-// Offers each patch of the sequencer to the design until it takes it.
+// Offers each patch of the sequencer to the design until the design accepts it.
 class tess_driver extends uvm_driver #(tess_patch_item);
     virtual tess_if ports;
 
@@ -39,7 +39,7 @@ class tess_driver extends uvm_driver #(tess_patch_item);
     endtask
 endclass
 
-// Takes what the design gives: each stream is stopped at random in so many clocks of a hundred.
+// Accepts the design's output. Each stream is stalled at random in the given percentage of clocks.
 class tess_sink extends uvm_component;
     virtual tess_if ports;
     int unsigned    stalls = 25;

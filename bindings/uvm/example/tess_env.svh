@@ -1,4 +1,4 @@
-// The agent, and the model beside it: what the design gives is compared with what the predictor gives.
+// The agent and the model. The scoreboard compares the design's results with the predictor's.
 class tess_env extends uvm_env;
     tess_agent      agent;
     tess_predictor  predictor;

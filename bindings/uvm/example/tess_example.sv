@@ -1,4 +1,4 @@
-// An environment for rtl/tess_top; for a tessellator of yours, change tess_if, the driver and the monitor.
+// An environment for rtl/tess_top. For your own tessellator, change tess_if, the driver and the monitor.
 package tess_example;
     import uvm_pkg::*;
     import tess_dpi::*;

@@ -1,4 +1,4 @@
-// The ports of rtl/tess_top. The driver and the sink write at falling edges, everybody reads at rising ones.
+// The ports of rtl/tess_top. The driver and the sink write at falling edges; all components read at rising edges.
 interface tess_if (
     input logic clk
 );

@@ -1,20 +1,20 @@
-// Sees the ports alone: gives each patch when the design takes it (`patches`), and its result when the last element
-// is out (`results`).
+// Observes only the ports. Sends each patch to `patches` when the design accepts it, and its result to `results` when
+// the design has output the last element.
 //
-// The three streams do not wait for each other. The counts say what the others have for a patch: a culled one has nothing
-// there. A `last` that comes elsewhere than the counts say is an error.
+// The three streams are independent of each other. The counts state how many elements the other streams have for a patch;
+// a culled patch has none. It is an error if a `last` does not agree with the counts.
 class tess_monitor extends uvm_component;
     uvm_analysis_port #(tess_patch_item)  patches;
     uvm_analysis_port #(tess_result_item) results;
     virtual tess_if                       ports;
 
-    int unsigned taken = 0; // patches that the design took
-    int unsigned given = 0; // results that are out
+    int unsigned taken = 0; // patches that the design has accepted
+    int unsigned given = 0; // results that were sent
 
-    protected tess_patch_item waiting[$];              // taken, without their result
-    protected int unsigned    points_of[$];            // counts that have come
+    protected tess_patch_item waiting[$];              // accepted patches without a result
+    protected int unsigned    points_of[$];            // counts that have arrived
     protected int unsigned    primitives_of[$];
-    protected int unsigned    u[$], v[$], indices[$];  // what has come beyond the patches that are done
+    protected int unsigned    u[$], v[$], indices[$];  // elements of patches without a result
     protected int unsigned    ends_of_points[$];       // sizes of the runs that `last` ended
     protected int unsigned    ends_of_primitives[$];   // in primitives
     protected int unsigned    ends_of_indices[$];      // the same runs in indices
@@ -86,14 +86,14 @@ class tess_monitor extends uvm_component;
         end
     endfunction
 
-    // Whether all of the oldest patch is out.
+    // Whether the result of the oldest patch is complete.
     protected function bit is_complete();
         if (waiting.size() == 0 || points_of.size() == 0) return 0;
         if (points_of[0] != 0 && ends_of_points.size() == 0) return 0;
         return primitives_of[0] == 0 || ends_of_primitives.size() != 0;
     endfunction
 
-    // Gives the result of the oldest patch.
+    // Sends the result of the oldest patch.
     protected function void give();
         tess_result_item r = new("observed");
         int unsigned     said_points     = points_of.pop_front();

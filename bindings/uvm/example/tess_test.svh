@@ -1,7 +1,7 @@
-// The patches of a file through the design: +tess_cases=FILE, such as that of `tess gen --level 1 -o level-1.csv`.
+// Sends the patches of +tess_cases=FILE through the design. FILE may be that of `tess gen --level 1 -o level-1.csv`.
 class tess_file_test extends uvm_test;
     tess_env     env;
-    int unsigned patience = 200_000; // clocks in which a result must come; the largest patch has 8192 primitives
+    int unsigned patience = 200_000; // clocks within which a result must arrive; the largest patch has 8192 primitives
 
     `uvm_component_utils(tess_file_test)
 
@@ -22,7 +22,7 @@ class tess_file_test extends uvm_test;
         phase.drop_objection(this);
     endtask
 
-    // Waits until the last result is out.
+    // Waits for the last result.
     protected task drain();
         tess_monitor monitor = env.agent.monitor;
         int unsigned last = monitor.given;

@@ -1,4 +1,4 @@
-// Samples the covergroups with the bins that the model says each patch hits.
+// Samples the covergroups with the bins that each patch hits according to the model.
 class tess_coverage extends uvm_subscriber #(tess_patch_item);
     tess_covergroups groups;
 

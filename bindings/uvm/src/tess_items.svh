@@ -14,8 +14,8 @@ class tess_patch_item extends uvm_sequence_item;
 
     `uvm_object_utils(tess_patch_item)
 
-    // Mostly small factors, as simulations are slow: 1 to 16 with all fractions. A test that wants every
-    // bit pattern turns this off.
+    // Small factors, because simulations are slow: 1 to 16 with all fractions. Turn this constraint off to get
+    // every bit pattern.
     constraint c_small {
         foreach (factors[i]) factors[i] inside {[32'h3F80_0000 : 32'h4180_0000]};
     }
@@ -38,7 +38,7 @@ class tess_patch_item extends uvm_sequence_item;
         for (int i = 0; i < 6; i++) x[i] = factors[i];
     endfunction
 
-    // Factors that the domain has.
+    // The domain's number of factors.
     function int unsigned factor_count();
         return 2 + 2 * int'(domain);
     endfunction
@@ -51,7 +51,7 @@ class tess_patch_item extends uvm_sequence_item;
         return words;
     endfunction
 
-    // Whether a line of a file is to be read: no remark, no heading, not empty.
+    // Whether a line of a file is neither empty nor a remark nor a heading.
     static function bit is_case(string line);
         string word;
         if ($sscanf(line, "%s", word) < 1) return 0;
@@ -59,7 +59,7 @@ class tess_patch_item extends uvm_sequence_item;
         return word.len() < 7 || word.substr(0, 6) != "domain,";
     endfunction
 
-    // Takes what `convert2string` gives, or a row of `tess gen`; 0 if it is neither, and then nothing is taken.
+    // Reads a line of `convert2string` or a row of `tess gen`. Returns 0 and changes nothing if the line is neither.
     virtual function bit from_case(string line);
         string          words[10];
         int             given;
@@ -87,7 +87,7 @@ class tess_patch_item extends uvm_sequence_item;
         return 1;
     endfunction
 
-    // Whether a word is eight digits, as the bits of a factor are.
+    // Whether a word is eight hex digits, the bits of a factor.
     protected static function bit is_hex(string word);
         if (word.len() != 8) return 0;
         for (int i = 0; i < 8; i++) begin
@@ -97,7 +97,7 @@ class tess_patch_item extends uvm_sequence_item;
         return 1;
     endfunction
 
-    // The number of a word among `count` names from `first` on; -1 if it is none of them.
+    // The number of a word among `count` names, beginning with name `first`; -1 if it is not among them.
     protected static function int number_of(string word, int first, int count);
         for (int i = 0; i < count; i++) if (word == TESS_NAMES[first + i]) return i;
         return -1;
@@ -114,7 +114,7 @@ class tess_patch_item extends uvm_sequence_item;
         factors      = other.factors;
     endfunction
 
-    // Equal patches give equal results: factors that the domain does not have are not looked at.
+    // Compares only what the result depends on: the factors that the domain does not have are ignored.
     virtual function bit do_compare(uvm_object rhs, uvm_comparer comparer);
         tess_patch_item other;
         if (!$cast(other, rhs)) return 0;
@@ -127,7 +127,7 @@ class tess_patch_item extends uvm_sequence_item;
     endfunction
 endclass
 
-// Output of a patch: 16.16 points, and indices, one after another.
+// The output of a patch: its 16.16 points and its indices, in order.
 class tess_result_item extends uvm_sequence_item;
     tess_patch_item patch;
     int unsigned    u[$];
@@ -145,10 +145,10 @@ class tess_result_item extends uvm_sequence_item;
             patch == null ? "no patch" : patch.convert2string());
     endfunction
 
-    // The patch is copied too: a driver may change its own for the next one.
+    // Copies the patch too, because a driver may reuse its own for the next patch.
     virtual function void do_copy(uvm_object rhs);
         tess_result_item other;
-        uvm_object       from; // of the argument's very type, which Verilator 5.006 asks for
+        uvm_object       from; // exactly the argument's type, as Verilator 5.006 requires
         super.do_copy(rhs);
         if (!$cast(other, rhs)) `uvm_fatal("TESS", "a result is copied from an object that is none")
         patch = null;
@@ -164,7 +164,7 @@ class tess_result_item extends uvm_sequence_item;
 
     virtual function bit do_compare(uvm_object rhs, uvm_comparer comparer);
         tess_result_item other;
-        uvm_object       others; // of the argument's very type, which Verilator 5.006 asks for
+        uvm_object       others; // exactly the argument's type, as Verilator 5.006 requires
         bit              same_patch;
         if (!$cast(other, rhs)) return 0;
         others = other.patch;

@@ -1,11 +1,11 @@
-// Gives for each patch what the model gives.
+// Sends the model's result for each patch.
 class tess_predictor extends uvm_subscriber #(tess_patch_item);
     uvm_analysis_port #(tess_result_item) results;
 
     `uvm_component_utils(tess_predictor)
 
     function new(string name, uvm_component parent);
-        uvm_component self; // of the argument's very type, which Verilator 5.006 asks for
+        uvm_component self; // exactly the argument's type, as Verilator 5.006 requires
         super.new(name, parent);
         self = this;
         results = new("results", self);

@@ -16,13 +16,13 @@ class tess_result_input extends uvm_subscriber #(tess_result_item);
     endfunction
 endclass
 
-// Compares results exactly. Each difference is reported with its first wrong element, the stage of the
-// specification that it points to, and the patch as a line that `tess patch --cases` takes.
+// Compares results exactly. A difference is reported with its first wrong element, the stage of the
+// specification that it points to, and the patch as a line that `tess patch --cases` accepts.
 class tess_scoreboard extends uvm_component;
     tess_result_input expected; // connect the predictor's port to expected.analysis_export
     tess_result_input observed; // and the monitor's to observed.analysis_export
 
-    // Whether results may come in another order than the patches: those of equal patches belong together.
+    // Whether results may arrive in an order other than that of the patches. They are then paired by equal patches.
     bit unordered;
 
     int unsigned compared;
@@ -34,7 +34,7 @@ class tess_scoreboard extends uvm_component;
     `uvm_component_utils(tess_scoreboard)
 
     function new(string name, uvm_component parent);
-        uvm_component self; // of the argument's very type, which Verilator 5.006 asks for
+        uvm_component self; // exactly the argument's type, as Verilator 5.006 requires
         super.new(name, parent);
         self = this;
         expected = new("expected", self);
@@ -44,7 +44,7 @@ class tess_scoreboard extends uvm_component;
         observed.scoreboard = this;
     endfunction
 
-    // Takes a result, and compares it if its partner is there.
+    // Takes a result, and compares it if its partner has arrived.
     virtual function void take(bit is_expected, tess_result_item t);
         int at;
         if (t.patch == null) begin
@@ -64,7 +64,7 @@ class tess_scoreboard extends uvm_component;
         end
     endfunction
 
-    // The place of the first result that one belongs to; -1 if there is none.
+    // The position of the first result that this one is paired with; -1 if there is none.
     protected function int partner(const ref tess_result_item waiting[$], input tess_result_item t);
         string wanted = t.patch.convert2string();
         if (!unordered) return waiting.size() == 0 ? -1 : 0;
@@ -83,7 +83,7 @@ class tess_scoreboard extends uvm_component;
         end
     endfunction
 
-    // The first element that differs, counts first; empty if none does.
+    // The first difference, with counts first; empty if the results are equal.
     static function string first_difference(tess_result_item right, tess_result_item found);
         if (found.u.size() != found.v.size())
             return $sformatf("number of coordinates: observed %0d u and %0d v, expected %0d of each (stage: counts)",
@@ -107,7 +107,7 @@ class tess_scoreboard extends uvm_component;
         return "";
     endfunction
 
-    // A run that compared nothing, or left something over, has not passed.
+    // A run fails if it compared nothing, or if results were not compared.
     virtual function void check_phase(uvm_phase phase);
         super.check_phase(phase);
         if (compared == 0) `uvm_error("TESS", "nothing was compared")

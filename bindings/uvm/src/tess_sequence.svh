@@ -1,11 +1,11 @@
-// Sends the patches of a file: case lines, as messages of the scoreboard and `tess check` have them, or the rows of `tess gen`.
-// So level 1, every boundary once, is the file of `tess gen --level 1 -o level-1.csv`.
+// Sends the patches of a file. Its lines are case lines, as in messages of the scoreboard and `tess check`, or the rows of
+// `tess gen`. For level 1, every boundary once, use the file of `tess gen --level 1 -o level-1.csv`.
 //
-// The file is that of `file`, or of +tess_cases=FILE. Lines that begin with # and headings are left out, and so are
-// words behind the factors. A line that is no case, a file without any and one that cannot be read end the simulation.
+// The file is `file`, or that of +tess_cases=FILE. Lines that begin with #, headings, and words after the factors are
+// ignored. The simulation ends if a line is not a case, if the file has no cases, or if it cannot be read.
 class tess_file_sequence extends uvm_sequence #(tess_patch_item);
     string       file;
-    int unsigned most = 0; // patches to send; 0 is all
+    int unsigned most = 0; // the largest number of patches to send; 0 for all
     int unsigned sent = 0;
 
     `uvm_object_utils(tess_file_sequence)
@@ -32,7 +32,7 @@ class tess_file_sequence extends uvm_sequence #(tess_patch_item);
     // Sends the patch of a line, if it has one.
     protected task send(string line, int number);
         tess_patch_item   item;
-        uvm_sequence_item next; // of the argument's very type, which Verilator 5.006 asks for
+        uvm_sequence_item next; // exactly the argument's type, as Verilator 5.006 requires
         if (!tess_patch_item::is_case(line)) return;
         item = tess_patch_item::type_id::create("patch");
         next = item;

@@ -1,8 +1,8 @@
-// Runs predictor and scoreboard: equal results pass, each planted difference is found. With the stub
-// of UVM; `+fault=N` takes a difference: 1 point, 2 index, 3 number of points, 4 a result too few,
-// 5 a v too few, 6 the result of another patch. Everything goes through clones, as in environments that keep
-// what they are given. `+unordered` gives the results from the last to the first. `+tess_cases=FILE` sends the patches of a
-// file through a sequencer and prints them, and nothing else.
+// Runs predictor and scoreboard with the stub of UVM. Equal results must pass, and each planted difference must be found.
+// `+fault=N` plants a difference: 1 point, 2 index, 3 number of points, 4 a missing result, 5 a missing v, 6 the result of
+// another patch. All items are cloned, as in environments that keep the items that they receive. `+unordered` sends the
+// results from the last to the first. `+tess_cases=FILE` only sends the patches of a file through a sequencer and prints
+// them.
 module tb_uvm;
     import uvm_pkg::*;
     import tess_dpi::*;
@@ -17,13 +17,13 @@ module tb_uvm;
     int             fault = 0;
     tess_result_item kept[$];
 
-    // A clone is equal to what it is made of, and independent of it.
+    // A clone is equal to the original, and independent of it.
     task automatic check_clones(tess_patch_item p, tess_result_item r);
         tess_patch_item  q;
         tess_result_item s;
         uvm_printer      printer = new();
         uvm_comparer     comparer = new();
-        uvm_object       qo, so; // of the arguments' very type, which Verilator 5.006 asks for
+        uvm_object       qo, so; // exactly the arguments' types, as Verilator 5.006 requires
         qo = p.clone();
         so = r.clone();
         if (!$cast(q, qo) || !$cast(s, so)) $fatal(1, "FAIL: a clone of another class");
@@ -57,7 +57,7 @@ module tb_uvm;
     uvm_seq_item_pull_port port;
     bit                    is_sent = 1'b0;
 
-    // Takes as a driver does what the sequence sends.
+    // Takes the items of the sequence, as a driver does.
     task automatic print_sequence();
         uvm_sequence_item next;
         sequence_of_file = new("cases");

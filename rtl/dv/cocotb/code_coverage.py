@@ -1,8 +1,8 @@
-"""Judges code coverage: whatever Verilator says was not reached must be named in a list, with its reason.
+"""Judges code coverage: everything that was not reached according to Verilator must be named in a list, with its reason.
 
-A line of the list is `MODULE: WHAT # reason`. WHAT is what `read` calls a point: for toggles `toggle SIGNAL`, with bits as
-in `toggle data[15:13]`; for lines `if`, `else`, `elsif`, `case` or `block` and the text of the source line. A name of something
-that was reached, or that is not there, is as wrong as a hole without a name. Instances of a module count together.
+A line of the list is `MODULE: WHAT # reason`. WHAT is the name that `read` gives a point: for toggles `toggle SIGNAL`, with bits
+as in `toggle data[15:13]`; for lines `if`, `else`, `elsif`, `case` or `block` and the text of the source line. The list is wrong
+if it names a point that was reached or does not exist, or if it lacks a hole. Instances of a module count together.
 """
 
 import re
@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Iterator, NamedTuple
 
 SHOWN = 60
-"""Lines of what is wrong that are printed."""
+"""The number of errors that are printed."""
 
 
 class Point(NamedTuple):
@@ -22,7 +22,7 @@ class Point(NamedTuple):
 
 
 def read(file: Path) -> "dict[Point, int]":
-    """How often each point was reached, in the file that Verilator wrote."""
+    """The number of times that each point was reached, from the file that Verilator wrote."""
     hits: "dict[Point, int]" = defaultdict(int)
     sources: "dict[str, list[str]]" = {}
     for line in file.read_text().splitlines():
@@ -31,7 +31,7 @@ def read(file: Path) -> "dict[Point, int]":
             continue
         fields = dict(part.split("\x02", 1) for part in found[1].split("\x01") if part)
         kind, module = fields["page"].split("/")
-        module = module.split("__")[0]  # Verilator names the parameters behind it
+        module = module.split("__")[0]  # Verilator appends the parameters
         what = f"toggle {fields['o']}"
         if kind != "v_toggle":
             source = sources.setdefault(fields["f"], Path(fields["f"]).read_text().splitlines())
@@ -41,7 +41,7 @@ def read(file: Path) -> "dict[Point, int]":
 
 
 def bits(what: str) -> "Iterator[str]":
-    """Every bit of `data[15:13]`; other names as they are."""
+    """The name of each bit of `data[15:13]`; other names unchanged."""
     found = re.fullmatch(r"(toggle .*)\[(\d+):(\d+)\]", what)
     if found is None:
         yield what
@@ -50,7 +50,7 @@ def bits(what: str) -> "Iterator[str]":
 
 
 def named(file: Path) -> "tuple[set[Point], list[str]]":
-    """The holes that a list names, and the lines that are none."""
+    """The holes that a list names, and its malformed lines."""
     holes: "set[Point]" = set()
     wrong = []
     for number, line in enumerate(file.read_text().splitlines(), 1):
@@ -65,7 +65,7 @@ def named(file: Path) -> "tuple[set[Point], list[str]]":
 
 
 def judge(data: Path, names: Path) -> bool:
-    """Prints what was reached of each module; whether exactly the holes are missing that have names."""
+    """Prints the coverage of each module; returns whether the holes are exactly the named ones."""
     hits = read(data)
     holes, wrong = named(names)
     for module in sorted({point.module for point in hits}):

@@ -1,4 +1,4 @@
-"""The ports of tess_axis with a source and sinks that others wrote: `cocotbext-axi`, under random stalls.
+"""Tests the ports of tess_axis with the source and sinks of an independent library, `cocotbext-axi`, under random stalls.
 
 The words are those that DMA engines take, in bytes: 32 for a patch, 4 for counts, 8 for a point or a primitive. A frame of points
 or of primitives ends with `tlast`, so it must be exactly a patch's.
@@ -18,14 +18,14 @@ from top_bench import constrained_random, packed
 
 
 def stalls(seed: int, share: float) -> "Iterator[bool]":
-    """Whether to pause in each clock, in this share of them."""
+    """For each clock whether to pause; true in this share of the clocks."""
     source = random.Random(seed)
     while True:
         yield source.random() < share
 
 
 def words(frame: AxiStreamFrame, size: int) -> "list[int]":
-    """The words of a frame, of this number of bytes."""
+    """The words of a frame, each of this number of bytes."""
     data = bytes(frame.tdata)
     return [int.from_bytes(data[at : at + size], "little") for at in range(0, len(data), size)]
 
@@ -35,7 +35,7 @@ async def next_frame(sink: AxiStreamSink) -> AxiStreamFrame:
 
 
 async def compare(board: Scoreboard, patch: Patch, sinks: "list[AxiStreamSink]") -> None:
-    """A word of counts; then, unless the patch is culled, a frame of points and one of primitives."""
+    """Receives a word of counts and, unless the patch is culled, a frame of points and one of primitives."""
     counts, points, primitives = sinks
     board.accept(patch)
     (word,) = words(await next_frame(counts), 4)

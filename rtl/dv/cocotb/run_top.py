@@ -14,7 +14,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-import code_coverage  # beside this file
+import code_coverage  # next to this file
 from tess_model import Coverage
 from tess_model.examples.cocotb import run
 

@@ -20,15 +20,15 @@ PARTITIONINGS = ("integer", "pow2", "fractional_odd", "fractional_even")
 OUTPUTS = ("point", "line", "triangle_cw", "triangle_ccw")
 SPLITS = ("ruler", "center")
 PATIENCE = 20_000
-"""Clocks without an element after which nothing will come any more."""
+"""Clocks without an element after which the output is considered to have ended."""
 
 
 # ---- stimuli ----------------------------------------------------------------------------------------
 
 
 def covering(elements: int) -> "Iterator[Patch]":
-    """Patches of level 1 that hit a bin of the functional coverage that none before them hits, the small ones
-    first; about as many as have this number of points and primitives together."""
+    """Patches of level 1 that each hit a new bin of the functional coverage, small ones first; together they have
+    about this number of points and primitives."""
     size = {patch: patch.counts.points + patch.counts.primitives for patch in generate(level=1)}
     coverage = Coverage()
     for patch in sorted(size, key=lambda patch: size[patch]):
@@ -40,7 +40,7 @@ def covering(elements: int) -> "Iterator[Patch]":
 
 
 def extremes() -> "Iterator[Patch]":
-    """Patches whose numbers are as large as they get, and every half edge: every bit and branch of the circuit."""
+    """Patches with the largest numbers, and with every half edge: they reach every bit and branch of the circuit."""
     yield Patch("quad", [64.0] * 4, [64.0] * 2, output="point", split="center")
     yield Patch("quad", [64.0] * 4, [64.0] * 2, output="triangle_ccw")
     yield Patch("quad", [1.0] * 4, [64.0, 63.0])
@@ -52,7 +52,7 @@ def extremes() -> "Iterator[Patch]":
 
 
 def constrained_random(source: random.Random, count: int) -> Iterator[Patch]:
-    """Every configuration; most factors are small and every fourth is near an integer, some are any bits at all."""
+    """Every configuration; most factors are small, every fourth is near an integer, and some are any bits."""
 
     def factor() -> float:
         kind = source.randrange(16)
@@ -75,7 +75,7 @@ def constrained_random(source: random.Random, count: int) -> Iterator[Patch]:
 
 
 def packed(patch: Patch) -> int:
-    """The patch as `s_axis_patch_tdata` has it (rtl/tess_axis.sv)."""
+    """The patch in the form of `s_axis_patch_tdata` (rtl/tess_axis.sv)."""
     word = DOMAINS.index(patch.domain) | PARTITIONINGS.index(patch.partitioning) << 2
     word |= OUTPUTS.index(patch.output) << 4 | SPLITS.index(patch.split) << 6
     for number, bits in enumerate(patch.factor_bits):
@@ -98,7 +98,7 @@ class Stream:
 
 
 class Bench:
-    """Drives at falling edges; monitors look at rising ones."""
+    """Drives at falling edges; the monitors sample at rising edges."""
 
     def __init__(self, dut: Any, gaps: "random.Random | None") -> None:
         self.dut, self.gaps = dut, gaps
@@ -131,14 +131,14 @@ class Bench:
         self.dut.aresetn.value = 1
 
     async def press_back(self, source: random.Random) -> None:
-        """Each stream waits in every fourth clock."""
+        """Stalls each stream in every fourth clock."""
         while True:
             await FallingEdge(self.dut.aclk)
             for stream in (self.counts, self.points, self.primitives):
                 stream.ready.value = source.randrange(4) != 0
 
     async def send(self, patch: Patch) -> None:
-        """Offers a patch until the circuit takes it."""
+        """Offers a patch until the circuit accepts it."""
         if self.gaps and self.gaps.randrange(8) == 0:
             for _ in range(self.gaps.randrange(24)):
                 await FallingEdge(self.dut.aclk)
@@ -170,7 +170,7 @@ class Bench:
         self.board.primitive(indices, last, size=data >> 48)
 
     async def drain(self) -> None:
-        """Waits until all is there, or nothing comes any more."""
+        """Waits until the output is complete or has stopped."""
         while self.board.due and self.idle < PATIENCE:
             self.idle += 1
             await FallingEdge(self.dut.aclk)
@@ -195,7 +195,7 @@ async def run(dut: Any, patches: Iterable[Patch], gaps: "random.Random | None") 
     await bench.start()
     for patch in patches:
         if bench.board.wrong:
-            break  # what follows from it is no news
+            break  # later differences follow from it
         await bench.send(patch)
     await bench.drain()
     bench.verdict()

@@ -1,5 +1,5 @@
-// tess_connect neither drops nor doubles a primitive where it describes stitches: it holds those to be described and those of the
-// stitch ahead, which may be taken at any time. tess_stitch and tess_rows go on from there.
+// tess_connect neither drops nor duplicates a primitive when it describes stitches. It holds the primitives to be described and
+// those of the stitch ahead, which may be taken at any time. The proofs of tess_stitch and tess_rows cover the rest.
 always_comb assume (!takes || ahead_valid);
 ledger ledger (
     .clk, .rst, .came((start_valid && start_ready) ? 16'(start_patch.primitives) : 16'd0),

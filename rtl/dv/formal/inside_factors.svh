@@ -1,4 +1,4 @@
-// tess_factors neither drops nor doubles a patch: it holds one for each of its steps where the last factor of a patch is or was.
+// tess_factors neither drops nor duplicates a patch. It holds one patch for each step that has, or had, a patch's last factor.
 logic [7:0] held;
 always_comb begin
     held = 8'(busy) + 8'(is_complete) + 8'(product_valid) + 8'(sum_valid) + 8'(out_valid);

@@ -1,5 +1,5 @@
-// tess_points neither drops nor doubles a point, whatever the patches and however the consumer waits: it holds those of the edges
-// to be described, of the edge ahead and of the walk, and those behind the walk.
+// tess_points neither drops nor duplicates a point, for any patches and any stalls of the consumer. It holds the points of the
+// edges to be described, of the edge ahead and of the walk, and those after the walk.
 logic [7:0] behind, behind_last;
 always_comb begin
     behind      = 8'(out_valid);

@@ -1,4 +1,4 @@
-// tess_rows makes one primitive of each step, and the patch's last one of its last: it holds those of its two clocks.
+// tess_rows makes one primitive per step, and the patch's last primitive from its last step. It holds those of its two clocks.
 ledger ledger (
     .clk, .rst, .came(16'(advance && step_valid)), .left(16'(advance && out_valid)), .held(16'(valid) + 16'(out_valid)),
     .came_last(advance && step_valid && step.last), .left_last(advance && out_valid && out_last),

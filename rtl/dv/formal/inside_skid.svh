@@ -1,7 +1,7 @@
-// tess_skid gives each element that it takes once and in order: `first` and `second` are those that it must hold.
+// tess_skid outputs each element that it takes once and in order. `first` and `second` are the elements that it must hold.
 if (ENTRIES != 0) begin : g_proof
     logic             has_begun = 1'b0, comes, leaves;
-    logic [1:0]       held; // elements, before this clock
+    logic [1:0]       held; // number of elements before this clock
     logic [WIDTH-1:0] first, second;
     assign comes  = in_valid && in_ready;
     assign leaves = out_valid && out_ready;

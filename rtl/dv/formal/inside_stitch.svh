@@ -1,4 +1,4 @@
-// tess_stitch neither drops nor doubles a step: it holds those to come of the walk, and those behind it.
+// tess_stitch neither drops nor duplicates a step. It holds the remaining steps of the walk, and those after the walk.
 ledger ledger (
     .clk, .rst, .came(takes ? 16'(ahead.further) + 16'd1 : 16'd0), .left(16'(advance && step_valid)),
     .came_last(takes && ahead.last), .left_last(advance && step_valid && step.last),

@@ -1,5 +1,5 @@
-// tess_top hands each patch whole to each stage, and its counts to the consumer. Each stage is a port here that may do anything
-// else.
+// tess_top passes each patch unchanged to each stage, and its counts to the consumer. Each stage is a port here; its other
+// behaviour is unconstrained.
 port #(.WIDTH(462), .TAKES(1'b1)) made_port (.clk, .rst, .valid(made_valid), .ready(made_ready), .data({made, contexts}));
 port #(.WIDTH(462)) points_port (.clk, .rst, .valid(points_starts), .ready(points_ready), .data({made, contexts}));
 port #(.WIDTH(462)) connect_port (.clk, .rst, .valid(connect_starts), .ready(connect_ready), .data({made, contexts}));

@@ -1,10 +1,10 @@
-// A ledger of what a stage is given, lets go and holds: elements, and patches by their last ones. It must hold what came since the
-// last reset and has not left. `also` is what else always holds. Proved by induction.
+// A ledger of the elements that enter, leave and are in a stage, and of patches, by their last elements. The stage must hold
+// what has entered since the last reset and has not left. `also` is a further invariant. Proved by induction.
 module ledger (
     input logic        clk, rst,
-    input logic [15:0] came, left,           // elements, in this clock
-    input logic        came_last, left_last, // the last one of a patch is among them
-    input logic [15:0] held,                 // elements, before this clock
+    input logic [15:0] came, left,           // elements that enter and leave in this clock
+    input logic        came_last, left_last, // the last element of a patch is among them
+    input logic [15:0] held,                 // elements before this clock
     input logic [7:0]  held_last,
     input logic        also
 );

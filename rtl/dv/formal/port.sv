@@ -1,5 +1,5 @@
-// The contract of a stream at a port, for the proofs: what waits stays, value and all, and a reset withdraws it. It is proved of
-// the stage that gives the stream, and assumed by the one that takes it.
+// The contract of a stream at a port, for the proofs: an element that waits stays with its value, and a reset withdraws it. It
+// is proved for the stage that outputs the stream, and assumed by the stage that takes it.
 module port #(
     parameter int WIDTH = 1,
     parameter bit TAKES = 1'b0

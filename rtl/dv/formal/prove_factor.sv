@@ -1,4 +1,4 @@
-// tess_factor equals section 3, steps 2 to 7, computed here on numbers of 64 bits in units of 2^-23, for every pattern of bits,
+// tess_factor equals section 3, steps 2 to 7, computed here with 64-bit numbers in units of 2^-23, for every bit pattern,
 // partitioning, place and frame. Proved for all inputs at once.
 module prove_factor (
     input logic [31:0] bits,
@@ -11,7 +11,7 @@ module prove_factor (
 
     logic [63:0] x, low, high, clamped, whole;
     always_comb begin
-        // Below 1 all are alike, and from 128 on.
+        // All numbers below 1 have the same result, and so do all from 128.
         if (bits[31] || bits[30:23] < 8'd127)                   x = 64'd0;
         else if (bits[30:23] == 8'd255 && bits[22:0] != 23'd0)  x = 64'd0;
         else if (bits[30:23] > 8'd133)                          x = 64'd128 << 23;

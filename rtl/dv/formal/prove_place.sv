@@ -22,7 +22,7 @@ module prove_place_position (
         a = pf * inv_floor;
         b = q * inv_ceil;
 
-        // Section 14.1: what a context holds.
+        // Section 14.1: the ranges of a context.
         assume (half_points >= 1 && half_points <= 32 && split <= 33);
         assume (inv_floor >= 1024 && inv_floor <= 64'h1_0000 && inv_ceil >= 1024 && inv_ceil <= 64'h1_0000);
         assume (p < (odd ? 64'd2 * half_points : 64'd2 * half_points + 64'd1));
@@ -34,8 +34,8 @@ module prove_place_position (
     end
 endmodule
 
-// tess_place_blend equals the second half. Of a product the solver is told what it would not find: `coarse` times
-// (ONE - fraction) is `coarse` times `weight`, and once more; and a product is at most that of the limits of its factors.
+// tess_place_blend equals the second half. The solver is given two facts about products that it would not find: `coarse`
+// times (ONE - fraction) is `coarse` times `weight` plus `coarse`; and a product is at most that of its factors' limits.
 module prove_place_blend (
     input logic        clk, advance,
     input logic [15:0] fraction,
@@ -45,7 +45,7 @@ module prove_place_blend (
     logic [16:0] half_location, location;
     tess_place_blend place_blend (.*);
 
-    localparam logic [63:0] LIMIT = 64'h800A; // section 14.1: what the position gives
+    localparam logic [63:0] LIMIT = 64'h800A; // section 14.1: the largest place
     logic [15:0] weight;
     logic [63:0] of_coarse, of_fine, half;
     always_comb begin

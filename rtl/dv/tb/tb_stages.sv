@@ -1,16 +1,16 @@
 // Checks single stages against the golden model over DPI-C, for every input of a range.
 //
-//   +first=N +factors=N   15.16 factors from N on, as many: context and the place of every point, of both parities
-//                         where the factor has them, in both split orders; with +contexts without the places;
-//                         with +placer of tess_placer, every signal of its stages; with +stride=N every Nth factor
-//   +bits=HEX +words=N    binary32 patterns from HEX on, as many: factor processing in every partitioning, of outer and
-//                         inside factors, with and without the picture frame
+//   +first=N +factors=M   M 15.16 factors from N: the context, and the place of every point, for each parity that the
+//                         factor has and both split orders. With +contexts only contexts; with +placer every signal of
+//                         the stages of tess_placer; with +stride=N every Nth factor
+//   +bits=HEX +words=M    M binary32 patterns from HEX: factor processing in every partitioning, of outer and inside
+//                         factors, with and without the picture frame
 // Exit: PASS with the numbers of comparisons, or $fatal.
 module tb_stages;
     import tess_dpi::*;
 
     localparam int unsigned MAX_SHOWN = 20;
-    // Points that are placed in one clock: a clock of the simulator costs more than a placement.
+    // Points that are placed per clock: a clock of the simulator costs more than a placement.
     localparam int unsigned LANES = 16;
     localparam int unsigned CLOCKS = 6; // of a placement
     int unsigned     mismatches = 0;
@@ -26,7 +26,7 @@ module tb_stages;
         if (mismatches == MAX_SHOWN) $fatal(1, "FAIL");
     endfunction
 
-    // The signals of the three stages of a place, in the order in which each feeds the next.
+    // The signals of the three stages of a place, in the order of the data flow.
     localparam int unsigned SIGNALS = 12;
     string STAGES[3] = '{"factor_context", "place_position", "place_blend"};
     string NAMES[SIGNALS] = '{"fraction", "half_points", "points", "split", "inv_floor", "inv_ceil",
@@ -41,7 +41,7 @@ module tb_stages;
         return {s.location, s.half_location, s.fine, s.coarse, s.position, s.flip};
     endfunction
 
-    // What follows from the first wrong signal is no news.
+    // Only the first wrong signal is reported, because later ones follow from it.
     function automatic void check_signals(
             input signals_t observed, input signals_t expected, input int unsigned given, input int unsigned element);
         if (observed == expected) return;
@@ -59,8 +59,8 @@ module tb_stages;
     logic          center;
     tess_context_t made;
     logic          odd;
-    logic [6:0]    p [LANES];        // of as many points at a time
-    logic [16:0]   location [LANES]; // of the points of CLOCKS clocks before
+    logic [6:0]    p [LANES];        // of the points that enter in this clock
+    logic [16:0]   location [LANES]; // of the points that entered CLOCKS clocks ago
     assign made.odd = odd;
     tess_factor_context #(.REGISTERED(1'b1)) factor_context (
         .clk, .advance(1'b1), .factor, .odd, .center,
@@ -98,7 +98,7 @@ module tb_stages;
         if (!$test$plusargs("contexts")) check_places(fixed, c.points);
     endtask
 
-    // The locations of some points are there CLOCKS edges later.
+    // The locations of the points are output CLOCKS edges later.
     task automatic check_places(input int unsigned fixed, input int unsigned points);
         for (int unsigned next = 0; next < points + CLOCKS * LANES; next += LANES) begin
             for (int unsigned lane = 0; lane < LANES; lane++) p[lane] = (next + lane < points) ? 7'(next + lane) : 7'd0;
@@ -146,7 +146,7 @@ module tb_stages;
         .out_location     (placed[11][16:0])
     );
 
-    // A point a clock, which is out three edges later; nothing comes before or behind.
+    // Sends a point per clock, which is output three edges later; nothing may be output before or after.
     task automatic check_placer(input int unsigned fixed, input context_t c);
         for (int unsigned k = 0; k < c.points + 3; k++) begin
             placement_t s;
@@ -173,7 +173,8 @@ module tb_stages;
     tess_factor processing (
         .clk, .advance(1'b1), .bits, .partitioning, .is_inside, .has_frame, .fixed, .odd(fixed_odd));
 
-    // The model's word for it: with a frame an inside factor 1 becomes more. A culled patch has no more factors above 1.
+    // Whether the model applies the picture frame: it then increases an inside factor 1. If the patch is
+    // culled, only the factor of `framed` can exceed 1.
     function automatic bit model_frame(input int unsigned word, input bit framed);
         config_t    cfg;
         factors_t   x = '{default: 32'h3F80_0000};
@@ -188,7 +189,7 @@ module tb_stages;
         return (r.outcome == CULLED) ? framed : r.fixed != 32'h1_0000;
     endfunction
 
-    // A triangle patch: the factor is outer 0 or inside; outer 1 makes a frame, or the factor itself does.
+    // Processes a triangle patch. The factor is outer 0 or inside; the frame is due to outer 1 or to the factor itself.
     task automatic check_word(input int unsigned word, input int unsigned place_of, input bit framed);
         config_t    cfg;
         factors_t   x;
@@ -227,7 +228,7 @@ module tb_stages;
         void'($value$plusargs("words=%d", words));
         if (factors != 0 && (first < 32'h1_0000 || first + (factors - 1) * stride > 32'h40_0000))
             $fatal(1, "factors are 0x10000 to 0x400000, not 0x%05x to 0x%05x", first, first + (factors - 1) * stride);
-        // What enters during a reset does not come out.
+        // Points that enter during a reset are not output.
         placer_in = 1'b1;
         repeat (3) tick();
         rst = 1'b0;

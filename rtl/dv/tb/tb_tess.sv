@@ -1,15 +1,15 @@
 // Checks tess_top, in tess_axis, against the golden model over DPI-C: every element, in order, and the front end's values.
 //
-//   +stimuli=FILE   patches, one a line: domain partitioning output split factors (names and hex digits of `tess gen`,
-//                   blanks instead of commas; more words on the line are not looked at)
-//   +random=N       that many random patches behind them, most of them small (default 0)
+//   +stimuli=FILE   patches, one per line: domain partitioning output split factors (names and hex digits of `tess gen`,
+//                   with blanks instead of commas; further words on the line are ignored)
+//   +random=N       N random patches after them, most of them small (default 0)
 //   +seed=N         seed of everything random (default 1)
 //   +gaps           random gaps between patches, back-pressure of several kinds on each stream
-//   +resets=N       N resets before anything is checked, each with up to four patches on their way
+//   +resets=N       N resets before anything is checked, each with up to four patches under way
 //   +covered        fails unless every bin of tess_sequences.svh is hit
-//   +alone          each patch waits until the one before is out: latencies
-//   +fault=N        the design has fault N (`cargo xtask rtl --plant`), so ends soon after a difference
-// Exit: PASS, or $fatal. Each difference prints the patch as a line that `tess explain` and +stimuli take.
+//   +alone          sends each patch after the output of the previous one is complete, to measure latencies
+//   +fault=N        the design has fault N (`cargo xtask rtl --plant`); ends soon after a difference
+// Exit: PASS, or $fatal. For each difference the patch is printed as a line that `tess explain` and +stimuli accept.
 module tb_tess #(
     parameter bit PADDED   = 1'b0, // of tess_axis
     parameter bit BUFFERED = 1'b0
@@ -18,14 +18,14 @@ module tb_tess #(
 
     localparam int unsigned MAX_SHOWN = 20;
 
-    // Packed: Verilator 5.006 takes no structure of structures.
+    // Packed, because Verilator 5.006 does not accept a structure of structures.
     typedef struct packed {
         bit [1:0]       domain;
         bit [1:0]       partitioning;
         bit [1:0]       out;
         bit             split;
         bit [5:0][31:0] x;          // factors
-        bit [31:0]      points;     // what the model counts
+        bit [31:0]      points;     // the model's counts
         bit [31:0]      primitives;
     } stimulus_t;
 
@@ -98,13 +98,13 @@ module tb_tess #(
 
     // ---- what is expected ----------------------------------------------------------------------
 
-    // Patches that the design has accepted, for each place that checks them.
+    // Patches that the design has accepted, for each stream that is checked.
     stimulus_t of_factors[$], of_counts[$], of_points[$], of_primitives[$];
     int unsigned next_point = 0, next_primitive = 0;
     longint unsigned points_checked = 0, primitives_checked = 0, patches_checked = 0, cycles = 0;
     int unsigned mismatches = 0;
 
-    string DOMAINS[4] = '{"isoline", "tri", "quad", "3"}; // the last one is not a domain, and is culled
+    string DOMAINS[4] = '{"isoline", "tri", "quad", "3"}; // 3 is not a domain; its patches are culled
     string PARTITIONINGS[4] = '{"integer", "pow2", "fractional_odd", "fractional_even"};
     string OUTPUTS[4] = '{"point", "line", "triangle_cw", "triangle_ccw"};
     string SPLITS[2] = '{"ruler", "center"};
@@ -120,14 +120,14 @@ module tb_tess #(
         return text;
     endfunction
 
-    // Numbers of signals, and what they are called: rtl/dv/run makes it from rtl/stages.tsv.
+    // The numbers and names of signals, which rtl/dv/run makes from rtl/stages.tsv.
     `include "tess_names.svh"
     typedef enum { OPTION, STAGE, SIGNAL, MODULE } column_e;
     function automatic string name_of(input int unsigned signal, input column_e column);
         return SIGNALS[4 * signal + column];
     endfunction
 
-    // What differs in this clock. Printed at one place, as Verilator copies a function to each of its calls.
+    // The differences of this clock. They are printed in one place, because Verilator copies a function to each call.
     typedef struct packed {
         bit [31:0] signal; // of tess_names.svh
         bit [31:0] element;
@@ -143,7 +143,7 @@ module tb_tess #(
         if (observed != expected) differences.push_back({signal, element, observed, expected, s});
     endfunction
 
-    // The command that explains what differs, and says so.
+    // Prints the differences and the command that explains them.
     function automatic string explain(input difference_t d);
         int unsigned outer = (d.s.domain == 2'(TRIANGLE)) ? 3 : (d.s.domain == 2'(QUAD)) ? 4 : 2;
         string text = {"tess explain ", DOMAINS[d.s.domain]};
@@ -184,7 +184,7 @@ module tb_tess #(
         idle = 0;
     endfunction
 
-    // Patches without elements have nothing to come.
+    // Patches without elements are not due.
     function automatic void check_point();
         stimulus_t s;
         point_t p;
@@ -237,12 +237,12 @@ module tb_tess #(
     // ---- clocks --------------------------------------------------------------------------------
 
     bit              alone;
-    bit              has_elements = 1'b0; // the last patch of which something came is not culled
-    int unsigned     silent = 0, most_silent = 0; // clocks with an element of neither stream, between two patches
+    bit              has_elements = 1'b0; // the patch of the last output has elements: it is not culled
+    int unsigned     silent = 0, most_silent = 0; // clocks between two patches in which neither stream has an element
     int unsigned     lost_points = 0, lost_primitives = 0; // clocks without an element, within a patch
     int unsigned     point_latency = 0, primitive_latency = 0;
     longint unsigned accepted_at = 0;
-    bit              has_point = 1'b0, has_primitive = 1'b0; // something of the last accepted patch has come
+    bit              has_point = 1'b0, has_primitive = 1'b0; // an element of the last accepted patch was output
 
     function automatic void count_clocks();
         if (next_point != 0 && !point_valid) lost_points++;
@@ -280,10 +280,10 @@ module tb_tess #(
         return state;
     endfunction
 
-    // Where the rules of section 3 change: 1, 1 + 2^-17 and 1 + 2^-16, 2, 63, 64.
+    // The thresholds of section 3: 1, 1 + 2^-17 and 1 + 2^-16, 2, 63, 64.
     int unsigned THRESHOLDS[6] = '{32'h3F80_0000, 32'h3F80_0040, 32'h3F80_0080, 32'h4000_0000, 32'h427C_0000, 32'h4280_0000};
 
-    // A factor: mostly small and near integers, now and then any bits at all.
+    // A factor: mostly small and near an integer, sometimes any bits.
     function automatic int unsigned random_factor();
         int unsigned kind = random() % 16;
         int unsigned fixed, exponent, bits;
@@ -293,8 +293,8 @@ module tb_tess #(
             case (random() % 8)
                 0:       return 32'h7FC0_0000 ^ (random() & 32'h803F_FFFF); // NaN
                 1:       return 32'h7F80_0000;                              // infinity
-                2:       return 1 + random() % 32'h007F_FFFF;               // below the normal numbers
-                default: return 32'h3F80_0040 + (random() & 32'h0000_FF80); // half of 2^-16 behind the point: a tie
+                2:       return 1 + random() % 32'h007F_FFFF;               // denormal
+                default: return 32'h3F80_0040 + (random() & 32'h0000_FF80); // half of 2^-16 after the point: a tie
             endcase
         end
         fixed = 32'h1_0000 + random() % (32'h1_0000 << (random() % 7));
@@ -304,7 +304,7 @@ module tb_tess #(
         exponent = 0;
         for (int unsigned i = 0; i < 24; i++) if (fixed[i]) exponent = i;
         bits = ((exponent + 32'd111) << 23) | ((fixed << (23 - exponent)) & 32'h007F_FFFF);
-        // And its neighbours, one unit in the last place away.
+        // Its neighbours too, one unit in the last place away.
         return (kind < 3) ? bits + random() % 3 - 1 : bits;
     endfunction
 
@@ -316,13 +316,13 @@ module tb_tess #(
         s.split        = random() % 4 == 0;
         for (int unsigned i = 0; i < 6; i++) s.x[i] = random_factor();
         if (random() % 4 == 0) for (int unsigned i = 1; i < 6; i++) s.x[i] = s.x[0];
-        // One factor near a threshold that the others, all ONE, do not hide.
+        // One factor is near a threshold; the others are ONE, so they do not hide it.
         if (random() % 8 == 0) begin
             if (random() % 2 == 0) s.partitioning = 2'(FRACTIONAL_ODD);
             for (int unsigned i = 0; i < 6; i++) s.x[i] = 32'h3F80_0000;
             s.x[random() % 6] = THRESHOLDS[random() % 3] + random() % 3 - 1;
         end
-        // The most rings.
+        // The largest number of rings.
         if (random() % 256 == 0) begin
             s.domain = 2'(QUAD);
             for (int unsigned i = 4; i < 6; i++) s.x[i] = (random() % 2 == 0) ? 32'h4280_0000 : 32'h4278_0000; // 64, 62
@@ -334,9 +334,9 @@ module tb_tess #(
 
     localparam int unsigned LONG_STALL = 1024; // clocks
 
-    // How each consumer waits for a while: not at all, in every fourth clock, in every other, all the time.
+    // The present kind of stall of each consumer: never, every fourth clock, every other clock, always.
     int unsigned manner[3] = '{0, 0, 0}, remains = 0;
-    // The stream whose patches are finished before the others begin them; 3: none.
+    // The stream that finishes each patch before the others begin it; 3 for none.
     int unsigned first = 3;
 
     function automatic bit is_ready(input int unsigned stream, input int unsigned due);
@@ -356,13 +356,13 @@ module tb_tess #(
             remains = 64 + random() % 128;
             first   = (kind == 0) ? random() % 3 : 3;
             foreach (manner[i]) manner[i] = random() % ((kind < 4) ? 3 : 2);
-            if (kind >= 14) begin // only one, all of them; now and then for more than 1000 clocks
+            if (kind >= 14) begin // only one stream, or all of them; sometimes for more than 1000 clocks
                 remains = (random() % 64 == 0) ? LONG_STALL + 100 : 40;
                 foreach (manner[i]) manner[i] = (kind == 14) ? 0 : 3;
                 manner[random() % 3] = 3;
             end
         end
-        // A stream that should come first and does not is waited for.
+        // The other streams wait for the stream that must finish first.
         if (first == 3 || idle < 2) remains--;
         void'(is_empty());
         counts_ready    = is_ready(0, of_counts.size());
@@ -374,14 +374,14 @@ module tb_tess #(
 
     // ---- driving -------------------------------------------------------------------------------
 
-    // What the design is offered; the process below sees whether it has taken it.
+    // The patch that is offered to the design; the process below checks whether the design has accepted it.
     stimulus_t   offered;
     bit          is_offered = 1'b0, is_accepted = 1'b0;
-    int unsigned idle = 0; // clocks without anything passing
+    int unsigned idle = 0; // clocks without a transfer
 
-    // One clock. Inputs change at falling edges; what will pass at the rising edge is known a moment later.
+    // One clock. Inputs change at falling edges; the transfers of the rising edge are known a moment later.
     always @(negedge clk) begin
-        // Differences of the clock before: its assertions, which name the module, have come by now.
+        // Differences of the previous clock: its assertions, which name the module, have been printed by now.
         if (differences.size() != 0) show();
         patch_valid        = is_offered;
         patch_domain       = offered.domain;
@@ -441,13 +441,13 @@ module tb_tess #(
         is_accepted        = 1'b0;
         is_offered         = 1'b1;
         while (!is_accepted) @(posedge clk);
-        // A design with a fault may go wrong for ever, or seldom; what is shown is enough.
+        // With a planted fault, the run ends 100 patches after the first difference.
         if (fault != 0 && mismatches + tess_check_pkg::failures != 0) patches_behind++;
         if (mismatches > MAX_SHOWN || patches_behind > 100) give_verdict();
         if (alone) drain();
     endtask
 
-    // Whether every patch that was accepted has come out whole.
+    // Whether the output of every accepted patch is complete.
     function automatic bit is_empty();
         while (of_points.size() != 0 && of_points[0].points == 0) void'(of_points.pop_front());
         while (of_primitives.size() != 0 && of_primitives[0].primitives == 0) void'(of_primitives.pop_front());
@@ -498,12 +498,12 @@ module tb_tess #(
         return 0;
     endfunction
 
-    // Resets with patches on their way, one of which may wait in the fork; nothing of them may be left.
+    // Resets with patches under way, one of which may wait in the fork; nothing of them may remain.
     task automatic reset_in_the_middle(input int unsigned count);
         repeat (count) begin
             repeat (1 + random() % 4) send(random_stimulus());
             repeat (random() % 40) @(posedge clk);
-            // Half of them at the last element of a stream.
+            // Half of the resets are at the last element of a stream.
             @(negedge clk);
             case (random() % 4)
                 0: for (int unsigned i = 0; i < 4096 && !is_empty() && !(point_valid && point_last); i++) @(negedge clk);

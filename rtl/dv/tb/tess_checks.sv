@@ -1,5 +1,5 @@
-// Assertions on the design, bound to its modules: the contracts of ports and the ranges of section 14.1. A bench compiles this
-// file and tess_references.sv with the design. Each failure prints the stage, the signal and the module, and is counted in
+// Assertions that are bound to the design's modules: the contracts of ports and the ranges of section 14.1. A bench compiles
+// this file and tess_references.sv with the design. Each failure prints the stage, the signal and the module, and increments
 // tess_check_pkg::failures, which the bench's verdict includes.
 package tess_check_pkg;
     int unsigned failures = 0;
@@ -17,12 +17,12 @@ endpackage
     assert property (@(posedge clk) disable iff (rst) CONDITION) \
     else tess_check_pkg::failed(STAGE, SIGNAL, MODULE);
 
-// A stream: an element that is not taken stays, and is offered until it is; a reset withdraws it.
+// A stream: an element is offered unchanged until it is taken; a reset withdraws it.
 module tess_check_stream #(
     parameter string STAGE  = "",
     parameter string MODULE = "",
     parameter int    WIDTH  = 1,
-    parameter bit    COMES  = 1'b0 // a stream that the design takes: a reset does not withdraw it
+    parameter bit    COMES  = 1'b0 // an input stream of the design: a reset does not withdraw its element
 ) (
     input logic             clk, rst,
     input logic             valid, ready,
@@ -40,18 +40,18 @@ module tess_check_stream #(
     `TESS_CHECK(STAGE, "reset", MODULE, COMES || !was_reset || !valid)
 endmodule
 
-// A stream against the counts that its stage was started with: that many elements, `last` with only the last.
+// A stream against the counts with which its stage was started: it has that many elements, and `last` only with the last.
 module tess_check_counts #(
     parameter string STAGE  = "",
     parameter string MODULE = ""
 ) (
     input logic        clk, rst,
     input logic        start,     // a patch begins
-    input logic [13:0] elements,  // of it; patches without have none to come
+    input logic [13:0] elements,  // its number of elements, which may be 0
     input logic        passes,    // an element leaves
     input logic        last
 );
-    logic [13:0] due[$]; // elements to come of each patch, the oldest first
+    logic [13:0] due[$]; // elements that are due of each patch, the oldest patch first
     always @(posedge clk) begin
         if (rst) begin
             due.delete();
@@ -67,7 +67,8 @@ module tess_check_counts #(
     end
 endmodule
 
-// The ports of the whole: each stream keeps what waits, the patches too, and a patch offered during a reset is not taken.
+// The ports of tess_top: each stream, including that of patches, keeps an element that waits, and a patch that is offered
+// during a reset is not taken.
 module tess_check_top (
     input logic         clk, rst, patch_valid, patch_ready, counts_valid, counts_ready,
     input logic [198:0] patch,
@@ -85,7 +86,7 @@ bind tess_top tess_check_top checks (
     .counts({counts_points, counts_primitives})
 );
 
-// Structures have the widths that tess_pkg sums up by hand.
+// Structures have the widths that tess_pkg states as sums.
 module tess_check_widths;
     if ($bits(tess_context_t) != tess_pkg::CONTEXT_BITS) $error("CONTEXT_BITS is not the width of tess_context_t");
 endmodule
@@ -155,7 +156,7 @@ bind tess_points tess_check_points checks (
     .b_points(b_context.points), .is_placed(here.at != AT_CORNER), .out_u, .out_v
 );
 
-// Indices are numbers of the patch's points, a stitch stays on its rows.
+// Indices are below the patch's number of points, and a stitch stays on its rows.
 module tess_check_connect (
     input logic        clk, rst, start_valid, start_ready, out_valid, out_ready, out_last,
     input logic [12:0] start_points,
@@ -163,7 +164,7 @@ module tess_check_connect (
     input logic [1:0]  out_size,
     input logic [12:0] out_i0, out_i1, out_i2
 );
-    logic [12:0] counts[$]; // points of the patches whose primitives are to come, the oldest first
+    logic [12:0] counts[$]; // points of the patches whose primitives are due, the oldest patch first
     logic [12:0] points;
     assign points = (counts.size() == 0) ? 13'd0 : counts[0];
     always @(posedge clk) begin

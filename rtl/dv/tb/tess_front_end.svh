@@ -1,6 +1,6 @@
 // The front end's own signals for tb_tess: each converted factor and its context, compared with the model.
 
-// Factors as they are converted, two clocks before their contexts.
+// Factors after conversion, two clocks before their contexts.
 logic [22:0] fixed[2];
 always @(posedge clk) begin
     if (axis.top.stage_factors.advance) begin
@@ -15,7 +15,7 @@ function automatic void check_factor();
     int unsigned k = 32'(axis.top.stage_factors.context_k);
     processed_t  p;
     bit          is_culled = axis.top.stage_factors.context_tag.culled;
-    if (of_factors.size() == 0) begin // of a patch that a reset has withdrawn, or of none
+    if (of_factors.size() == 0) begin // a factor of a patch that a reset has withdrawn, or of no patch
         tess_check_pkg::failed("factors", "valid", "tess_factors");
         return;
     end

@@ -1,11 +1,11 @@
-// References: each module of the two streams against the formula of its section, computed here in plain integers. A failure names
-// the module; the streams' own comparison would only name the last one that the value passes. Bound as tess_checks.sv is, and
-// compiled after it.
+// References: compare each module of the two streams with the formula of its section, computed here in plain integers. A failure
+// names the module, whereas the comparison of the streams would name only the last module that the value passes. Like
+// tess_checks.sv they are bound to the modules; compile this file after it.
 //
 //   module                     checked when                                  against
 //   tess_reciprocal            in every clock                                section 2
 //   tess_fork                  in every clock                                each element once to each consumer
-//   tess_skid                  an element leaves                             the elements that came, in order
+//   tess_skid                  an element leaves                             the elements that entered, in order
 //   tess_place_position        two clocks after a position enters            section 5, first half
 //   tess_place_blend           six clocks after                              section 5, second half
 //   tess_combine               ten clocks after                              section 6
@@ -32,14 +32,14 @@ bind tess_factors tess_reference_reciprocal floor_reference (
 bind tess_factors tess_reference_reciprocal ceil_reference (
     .clk, .rst, .n(factor_context.ceil_reciprocal.n), .value(factor_context.ceil_reciprocal.value));
 
-// Each consumer has taken as many elements as have left, or one more.
+// Each consumer has taken as many elements as have left the fork, or one more.
 module tess_reference_fork #(
     parameter int N = 1
 ) (
     input logic         clk, rst, in_valid, in_ready,
     input logic [N-1:0] out_valid, out_ready
 );
-    logic [N-1:0] has_taken; // the element that is offered
+    logic [N-1:0] has_taken; // the consumers that have taken the offered element
     always @(posedge clk) begin
         for (int i = 0; i < N; i++) begin
             if (!rst && in_valid && out_valid[i] == has_taken[i]) tess_check_pkg::failed("fork", "valid", "tess_fork");
@@ -108,7 +108,7 @@ module tess_reference_place (
         return r;
     endfunction
 
-    place_t expected[6]; // of the clock before, of the one before that, ..
+    place_t expected[6]; // for the points of the previous clock, of the one before that, ..
     always_ff @(posedge clk) begin
         if (rst) begin
             for (int i = 0; i < 6; i++) expected[i] <= '0;
@@ -118,7 +118,7 @@ module tess_reference_place (
         end
     end
     place_t position, placed;
-    logic   is_chosen; // the position is not the middle, which needs no products
+    logic   is_chosen; // the position is not the middle, which needs no multiplication
     assign position  = expected[1];
     assign placed    = expected[5];
     assign is_chosen = position.is_used && !position.middle;
@@ -201,7 +201,7 @@ module tess_reference_mask (
     input logic [5:0]  half,
     input logic [31:0] mask
 );
-    // ruler[position] of section 7.2: 1 for the middle, 2 and 3 for the quarters, ..; 32 for position 1.
+    // ruler[position] of section 7.2: 1 for the middle, 2 and 3 for the quarters, .., 32 for position 1.
     function automatic int unsigned ruler(input int unsigned position);
         int unsigned odd = position - 1, first = 16;
         if (odd == 0) return 32;
@@ -227,14 +227,14 @@ module tess_reference_stitch (
     input tess_step_t   step
 );
     typedef struct packed { bit begins, last, advances_outer, begins_outer; } step_t;
-    step_t due[$]; // steps of the stitches that were taken, the next one first
+    step_t due[$]; // the steps that are due for the stitches that were taken, the next one first
 
     function automatic void walk(input bit advances_outer, input bit begins_outer, inout int unsigned number);
         due.push_back({number == 0, ahead.last && number == 32'(ahead.further), advances_outer, begins_outer});
         number++;
     endfunction
 
-    // Section 7.2, where bits of the mask are positions.
+    // The steps of section 7.2; the bits of the mask are positions.
     function automatic void walk_transition(inout int unsigned number);
         if (ahead.has_ends) walk(1'b1, 1'b1, number);
         for (int i = 0; i < 64; i++) if (ahead.mask[i]) walk(i[0], i[0], number);

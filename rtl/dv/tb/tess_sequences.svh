@@ -1,5 +1,5 @@
-// Functional coverage of sequences, for tb_tess: which patch follows which, and where in a patch the circuit is stalled or
-// reset. Positions of a stream are those of the element that is offered.
+// Functional coverage of sequences, for tb_tess: the kinds of successive patches, and the positions in a patch at which the
+// circuit is stalled or reset. The position of a stream is that of the element that it offers.
 string POSITIONS[4] = '{"only", "first", "middle", "last"};
 string STREAMS[3] = '{"counts", "points", "primitives"};
 string KINDS[5] = '{"isoline", "triangle", "quad", "minimum", "culled"};
@@ -22,9 +22,9 @@ function automatic void cover_patch();
     kind_before = kind;
 endfunction
 
-// ---- a primitive whose points are still to come ------------------------------------------------
+// ---- a primitive before its points -------------------------------------------------------------
 
-// Both streams are in the same patch if as many patches are due of each.
+// Both streams are in the same patch if the same number of patches is due in each.
 function automatic void cover_primitive();
     if (of_points.size() == of_primitives.size() && 32'(primitive_i0) >= next_point) hit("a primitive before its points");
 endfunction
@@ -40,7 +40,7 @@ function automatic string position_of(input int unsigned stream);
     return POSITIONS[(next == 0) ? (is_last ? 0 : 1) : (is_last ? 3 : 2)];
 endfunction
 
-// Every clock, before anything passes.
+// Called in every clock, before the transfers.
 function automatic void cover_sequences();
     bit [2:0] waits;
     waits = {primitive_valid && !primitive_ready, point_valid && !point_ready, counts_valid && !counts_ready};
@@ -73,19 +73,19 @@ function automatic int unsigned missed(input string bin);
     return 1;
 endfunction
 
-// How many bins have no hit; names them.
+// Returns the number of bins without a hit, and prints their names.
 function automatic int unsigned sequences_missed();
     sequences_missed = missed("reset before the first element") + missed("reset of counts, only") + missed("a primitive before its points");
     foreach (KINDS[i]) foreach (KINDS[j]) sequences_missed += missed({KINDS[i], " after ", KINDS[j]});
     for (int unsigned stream = 0; stream < 3; stream++) begin
         sequences_missed += missed({STREAMS[stream], " alone wait"}) + missed({"stall of 1024 clocks of ", STREAMS[stream]});
-        foreach (POSITIONS[i]) if ((stream == 0 && i == 0) || (stream == 1 && i != 0) || stream == 2) begin // a patch has two points at least
+        foreach (POSITIONS[i]) if ((stream == 0 && i == 0) || (stream == 1 && i != 0) || stream == 2) begin // a patch has at least two points
             string place = {STREAMS[stream], ", ", POSITIONS[i]};
             sequences_missed += missed({"stall of ", place}) + missed({"long stall of ", place});
             if (stream != 0) sequences_missed += missed({"reset of ", place});
         end
     end
-    // Bits of `took`: points, primitives, counts. All three would have let the patch go.
+    // Bits of `took`: points, primitives, counts. All three are never set, because the patch would have left.
     for (int unsigned took = 0; took < 7; took++)
         sequences_missed += missed($sformatf("reset with a patch in the fork, taken by %03b", 3'(took)));
     $display("sequences: %0d bins are hit, %0d are not", sequences.num(), sequences_missed);

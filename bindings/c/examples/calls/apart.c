@@ -1,12 +1,12 @@
 /*
- * The cost of points in two arrays beside points in pairs: TESS_POINT_F32_APART and TESS_POINT_F32.
+ * The cost of points in two arrays compared with points in pairs: TESS_POINT_F32_APART and TESS_POINT_F32.
  *
  *   cc -O2 -I bindings/c/include bindings/c/examples/calls/apart.c bindings/c/examples/calls/clock.c
  *      target/release/libtess_capi.a -lpthread -ldl -lm -o apart && ./apart
  *
- * Prints for each factor of a quad of odd fractional spacing, in nanoseconds a patch: a call of tess_batch_patch
- * with pairs and apart, then tess_batch_run of 64 patches with pairs and apart, and both ratios. The formats take
- * turns; each figure is the least of 60 rounds.
+ * For each factor of a quad with odd fractional partitioning, prints nanoseconds per patch: tess_batch_patch with
+ * pairs and with two arrays, then tess_batch_run of 64 patches with pairs and with two arrays, and both ratios. The
+ * formats alternate; each figure is the smallest of 60 rounds.
  */
 #include "tess.h"
 #include <stdio.h>
@@ -57,7 +57,7 @@ int main(void)
     printf("factor, a call: pairs apart ratio, in a batch: pairs apart ratio\n");
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         double best[4] = {1e9, 1e9, 1e9, 1e9};
-        /* No two patches are alike, as in a mesh. */
+        /* All patches differ, as in a mesh. */
         for (int k = 0; k < PATCHES * FACTORS; k++)
             factors[k] = all[i] - (float)(k * 37 % 101) / 256;
         for (int turn = 0; turn < 4 * ROUNDS; turn++) {

@@ -1,4 +1,4 @@
-/* The C call for run.py: as main.rs, by tess_batch_patch. */
+/* Times tess_batch_patch for run.py; the measurement is that of main.rs. */
 #include "tess.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-// The DPI-C call for run.py: as main.rs, by tess_dpi_patch. Says also what it costs to read every element
-// of the patch that is held.
+// Times tess_dpi_patch for run.py; the measurement is that of main.rs. Also times the call together with
+// reading every element of the held patch.
 module calls;
     import tess_dpi::*;
 

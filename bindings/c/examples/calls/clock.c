@@ -1,4 +1,4 @@
-/* The clock of calls.c and calls.sv, in nanoseconds. */
+/* The clock of calls.c, calls.sv and apart.c, in nanoseconds. */
 #define _POSIX_C_SOURCE 199309L
 #include <stdint.h>
 #include <time.h>

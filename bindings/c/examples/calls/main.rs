@@ -1,6 +1,6 @@
-//! Times the Rust call that `run.py` compares the other languages' calls with: one quad of factor
-//! K, in 16.16 and 32-bit indices. Prints nanoseconds a call for each K, the least of 60 runs of
-//! 2000 calls.
+//! Times the Rust call with which `run.py` compares the calls of other languages: one quad of
+//! factor K, with 16.16 points and 32-bit indices. Prints nanoseconds per call for each K, the
+//! smallest of 60 runs of 2000 calls.
 #![expect(clippy::print_stdout, reason = "a program prints its result")]
 #![expect(
     clippy::float_arithmetic,

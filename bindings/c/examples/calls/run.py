@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""One patch a call from each language beside the Rust call: nanoseconds, and the ratio to Rust.
+"""Times one patch per call from each language: nanoseconds, and the ratio to the Rust call.
 
     python3 bindings/c/examples/calls/run.py [--target-dir DIR]
 
-Builds tess-capi for release, main.rs, calls.c with cc, and calls.sv with Verilator if there is one; the Python
-package is timed if it can be imported (bindings/python). A patch is a quad of factor K, integer; points are 16.16,
-indices have 32 bits, into memory that is kept (Python makes new arrays). The programs run in five turns; a figure is
-the least of all.
+Builds tess-capi for release, main.rs, calls.c with cc, and calls.sv with Verilator if it is installed. The Python
+package (bindings/python) is timed if it can be imported. A patch is a quad of factor K with integer partitioning.
+Points are 16.16 numbers, and indices have 32 bits. All calls write to the same memory, except that Python makes new
+arrays. The programs run in five turns; a figure is the smallest of all turns.
 """
 
 import argparse
@@ -22,7 +22,7 @@ LIBRARIES = ["-lpthread", "-ldl", "-lm"]
 
 
 def build(target):
-    """The programs by what they time."""
+    """Builds the programs; returns their commands by language."""
     subprocess.run(
         ["cargo", "build", "--release", "-p", "tess-capi", "--lib", "--example", "calls", "--target-dir", target],
         cwd=WORKSPACE,
@@ -48,14 +48,14 @@ def build(target):
 
 
 def timed(command):
-    """Times of each factor, as a program prints them."""
+    """The times of each factor, as a program prints them."""
     said = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     rows = [line.split() for line in said.splitlines() if line[:1].isdigit()]
     return {int(row[0]): [float(figure) for figure in row[1:]] for row in rows}
 
 
 def python():
-    """Each factor's times of making a patch, and of making it and both of its arrays; None without the package."""
+    """For each factor the time to make a patch, and to make it and both arrays; None without the package."""
     try:
         from tess_model import Patch
     except ImportError:

@@ -6,7 +6,7 @@ use std::mem::{align_of, size_of};
 use tess_core::{Domain, IsolineFactors, QuadFactors, TriangleFactors};
 use tess_simd::Batch;
 
-// The structures that the batch backend reads are as many floats as a patch has factors.
+// The structures that the batch backend reads consist of as many floats as a patch has factors.
 const _: () = {
     assert!(size_of::<IsolineFactors>() == 2 * size_of::<f32>(), "two factors");
     assert!(size_of::<TriangleFactors>() == 4 * size_of::<f32>(), "four factors");
@@ -24,7 +24,7 @@ pub(super) struct Patches<'a> {
 }
 
 impl<'a> Patches<'a> {
-    /// The patches whose factors lie in a caller's array.
+    /// The patches whose factors are in a caller's array.
     ///
     /// # Safety
     /// - If not null and aligned, `factors` points to `factor_count` floats that can be read and
@@ -42,7 +42,8 @@ impl<'a> Patches<'a> {
         Ok(Self { domain, factors })
     }
 
-    /// The same patches in parts of `patches`, at least one, the last of which may have fewer.
+    /// The same patches in parts of `patches` patches, which must not be 0. The last part may have
+    /// fewer.
     pub(super) fn parts(self, patches: usize) -> impl Iterator<Item = Self> {
         let Self { domain, factors } = self;
         factors.chunks(patches * domain.factors()).map(move |factors| Self { domain, factors })
@@ -63,10 +64,10 @@ impl<'a> Patches<'a> {
 /// Floats as whole structures of factors.
 ///
 /// # Safety
-/// - `T` is a `repr(C)` structure of floats alone.
+/// - `T` is a `repr(C)` structure that has only floats.
 unsafe fn structures<T>(floats: &[f32]) -> &[T] {
     let count = floats.len() / (size_of::<T>() / size_of::<f32>());
-    // SAFETY: as many floats as `count` structures have, aligned as these are; any bits are floats,
-    // and the borrow is that of `floats`.
+    // SAFETY: `floats` has the floats of `count` structures, with their alignment. Any bits are
+    // valid floats, and the borrow is that of `floats`.
     unsafe { std::slice::from_raw_parts(floats.as_ptr().cast(), count) }
 }

@@ -1,4 +1,4 @@
-//! The buffers and formats that the output of a batch is written in.
+//! The buffers and formats of a batch's output.
 
 use crate::boundary::MemoryState;
 use crate::status::{TESS_UNKNOWN_VALUE, TessStatus};
@@ -9,19 +9,19 @@ use tess_simd::{BatchCounts, PatchRange};
 
 /// Point format: `TessPoint`, a pair of unsigned 16.16 numbers.
 pub const TESS_POINT_FIXED: u32 = 0;
-/// Point format: two floats, which have the values of the 16.16 numbers exactly.
+/// Point format: two floats, exactly equal to the 16.16 numbers.
 pub const TESS_POINT_F32: u32 = 1;
 
 /// Point format: as `TESS_POINT_F32`, but u and v in two arrays. `points` has `2 * point_capacity`
-/// floats: first u of each point, then, from float number `point_capacity`, v of each point.
+/// floats: u of each point from float 0, v of each point from float `point_capacity`.
 pub const TESS_POINT_F32_APART: u32 = 2;
 
 /// Index type: `uint32_t`.
 pub const TESS_INDEX_U32: u32 = 0;
 /// Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`. With
-/// `TESS_NUMBERING_PER_BATCH` it numbers 65536 points. The last of these indices, 65535, restarts
-/// primitives in WebGL 2 and wherever primitive restart is on: keep `base_vertex` and the points of
-/// the batch together to `TESS_POINTS_WITHOUT_RESTART_U16` there.
+/// `TESS_NUMBERING_PER_BATCH` it numbers 65536 points. The last index, 65535, restarts primitives
+/// in WebGL 2 and wherever primitive restart is on. There, `base_vertex` plus the number of points
+/// in the batch must not exceed `TESS_POINTS_WITHOUT_RESTART_U16`.
 pub const TESS_INDEX_U16: u32 = 1;
 /// The points that `uint16_t` numbers from 0 without the index 65535.
 pub const TESS_POINTS_WITHOUT_RESTART_U16: u32 = 65535;
@@ -33,15 +33,15 @@ pub const TESS_NUMBERING_PER_BATCH: u32 = 1;
 
 /// Memory: the buffers may be uninitialised.
 pub const TESS_MEMORY_ANY: u32 = 0;
-/// Memory: every byte of the buffers was written before, by `calloc`, `memset`, an earlier call or
-/// the caller. This is faster, because nothing is cleared before it is written.
+/// Memory: every byte of the buffers has been written before, by `calloc`, `memset`, an earlier
+/// call or the caller. This is faster, because the call need not clear them first.
 pub const TESS_MEMORY_INITIALISED: u32 = 1;
 
 /// Sizes of a batch's output.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessBatchCounts {
-    /// Patches, culled ones included: elements of `ranges`.
+    /// Patches, including culled ones: elements of `ranges`.
     pub patches: usize,
     /// Elements of `points`.
     pub points: usize,
@@ -49,8 +49,8 @@ pub struct TessBatchCounts {
     pub indices: usize,
 }
 
-/// The part of a batch's output that belongs to one patch or one group. A culled patch has no
-/// points and no indices.
+/// The part of a batch's output that belongs to one patch or one group. A culled patch has neither
+/// points nor indices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessRange {
@@ -66,23 +66,21 @@ pub struct TessRange {
 
 /// The buffers and formats of a batch's output. Capacities count elements. A buffer of
 /// capacity 0 may be null.
-///
-/// `ranges` is optional: null with capacity 0 asks for no ranges.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct TessBatchOutput {
     /// Receives the points of all patches, one patch after another.
     pub points: *mut c_void,
-    /// The elements that `points` has room for.
+    /// Number of elements that `points` has room for.
     pub point_capacity: usize,
     /// Receives the indices of all patches, one patch after another.
     pub indices: *mut c_void,
-    /// The elements that `indices` has room for.
+    /// Number of elements that `indices` has room for.
     pub index_capacity: usize,
-    /// Receives one range for each patch. Null, with a `range_capacity` of 0, if they are not
-    /// wanted.
+    /// Receives one range for each patch. Null, with a `range_capacity` of 0, if you do not want
+    /// ranges.
     pub ranges: *mut TessRange,
-    /// The elements that `ranges` has room for.
+    /// Number of elements that `ranges` has room for.
     pub range_capacity: usize,
     /// `TESS_POINT_FIXED`, `TESS_POINT_F32` or `TESS_POINT_F32_APART`
     pub point_format: u32,
@@ -90,7 +88,7 @@ pub struct TessBatchOutput {
     pub index_type: u32,
     /// `TESS_NUMBERING_...`
     pub numbering: u32,
-    /// The number of the batch's first point under `TESS_NUMBERING_PER_BATCH`, else ignored.
+    /// The number of the batch's first point with `TESS_NUMBERING_PER_BATCH`, else ignored.
     pub base_vertex: u32,
     /// `TESS_MEMORY_ANY` or `TESS_MEMORY_INITIALISED`, which is a promise about all three buffers.
     pub memory: u32,
@@ -111,7 +109,8 @@ impl TessBatchOutput {
     }
 }
 
-/// The instance of a function for the formats of an output; `TESS_UNKNOWN_VALUE` if it names none.
+/// The instance of a function for the formats of an output; `TESS_UNKNOWN_VALUE` if a format has an
+/// unknown number.
 macro_rules! in_formats {
     ($output:expr, $function:ident) => {{
         use crate::batch::points::{Apart, Together};
@@ -130,7 +129,7 @@ macro_rules! in_formats {
 }
 pub(super) use in_formats;
 
-// The structures that the batch backend writes have the layout of those here.
+// The structures that the batch backend writes have the same layout as those here.
 const _: () = {
     assert!(size_of::<TessRange>() == size_of::<PatchRange>(), "ranges have the same size");
     assert!(align_of::<TessRange>() == align_of::<PatchRange>(), "ranges have the same alignment");

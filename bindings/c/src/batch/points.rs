@@ -1,4 +1,4 @@
-//! How points lie in a caller's buffer: in pairs of coordinates, or with all u before all v.
+//! Layouts of points in a caller's buffer: pairs of coordinates, or all u before all v.
 
 use crate::boundary::{self, MemoryState};
 use crate::status::{TESS_TOO_LARGE, TessStatus};
@@ -13,7 +13,7 @@ use tess_simd::{
 
 /// A caller's memory for points, which need not be initialised.
 pub(super) trait PointRoom<'a>: Debug + Sized {
-    /// A point's coordinates, wherever each of them lies.
+    /// The coordinates of one point.
     type Point;
 
     /// Memory for `capacity` points.
@@ -22,13 +22,13 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
     /// - As for [`boundary::room`], with the bytes of `capacity` points.
     unsafe fn new(pointer: *mut c_void, capacity: usize) -> Result<Self, TessStatus>;
 
-    /// The points that it has room for.
+    /// The number of points that it has room for.
     fn len(&self) -> usize;
 
-    /// The room of the first points and the rest; `None` if it is smaller.
+    /// The room of the first `points` points, and the rest; `None` if there are fewer.
     fn split_at(self, points: usize) -> Option<(Self, Self)>;
 
-    /// Has a counted batch written.
+    /// Writes a counted batch.
     ///
     /// # Errors
     /// Those of [`Counted::write`].
@@ -40,7 +40,7 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
         rest: (&mut [I], Option<&mut [PatchRange]>),
     ) -> Result<BatchCounts, Error>;
 
-    /// Has a patch written.
+    /// Writes a patch.
     ///
     /// # Errors
     /// Those of [`Tessellator::patch`].
@@ -99,7 +99,7 @@ impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
     }
 }
 
-/// The coordinates of points in two arrays of one length.
+/// The coordinates of points in two arrays of equal length.
 #[derive(Debug)]
 pub(super) struct Apart<'a> {
     u: &'a mut [MaybeUninit<f32>],

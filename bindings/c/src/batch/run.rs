@@ -17,7 +17,7 @@ use tess_simd::{BatchCounts, Counted, IndexFormat, Numbering, PatchRange, Tessel
 struct BatchRoom<'a, P, I> {
     points: P,
     indices: &'a mut [MaybeUninit<I>],
-    /// `None` if the caller wants none.
+    /// `None` if the caller does not want ranges.
     ranges: Option<&'a mut [MaybeUninit<PatchRange>]>,
     memory: MemoryState,
 }
@@ -25,7 +25,7 @@ struct BatchRoom<'a, P, I> {
 /// Tessellates a batch in one pair of formats.
 ///
 /// # Safety
-/// - As for [`super::tess_batch_run`], the buffers' elements being `P`'s and `I`.
+/// - As for [`super::tess_batch_run`], with buffers of `P`'s points and of `I`.
 pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     batch: &mut TessBatch,
     (factors, factor_count): (*const f32, usize),
@@ -81,16 +81,17 @@ pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     }
 }
 
-/// The size of a part's output, in bytes, that stays in a core's nearest caches.
+/// The size of a part's output, in bytes. It fits a core's nearest caches.
 const PART_BYTES: usize = 1 << 18;
 
-/// The patches of a part at most: as many as the batch backend keeps from counting to writing.
+/// The largest number of patches in a part. The batch backend keeps the results of counting this
+/// many patches until it writes them.
 const PART_PATCHES: usize = 64;
 
 /// Writes a batch into room of exactly its sizes.
 ///
-/// The batch backend takes initialised slices. So that what has to be initialised does not go
-/// through memory twice, that is done part by part, each just before its output is written.
+/// The batch backend takes initialised slices. They are initialised part by part, each part just
+/// before its output is written, so that it is still in the cache.
 fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
     tessellator: &mut Tessellator,
     patches: Patches<'_>,
@@ -123,8 +124,8 @@ const fn narrow(count: usize) -> u32 {
 }
 
 impl<'a, P: PointRoom<'a>, I: IndexFormat> BatchRoom<'a, P, I> {
-    /// Has a counted batch written into room of exactly its sizes. Gives the ranges, if any are
-    /// wanted.
+    /// Writes a counted batch into room of exactly its sizes. Returns the ranges if the caller
+    /// wants them.
     fn receive(
         self,
         counted: &mut Counted<'_>,
@@ -139,7 +140,7 @@ impl<'a, P: PointRoom<'a>, I: IndexFormat> BatchRoom<'a, P, I> {
         written.map(|_| ranges).map_err(|error| status_of(&error))
     }
 
-    /// Refuses a batch that it has no room for, by the buffer that [`Counted::write`] would name.
+    /// Refuses a batch that does not fit, with the buffer that [`Counted::write`] would name.
     fn check(&self, needed: BatchCounts) -> Result<(), TessStatus> {
         if let Some(ranges) = &self.ranges {
             shortage::check(TESS_BUFFER_RANGES, needed.patches, ranges.len())?;

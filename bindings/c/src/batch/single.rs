@@ -20,14 +20,14 @@ use tess_simd::{Batch, CountedPatch, IndexFormat, Tessellator};
 /// `TESS_OK` the output is written and `counts` has its sizes. With `TESS_BUFFER_TOO_SMALL` only
 /// `counts` is written, with the sizes that are needed; `tess_shortage` names the buffer. With any
 /// other status nothing is written. Up to 64 elements past the output may be overwritten in either
-/// buffer, as far as it has room for them; a call with that much room is the fastest. Buffers,
-/// factors and `counts` must not overlap (`TESS_OVERLAP`).
+/// buffer, but never past its capacity; calls are fastest with that much room. Buffers, factors and
+/// `counts` must not overlap (`TESS_OVERLAP`).
 ///
 /// A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of
 /// 2022 with AVX-512). With `TESS_MEMORY_INITIALISED` and the same factors as the previous patch,
 /// it takes 19 ns and 28 ns on a server of 2024. It is faster than `tess_batch_run` with one patch,
-/// which counts twice; for large patches the two take equally long. A call allocates where a patch
-/// has point counts that this batch has not met before; after `tess_batch_reserve` none does.
+/// which counts twice; for large patches the two take equally long. A call allocates if a patch has
+/// point counts that are new to this batch; after `tess_batch_reserve` no call does.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -35,11 +35,11 @@ use tess_simd::{Batch, CountedPatch, IndexFormat, Tessellator};
 /// Other pointers that are not null and aligned must be valid:
 /// - `factors` for reading as many floats as the domain has factors,
 /// - `output` for reading one structure,
-/// - the buffers that it names for writing as many elements of their formats as it says, and with
-///   `TESS_MEMORY_INITIALISED` for reading them,
+/// - its buffers for writing as many elements of their formats as their capacities state, and with
+///   `TESS_MEMORY_INITIALISED` also for reading them,
 /// - `counts` for writing one structure,
 ///
-/// and no other thread may use any of them at the same time.
+/// and no other thread may use any of them during the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tess_batch_patch(
     batch: *mut TessBatch,
@@ -64,7 +64,7 @@ pub unsafe extern "C" fn tess_batch_patch(
 /// Tessellates a patch in one pair of formats.
 ///
 /// # Safety
-/// - As for [`tess_batch_patch`], the buffers' elements being `P`'s and `I`.
+/// - As for [`tess_batch_patch`], with buffers of `P`'s points and of `I`.
 unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     batch: &mut TessBatch,
     factors: *const f32,
@@ -89,8 +89,8 @@ unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     // SAFETY: as above.
     let indices = unsafe { boundary::room(indices.0, indices.1) }?;
     let (tessellator, room) = (&mut batch.tessellator, (points, indices));
-    // Factors are copied whole: single ones would have to reach memory before the tessellator reads
-    // them in pairs.
+    // The factors are copied as one structure: separate stores would stall the tessellator, which
+    // reads factors in pairs.
     let (written, needed) = match patches.batch() {
         Batch::Isolines(&[factors]) => write(tessellator, factors, room, memory),
         Batch::Triangles(&[factors]) => write(tessellator, factors, room, memory),
@@ -102,8 +102,8 @@ unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     written
 }
 
-/// Writes a patch if it has room; gives its sizes too. Memory that may hold anything is initialised
-/// as far as the patch may write it, which takes a count.
+/// Writes a patch if there is room for it, and returns its sizes in any case. Uninitialised memory
+/// is initialised as far as the patch may write it, which requires counting the patch first.
 #[inline(always)]
 fn write<'a, F: Copy + Into<PatchFactors>, P: PointRoom<'a>, I: IndexFormat>(
     tessellator: &mut Tessellator,

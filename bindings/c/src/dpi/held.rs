@@ -12,8 +12,8 @@ use crate::types::{TessConfig, TessPoint};
 use tess_core::{Counts, Domain, DomainPoint, MAX_INDICES, MAX_POINTS};
 use tess_simd::{CountedPatch, Tessellator};
 
-/// A configuration and its last tessellated patch. `tess_dpi_open` makes it, `tess_dpi_close` frees
-/// it.
+/// A configuration and the patch that was tessellated last. `tess_dpi_open` makes it,
+/// `tess_dpi_close` frees it.
 #[derive(Debug)]
 pub struct TessHeldPatch {
     tessellator: Tessellator,
@@ -24,8 +24,8 @@ pub struct TessHeldPatch {
     indices: Vec<u32>,
 }
 
-/// Makes a holder of one patch at a time of a configuration; before the first patch it has no
-/// elements.
+/// Makes a handle that holds one patch of a configuration at a time. Before the first patch it has
+/// no elements.
 ///
 /// # Safety
 /// - `held`, if not null and aligned, must be valid for writing one pointer.
@@ -48,13 +48,13 @@ pub unsafe extern "C" fn tess_dpi_open(
             points: vec![DomainPoint::default(); MAX_POINTS + CountedPatch::OVERRUN],
             indices: vec![0; MAX_INDICES + CountedPatch::OVERRUN],
         }));
-        // SAFETY: `held` is writable, as the caller promises; it was checked above, so that nothing
-        // is lost here.
+        // SAFETY: `held` is writable, as the caller promises. It was checked above, so the box
+        // cannot leak here.
         unsafe { boundary::write(held, made) }
     })
 }
 
-/// Frees what `tess_dpi_open` made. Null is allowed and does nothing.
+/// Frees a handle. Null is allowed and does nothing.
 ///
 /// # Safety
 /// - `held` is null or came from `tess_dpi_open`, is not in use and is not used again.
@@ -66,8 +66,8 @@ pub unsafe extern "C" fn tess_dpi_close(held: *mut TessHeldPatch) {
     }
 }
 
-/// Tessellates a patch, holds it in place of the one before, and gives its sizes. A refused call
-/// leaves the patch before.
+/// Tessellates a patch, holds it in place of the previous one, and writes its sizes. A refused call
+/// keeps the previous patch.
 ///
 /// # Safety
 /// - `held` is null or came from `tess_dpi_open`, and is in no other call at the same time.

@@ -7,8 +7,8 @@ Counts(points=36, primitives=52, indices=156)
 >>> patch.points[0], patch.indices[0]
 (array([    0, 65536], dtype=uint32), array([ 0,  1, 18], dtype=uint32))
 
-Single patches are :class:`Patch`; many at once :func:`tessellate`; test vectors, comparison and
-coverage :func:`generate`, :func:`check` and :class:`Coverage`.
+:class:`Patch` is a single patch, and :func:`tessellate` does many at once. For test vectors,
+comparison and coverage see :func:`generate`, :func:`check` and :class:`Coverage`.
 """
 
 from functools import lru_cache as _lru_cache
@@ -21,7 +21,7 @@ from .errors import *
 from .scoreboard import Scoreboard
 from .values import *
 
-# The names of the package: the imports above take whole modules.
+# The public names. The imports above import whole modules.
 __all__ = [
     "ArgumentError",
     "Batch",
@@ -83,7 +83,7 @@ def tessellate(
     """Tessellates a batch: :meth:`Tessellator.tessellate` with a tessellator that is kept for the
     next call.
 
-    ``factors`` has shape (patches, k), float32, k being 2 (isoline), 4 (tri) or 6 (quad).
+    ``factors`` is a float32 array of shape (patches, k), where k is 2 (isoline), 4 (tri) or 6 (quad).
 
     >>> import numpy as np
     >>> factors = np.full((100, 4), 5.0, dtype=np.float32)

@@ -1,4 +1,4 @@
-"""The compiled part: types. The documentation is in the docstrings."""
+"""The types of the compiled part. Its docstrings have the documentation."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from os import PathLike

@@ -1,13 +1,13 @@
-"""Errors of the package. Every error says what was wrong and what would be right."""
+"""Errors of the package. Every message says what was wrong and what would be right."""
 
 
 class TessError(ValueError):
-    """The base of this package's errors. Itself, it means that the system refused something, such as more
-    threads."""
+    """The base of this package's errors. A plain TessError means that the system refused something, such as
+    more threads."""
 
 
 class ArgumentError(TessError):
-    """An argument with no meaning: an unknown name, a wrong number of factors, an array of another type
+    """An argument without a meaning: an unknown name, a wrong number of factors, an array of a wrong type
     or shape, a batch that 32 bits cannot count."""
 
 
@@ -16,10 +16,10 @@ class NoSuchElementError(TessError, IndexError):
 
 
 class OutputError(TessError):
-    """An array in ``out`` that cannot be written: too small, read-only, of another type, not
-    C-contiguous, or sharing memory with another one. Nothing was written."""
+    """An array in ``out`` that cannot be written: it is too small, read-only, of a wrong type, not
+    C-contiguous, or shares memory with another one. Nothing was written."""
 
 
 class FileFormatError(TessError):
     """A vector file or a coverage file that is malformed, truncated, too long or empty. The message
-    names file, line and field."""
+    names the file, line and field."""

@@ -1,4 +1,4 @@
-"""A scoreboard for circuits that stream what they make: each element is compared when it comes."""
+"""A scoreboard for circuits that stream their output: each element is compared when it arrives."""
 
 from collections import deque
 from typing import Iterator, NamedTuple, Sequence
@@ -7,11 +7,11 @@ from ._native import Coverage, Patch
 from .values import SignalDifference
 
 SHOWN = 20
-"""Mismatches that are kept."""
+"""The number of mismatches that are kept."""
 
 
 class _Stream:
-    """The patches of which a stream still has elements to give."""
+    """The patches whose elements in a stream are not complete yet."""
 
     def __init__(self) -> None:
         self.patches: "deque[tuple[Patch, int]]" = deque()
@@ -23,7 +23,7 @@ class _Stream:
             self.patches.append((patch, elements))
 
     def pop(self) -> "tuple[Patch, int] | None":
-        """The patch and the number of the element that comes now."""
+        """The patch and number of the element that arrives now; None if no patch has it."""
         if not self.patches:
             return None
         patch, elements = self.patches[0]
@@ -46,11 +46,11 @@ class Mismatch(NamedTuple):
     patch: Patch
     """The patch that it belongs to."""
     element: str
-    """Which it is: ``counts``, ``point 7``, ``primitive 3``."""
+    """The name of the element: ``counts``, ``point 7``, ``primitive 3``."""
     differences: "tuple[SignalDifference, ...]"
-    """Its signals that differ."""
+    """The signals that differ."""
     command: str
-    """The command that explains it."""
+    """The command that explains the element."""
 
     def __str__(self) -> str:
         first = self.differences[0]
@@ -61,10 +61,10 @@ class Mismatch(NamedTuple):
 
 
 class Scoreboard:
-    """Compares what a circuit streams with the model, in order.
+    """Compares the streams of a circuit with the model, in order.
 
-    Call ``accept`` when the circuit takes a patch, and ``counts``, ``point`` and ``primitive`` for each element
-    when it comes. The three streams do not wait for each other. Bins of ``coverage`` are counted at ``accept``.
+    Call ``accept`` when the circuit accepts a patch, and ``counts``, ``point`` and ``primitive`` when an element
+    arrives. The three streams are independent of each other. ``accept`` records the bins of ``coverage``.
 
     >>> from tess_model import Patch, Scoreboard
     >>> board, patch = Scoreboard(), Patch("isoline", [1, 2], output="line")
@@ -84,51 +84,52 @@ class Scoreboard:
 
     def __init__(self) -> None:
         self.coverage = Coverage()
-        """Bins of what was accepted."""
+        """The coverage of the accepted patches."""
         self.mismatches: "list[Mismatch]" = []
-        """The first ones."""
+        """The first mismatches."""
         self.wrong = 0
-        """Elements that differ, or that no patch has."""
+        """The number of elements that differ."""
         self._streams = {name: _Stream() for name in ("counts", "point", "primitive")}
 
     def accept(self, patch: Patch) -> None:
-        """The circuit has taken a patch."""
+        """Records that the circuit has accepted a patch."""
         counts = patch.counts
         self.coverage.record(patch)
         for stream, elements in zip(self._streams.values(), (1, counts.points, counts.primitives)):
             stream.expect(patch, elements)
 
     def counts(self, points: int, primitives: int) -> None:
-        """Both numbers came."""
+        """Compares the counts of a patch when they arrive."""
         self._compare("counts", {"points": points, "primitives": primitives})
 
     def point(self, u: int, v: int, last: bool) -> None:
-        """A point came; ``u`` and ``v`` are 16.16."""
+        """Compares a point when it arrives; ``u`` and ``v`` are 16.16."""
         self._compare("point", {"u": u, "v": v, "last": int(last)})
 
     def primitive(self, indices: Sequence[int], last: bool, size: "int | None" = None) -> None:
-        """A primitive came, with its 1 to 3 indices; or with all three fields and ``size``, and the unused ones must be 0."""
+        """Compares a primitive when it arrives. ``indices`` are its 1 to 3 indices; or, with ``size``, all three
+        fields, of which the unused ones must be 0."""
         i0, i1, i2 = (*indices, 0, 0)[:3]
         size = len(indices) if size is None else size
         self._compare("primitive", {"size": size, "i0": i0, "i1": i1, "i2": i2, "last": int(last)})
 
     def reset(self) -> None:
-        """The circuit was reset: nothing that it has taken is due."""
+        """Records that the circuit was reset: nothing is due for the patches that it has accepted."""
         for stream in self._streams.values():
             stream.clear()
 
     @property
     def checked(self) -> "dict[str, int]":
-        """How many elements of each stream were compared."""
+        """The number of elements of each stream that were compared."""
         return {name: stream.checked for name, stream in self._streams.items()}
 
     @property
     def due(self) -> int:
-        """Patches of which something has not come, in the stream that is furthest behind."""
+        """The number of incomplete patches in the stream that is furthest behind."""
         return max(len(stream.patches) for stream in self._streams.values())
 
     def missing(self) -> "Iterator[str]":
-        """The item that each stream waits for."""
+        """The next element of each stream that is due."""
         for name, stream in self._streams.items():
             if stream.patches:
                 yield f"{name} {stream.next} of {stream.patches[0][0].case}"
@@ -147,7 +148,7 @@ class Scoreboard:
 
 
 def _command(patch: Patch, which: "dict[str, int]", observed: "dict[str, int]") -> str:
-    """The command that shows the element, and compares it again."""
+    """The command that explains the element and compares it again."""
     chosen = "".join(f" --{name} {number}" for name, number in which.items())
     seen = ",".join(f"{signal}={value:#x}" for signal, value in observed.items())
     return f"{patch.command.replace('tess patch', 'tess explain', 1)}{chosen} --observed {seen}"

@@ -1,6 +1,6 @@
 """The model's results: named tuples.
 
-Numbers are exact. ``16.16`` is an integer whose unit is 1/65536; ``15.16`` likewise, for factors;
+Numbers are exact. ``16.16`` is an integer in units of 1/65536, and so is ``15.16``, for factors.
 ``bits`` are those of a binary32 number.
 """
 
@@ -22,7 +22,7 @@ class Counts(NamedTuple):
 
 
 class FactorContext(NamedTuple):
-    """The numbers that place a factor's points (specification, section 4)."""
+    """The numbers that place the points of an edge with this factor (specification, section 4)."""
 
     parity: str
     """``even`` or ``odd``: the number of segments."""
@@ -35,7 +35,7 @@ class FactorContext(NamedTuple):
     half_points: int
     """Points on a half edge, without the midpoint of an even edge: 1..32."""
     split: int
-    """The position on the half edge that splits off its predecessor: 0..33."""
+    """The position on the half edge that is splitting, or ``half_points + 1`` if none is: 0..33."""
     points: int
     """Points on the edge: 2..65."""
 
@@ -47,7 +47,7 @@ class ProcessedFactor(NamedTuple):
     """``density``, ``detail``, ``u0``, ``v0``, ``w0``, ``u1``, ``v1``, ``inside``, ``inside_u``,
     ``inside_v``."""
     raw: int
-    """The factor that was given: bits."""
+    """The factor before processing: bits."""
     clamped: int
     """After clamping: bits."""
     rounded: int
@@ -64,7 +64,7 @@ class ProcessedFactor(NamedTuple):
 
 
 class Blend(NamedTuple):
-    """The two places on either side of a location, 16 fraction bits each."""
+    """The places of a point in both subdivisions, 16 fraction bits each."""
 
     coarse: int
     fine: int
@@ -73,7 +73,7 @@ class Blend(NamedTuple):
 
 
 class Placement(NamedTuple):
-    """A location in one dimension with every step (specification, section 5)."""
+    """A location in one dimension, with every step (specification, section 5)."""
 
     flip: bool
     """Whether the point is on the second half of the edge, or in its middle."""
@@ -88,7 +88,7 @@ class Placement(NamedTuple):
 
 
 class PointOrigin(NamedTuple):
-    """Where a domain point comes from (specification, section 6)."""
+    """The origin of a domain point (specification, section 6)."""
 
     kind: str
     """``corner`` (of a minimum patch), ``line``, ``outer_edge``, ``ring`` or ``centre``."""
@@ -99,11 +99,11 @@ class PointOrigin(NamedTuple):
     edge: Optional[int]
     """Number of the edge."""
     p: int
-    """Number of the point there; of a corner its own."""
+    """Number of the point on its line, edge or centre; for a corner, that of the corner."""
 
 
 class PrimitiveOrigin(NamedTuple):
-    """Where a primitive comes from (specification, sections 7 and 8)."""
+    """The origin of a primitive (specification, sections 7 and 8)."""
 
     kind: str
     """``sequence``, ``line``, ``minimum``, ``transition``, ``ring`` or ``centre``."""
@@ -114,7 +114,7 @@ class PrimitiveOrigin(NamedTuple):
     edge: Optional[int]
     """Number of the edge."""
     step: int
-    """Number of the primitive there."""
+    """Number of the primitive along its line, stitch, centre or sequence."""
 
 
 class Batch(NamedTuple):
@@ -145,7 +145,7 @@ class BatchCounts(NamedTuple):
 
 
 class Group(NamedTuple):
-    """How many bins of a coverage group were hit."""
+    """The number of bins of a coverage group, and how many were hit."""
 
     hit: int
     bins: int
@@ -157,17 +157,17 @@ class Difference(NamedTuple):
     number: int
     """Number of the record, from 1."""
     line: Optional[int]
-    """Line of the file that the record starts on."""
+    """Line of the file on which the record starts."""
     case: Optional[str]
     """The patch, as ``Patch.from_case`` takes it."""
     element: str
     """Name of the element that differs, such as ``point 7 u``."""
     observed: str
-    """Value found there: hex, or a decimal count."""
+    """The value found: hex, or a decimal count."""
     expected: str
-    """Value that is right there."""
+    """The correct value."""
     stage: str
-    """The stage of the specification that it points to."""
+    """The stage of the specification that the difference points to."""
     text: str
     """All of this as ``tess check`` prints it."""
 
@@ -180,7 +180,7 @@ class SignalDifference(NamedTuple):
     module: str
     """The module of ``rtl/`` that makes the signal."""
     signal: str
-    """Its name."""
+    """The name of the signal."""
     observed: int
     """Value from the circuit."""
     expected: int
@@ -206,13 +206,13 @@ class RuleRow(NamedTuple):
     """Outcome of one rule of a standard."""
 
     rule: str
-    """Its name, as docs/rules.md has it."""
+    """The name of the rule in docs/rules.md."""
     source: str
-    """Where the standard states it."""
+    """The place in the standard that states it."""
     verdict: str
     """``held``, ``broken`` or ``not exercised``."""
     judged: int
-    """Patches, or patches beside an earlier one, that it judged."""
+    """Patches, or pairs of a patch and an earlier one, that it judged."""
     broken: int
     """How many of them break it."""
     example: Optional[RuleExample]
@@ -227,7 +227,7 @@ class RulesReport(NamedTuple):
     patches: int
     """Patches that were judged."""
     rows: "tuple[RuleRow, ...]"
-    """Its rules, in their order."""
+    """The rules of the standard, in order."""
     text: str
     """All of this as ``tess check --rules`` prints it."""
 
@@ -237,7 +237,7 @@ class RulesReport(NamedTuple):
         return all(row.verdict != "broken" for row in self.rows)
 
     def rule(self, name: str) -> RuleRow:
-        """The row of a rule; ``KeyError`` if the standard has none of this name."""
+        """The row of a rule; raises ``KeyError`` if the standard has no rule of this name."""
         for row in self.rows:
             if row.rule == name:
                 return row
@@ -248,7 +248,7 @@ class Report(NamedTuple):
     """The verdict on vectors or on a device."""
 
     cases: int
-    """Records that were checked: all."""
+    """Records that were checked."""
     mismatches: int
     """Records that differ."""
     differences: "tuple[Difference, ...]"

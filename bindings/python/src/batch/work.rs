@@ -1,4 +1,4 @@
-//! How a batch is written: at once, or in parts if that takes long enough to press Ctrl-C.
+//! Writing of a batch: at once, or in parts if it takes long enough to press Ctrl-C.
 
 use crate::errors;
 use pyo3::prelude::*;
@@ -7,7 +7,8 @@ use tess_simd::{
     PatchRange, Tessellator,
 };
 
-/// The most output, in bytes, between two looks for signals: some hundredths of a second.
+/// The largest output between two checks for signals, in bytes. It takes some hundredths of a
+/// second to write.
 const MOST_BYTES: usize = 64 << 20;
 
 /// A counted batch, to be written.
@@ -41,7 +42,7 @@ impl BatchSizes {
 
     /// Whether the batch is written at once.
     pub(super) fn is_small(&self) -> bool {
-        // The types are known later; these are the largest.
+        // The types are not known yet; these are the largest.
         bytes::<[f32; 2], u32>(self.counts) <= MOST_BYTES
     }
 }
@@ -53,8 +54,8 @@ fn bytes<P, I>(counts: BatchCounts) -> usize {
 }
 
 impl BatchWork<'_> {
-    /// Writes it without the interpreter's lock. Errors: those of [`Counted::write`], and then
-    /// nothing is written; what a handler of a signal raised.
+    /// Writes it without the interpreter's lock. Errors: those of [`Counted::write`], after which
+    /// nothing is written; the exception of a signal handler.
     pub(super) fn write<P: OutputPoint, I: IndexFormat>(
         self,
         py: Python<'_>,
@@ -95,7 +96,7 @@ impl BatchWork<'_> {
     }
 }
 
-/// Patches that have [`MOST_BYTES`] of output if they are like the average: at least one.
+/// The number of average patches that have [`MOST_BYTES`] of output, at least one.
 fn most_patches<P, I>(counts: BatchCounts) -> usize {
     let average = bytes::<P, I>(counts).div_ceil(counts.patches.max(1));
     (MOST_BYTES / average.max(1)).max(1)
@@ -106,8 +107,8 @@ const fn narrow(count: usize) -> u32 {
     count as u32
 }
 
-/// Writes a part, whose output begins at `first`, to the beginning of some room; `None` if it is
-/// too large for that and can be cut.
+/// Writes a part, whose output begins at `first`, to the beginning of `room`; `None` if the part is
+/// too large and can be cut.
 fn write_part<P: OutputPoint, I: IndexFormat>(
     tessellator: &mut Tessellator,
     part: Batch<'_>,
@@ -155,7 +156,7 @@ impl<'a, P: OutputPoint, I: IndexFormat> ArrayRoom<'a, P, I> {
         })
     }
 
-    /// The room of what is left of a batch that has all of this.
+    /// The room of the unwritten rest of a batch. `self` is the room of the whole batch.
     fn rest(&mut self, sizes: BatchSizes, left: BatchCounts) -> ArrayRoom<'_, P, I> {
         let BatchCounts { patches, points, indices } = sizes.counts;
         ArrayRoom {

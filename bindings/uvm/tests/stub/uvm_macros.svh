@@ -1,5 +1,5 @@
-// The macros that tess_uvm and its example use, for the stub of uvm_pkg. A `type_id` is the class itself, as Verilator 5.006
-// loses the type that a parameterised one is of.
+// The macros that tess_uvm and its example use, for the stub of uvm_pkg. A `type_id` is the class itself, because Verilator
+// 5.006 loses the type parameter of a parameterised `type_id`.
 `define uvm_object_utils(T) \
     typedef T type_id; \
     static function T create(string name = ""); \

@@ -1,6 +1,7 @@
 // A stub of the parts of UVM that tess_uvm uses, so that a simulator without UVM compiles and runs it
-// in this project's tests. It is no UVM: no factory, no phases but by hand, a sequencer has one sequence, reports are lines.
-// Other names that the example uses are declared, so that it can be elaborated, and do nothing.
+// in this project's tests. It does not implement UVM: there is no factory, phases are called by hand, a sequencer has one
+// sequence, and reports are lines. The other names that the example uses do nothing; they are declared so that it can be
+// elaborated.
 package uvm_pkg;
     typedef enum bit { UVM_PASSIVE = 0, UVM_ACTIVE = 1 } uvm_active_passive_enum;
 
@@ -8,7 +9,7 @@ package uvm_pkg;
         int unsigned m_compares;
     endclass
 
-    // Keeps what is printed.
+    // Keeps the text that is printed.
     class uvm_printer;
         string m_text;
         function void print_string(string name, string value);
@@ -115,7 +116,7 @@ package uvm_pkg;
         endfunction
     endclass
 
-    // Target of an analysis port.
+    // The target of an analysis port.
     virtual class uvm_port_base #(type T = int) extends uvm_component;
         function new(string name, uvm_component parent);
             super.new(name, parent);
@@ -144,7 +145,8 @@ package uvm_pkg;
         endfunction
     endclass
 
-    // Takes items from a sequence to a driver. Not of the items' type, which Verilator 5.006 loses on the way.
+    // Passes items from a sequence to a driver. It is not parameterised by the type of the items, which Verilator 5.006
+    // would lose.
     class m_item_channel;
         mailbox #(uvm_sequence_item) m_items;
         mailbox #(bit)               m_done;
@@ -195,7 +197,7 @@ package uvm_pkg;
             super.new(name);
         endfunction
         virtual task body();
-            if (m_to == null) #1; // a task that takes time, as those of its heirs do
+            if (m_to == null) #1; // makes this a task that takes time, like its overrides
         endtask
         task start(uvm_sequencer_base sequencer);
             m_to = sequencer.seq_item_export;

@@ -2,9 +2,9 @@
 
     python -m tess_model.examples.campaign_on_dask FOLDER [--scheduler ADDRESS] [--kill]
 
-Each shard leaves a report in FOLDER, which all workers must see. A shard whose worker dies is done again by another, and
-its report replaced, so the reports prove that every shard ran once. --kill kills a worker in the middle. Without a
-scheduler, four workers run here. It needs `dask[distributed]` and the program `tess` on the workers.
+Each shard writes a report to FOLDER, which all workers must be able to access. If a worker dies, another worker runs its
+shard again and replaces the report, so every shard is counted once. --kill kills a worker halfway. Without a scheduler,
+four workers run on this machine. The workers need `dask[distributed]` and the program `tess`.
 """
 
 import argparse
@@ -24,7 +24,7 @@ SEED, COUNT = 7, 6400
 
 
 def verify(shard: int, folder: str) -> int:
-    """One shard of the CPU backend's comparison, done by the program; its exit code."""
+    """Compares one shard of the CPU backend with the program `tess`; returns its exit code."""
     report = f"{folder}/verify-{shard}.jsonl"
     words = ["tess", "verify", "--backend", "simd", "--random", "200", "--shard", f"{shard}/{SHARDS}"]
     return subprocess.run([*words, "--report", report], stdout=subprocess.DEVNULL).returncode
@@ -36,7 +36,7 @@ def device(patch: tess_model.Patch) -> "tuple[Any, Any]":
 
 
 def check(shard: int, folder: str) -> int:
-    """One shard of the device's comparison; how many answers differ."""
+    """Compares one shard of the device; returns the number of answers that differ."""
     began = time.monotonic()
     asked = list(tess_model.generate(3, seed=SEED, count=COUNT, shard=(shard, SHARDS)))
     verdict = tess_model.check_device(((patch, *device(patch)) for patch in asked), cases=asked)
@@ -90,7 +90,7 @@ def main() -> int:
 
 
 def merge(folder: Path, name: str) -> int:
-    """Verdict of `tess merge` on one campaign's reports; its exit code."""
+    """Merges the reports of one campaign with `tess merge`; returns its exit code."""
     reports = [str(folder / f"{name}-{shard}.jsonl") for shard in range(1, SHARDS + 1)]
     sys.stdout.flush()
     return subprocess.run(["tess", "merge", *reports]).returncode

@@ -1,6 +1,6 @@
-"""The bench of tess_placer in Python: what an engineer writes for a design of their own.
+"""A bench of tess_placer in Python, as a pattern for a bench of your own design.
 
-A stimulus is a factor and a point of its edge; the design gives the location three clocks later, with
+A stimulus is a factor and a point of its edge. Three clocks later the design outputs the location, with
 every signal of its three stages. `tess_model` is the reference. `run.py` runs this in a simulator.
 """
 
@@ -52,7 +52,7 @@ def level_1() -> Iterator[Factor]:
 
 
 def constrained_random(seed: int, count: int) -> Iterator[Factor]:
-    """Factors in range; every third lies within 16 units of an integer, where designs go wrong."""
+    """Factors in range; every third is within 16 units of an integer, where designs tend to fail."""
     source = random.Random(seed)
     for i in range(count):
         parity, split_order = source.choice(("even", "odd")), source.choice(("ruler", "center"))
@@ -69,7 +69,7 @@ context = lru_cache(maxsize=None)(tess_model.context)
 
 
 def expected(stimulus: Stimulus) -> "dict[tuple[str, str], int]":
-    """Stage and signal, in the order in which each feeds the next, with the model's value."""
+    """The model's value of each signal, by stage and signal, in the order of the data flow."""
     factor, p = stimulus
     c, placed = context(*factor), tess_model.place(factor.fixed, factor.parity, p, factor.split_order)
     values = {
@@ -90,7 +90,7 @@ def expected(stimulus: Stimulus) -> "dict[tuple[str, str], int]":
 
 
 class Bench:
-    """Drives the inputs at falling edges, where the monitor reads the outputs too."""
+    """Drives the inputs and reads the outputs at falling edges."""
 
     def __init__(self, dut: Any) -> None:
         self.dut = dut
@@ -138,10 +138,10 @@ class Bench:
             if observed != value:
                 wrong = f"stage={stage} signal={signal} observed={observed:#x} expected={value:#x} {stimulus}"
                 self.wrong.append(wrong)
-                return  # what follows from it is no news
+                return  # later signals follow from it
 
     def add_coverage(self, file: Path) -> None:
-        """Adds the bins to a file: what was driven counts, whatever the design gave."""
+        """Adds the bins to a file. All stimuli count, whatever the design answered."""
         if file.exists():
             self.coverage.merge(tess_model.Coverage.read(file))
         self.coverage.write(file)

@@ -4,7 +4,7 @@
                   [--sim verilator|icarus] [--random N] [--seed N] [--coverage FILE]
                   [--testcase level_1_stimuli|random_stimuli] [--rtl FOLDER]
 
-The design is that of the folder `design`, or of `--rtl`; what is built goes to ./sim_build. Exit status: 0
+The design is in the folder `design`, or in the folder of `--rtl`. It is built in ./sim_build. Exit status: 0
 equal, 1 different, 2 no design.
 """
 
@@ -43,11 +43,11 @@ def sources(rtl: Path) -> "list[Path]":
 def simulate(
     options: argparse.Namespace, toplevel: str, bench: Path, design: Iterable[Path], build: Path, tests: int, **more: Any
 ) -> bool:
-    """Builds a design, with more arguments of cocotb's `build`, and runs a bench; whether so many tests pass."""
-    sys.path.insert(0, str(bench.parent))  # the simulator's interpreter gets this path, and looks for the bench
+    """Builds a design, with more arguments of cocotb's `build`, and runs a bench; whether `tests` tests pass."""
+    sys.path.insert(0, str(bench.parent))  # the simulator's interpreter gets this path, to find the bench
     common: "dict[str, Any]" = {"hdl_toplevel": toplevel, "build_dir": build, "timescale": ("1ns", "1ps")}
     runner = get_runner(options.sim)
-    # Another design may have older files.
+    # Always: the files of another design may be older than the last build.
     runner.build(verilog_sources=list(design), always=True, **common, **more)
     environment = {f"TESS_{name.upper()}": str(value) for name, value in vars(options).items()}
     results = runner.test(
