@@ -37,6 +37,11 @@ impl Target {
             _ => vec!["--lib".to_owned()],
         }
     }
+
+    /// Whether it is the library of its package, in any form.
+    pub(crate) fn is_library(&self) -> bool {
+        self.selection() == ["--lib"]
+    }
 }
 
 impl Package {

@@ -60,12 +60,18 @@ const BEYOND: &[Beyond] = &[
             "backends::gpu_random_patches_are_equal",
             "backends::narrow_indices_equal_recorded_patches",
             "backends::simd_equals_every_recorded_result",
+            "backends::simd_random_patches_are_equal",
             "crossed::backends_are_timed",
+            "rules::backends_are_judged",
         ],
     },
     Beyond {
         program: "tess-wgpu/tests/stage/main.rs",
         tests: &[
+            "evaluated::one_output_is_drawn_with_many_materials",
+            "evaluated::project_is_called",
+            "lost::",
+            "porting::",
             "rising::",
             "room::a_frame_that_does_not_fit_is_coarser",
             "sequences::",
@@ -74,11 +80,33 @@ const BEYOND: &[Beyond] = &[
     },
     Beyond {
         program: "tess-wgpu/tests/batches/main.rs",
-        tests: &["alike::", "cut::", "order::", "short::"],
+        tests: &[
+            "alike::",
+            "catalogue::planted_faults",
+            "cut::",
+            "groups::planted_faults",
+            "order::",
+            "short::",
+        ],
     },
+    Beyond {
+        program: "tess-wgpu/tests/sequences/main.rs",
+        tests: &["options::every_two_options_together"],
+    },
+    Beyond { program: "tess-wgpu/tests/pictures/main.rs", tests: &[] },
     Beyond { program: "tess-gpu/tests/twins/main.rs", tests: &[] },
+    Beyond { program: "tess-gpu/tests/shaders.rs", tests: &["every_shader_is_valid"] },
     Beyond { program: "tools/cli/tests/shaders/main.rs", tests: &[] },
     Beyond { program: "tools/probe/tests/bench.rs", tests: &[] },
+    Beyond {
+        program: "tess-verify/tests/rules/main.rs",
+        tests: &["mistakes::mistakes_are_broken_or_allowed"],
+    },
+    Beyond {
+        program: "tess-verify/tests/selections.rs",
+        tests: &["level_1_of_any_selection", "level_1_sees_halves"],
+    },
+    Beyond { program: "dev/testkit/tests/faults.rs", tests: &["wrong_records"] },
 ];
 
 /// The extent of a test run.
@@ -237,11 +265,14 @@ fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
     Ok(selections.into_iter().flatten().collect())
 }
 
-/// The arguments of cargo that select the programs of [`Extent::Comparisons`].
+/// The arguments of cargo that select the programs of [`Extent::Comparisons`]. Tests inside a
+/// library are left out: each compiles its whole crate once more, an eighth of a fresh build, and
+/// the programs in `tests` compare the same code from outside.
 fn comparisons() -> Result<Vec<String>, String> {
     let packages = packages::all()?;
     let chosen = packages.iter().filter(|package| !APART.contains(&package.name.as_str()));
-    let targets = chosen.flat_map(|package| &package.targets).filter(|target| target.test);
+    let targets = chosen.flat_map(|package| &package.targets);
+    let targets = targets.filter(|target| target.test && !target.is_library());
     let wanted =
         targets.filter(|target| tests_beyond(&target.src_path).is_none_or(|t| !t.is_empty()));
     let selections: BTreeSet<_> = wanted.map(Target::selection).collect();
@@ -307,10 +338,12 @@ mod tests {
         for Beyond { program, tests } in BEYOND {
             for name in *tests {
                 let (module, test) = name.split_once("::").unwrap_or(("", name));
+                let beside = |name: String| workspace().join(program).with_file_name(name);
                 let file = match module {
                     "" => workspace().join(program),
-                    _ => workspace().join(program).with_file_name(format!("{module}.rs")),
+                    _ => beside(format!("{module}.rs")),
                 };
+                let file = if file.is_file() { file } else { beside(format!("{module}/mod.rs")) };
                 let text = fs::read_to_string(file).expect("text");
                 let is_there =
                     text.contains(&format!("fn {test}")) || text.contains(&format!("\"{test}"));

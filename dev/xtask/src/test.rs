@@ -27,10 +27,11 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
     report.beside_each_other(suite::jobs(extent, &TestSelection::of(arguments))?)?;
     if arguments.is_empty() {
         println!(
-            "\nNOT RUN: all recorded results in batches and on the GPU, long sequences of frames, every pass \
-             of the shaders beside its twin, shaders in other languages, OpenGL, a window, simulators, Python, \
-             models judged by other programs, the explorer, the programs that measure. \
-             `cargo xtask test all` runs them, and so does `cargo xtask ci`."
+            "\nNOT RUN: tests inside the libraries, all recorded results in batches and on the GPU, long sequences \
+             of frames, every pass of the shaders beside its twin, shaders in other languages, pictures, every \
+             mistake under every rule, OpenGL, a window, simulators, Python, models judged by other programs, \
+             the explorer, the programs that measure. `cargo xtask test all` runs them, and so does \
+             `cargo xtask ci`."
         );
     }
     finish(report)

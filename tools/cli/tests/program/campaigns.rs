@@ -340,16 +340,18 @@ fn shards_of_files() {
 #[test]
 fn shards_of_other_cases() {
     let folder = directory("shards-of-other-cases");
+    let make = |option: &str, shard: usize| {
+        let selection = "--domain isoline --partitioning pow2 --format listing";
+        let made = format!("gen {option} --shard {shard}/2 {selection} -o d{shard}.txt");
+        tess_in(&folder, &made).exits(0);
+    };
     for (option, other, why) in [
         ("--level 3 --seed 1 --count 20", "--level 3 --seed 2 --count 20", "seed"),
         ("--level 3 --count 20", "--level 1 --count 20", "level"),
         ("--level 3 --count 20", "--level 3 --count 21", "random"),
     ] {
         for (shard, option) in [(1, option), (2, other)] {
-            let made = format!(
-                "gen {option} --shard {shard}/2 --domain tri --format listing -o d{shard}.txt"
-            );
-            tess_in(&folder, &made).exits(0);
+            make(option, shard);
             tess_in(&folder, &format!("check d{shard}.txt --report r{shard}.jsonl")).exits(0);
         }
         let run = tess_in(&folder, "merge r1.jsonl r2.jsonl");
@@ -358,10 +360,7 @@ fn shards_of_other_cases() {
     let report = fs::read_to_string(folder.join("r2.jsonl")).expect("a report");
     let older = report.replacen("level-version\":[\"3\"]", "level-version\":[\"2\"]", 1);
     assert_ne!(older, report, "it has the version");
-    tess_in(
-        &folder,
-        "gen --level 3 --count 21 --shard 1/2 --domain tri --format listing -o d1.txt",
-    );
+    make("--level 3 --count 21", 1);
     tess_in(&folder, "check d1.txt --report r1.jsonl").exits(0);
     tess_in(&folder, "merge r1.jsonl r2.jsonl").exits(0); // the same cases
     fs::write(folder.join("r2.jsonl"), older).expect("written");
