@@ -59,7 +59,7 @@ pub(crate) enum Layout {
     Structures,
     Columns,
     AnyDomain,
-    /// Columns whose last one has one more factor: refused.
+    /// Columns whose last one has one factor less: refused.
     Uneven,
     /// The last patch has another domain: refused.
     Mixed,
