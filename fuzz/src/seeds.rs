@@ -63,7 +63,7 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
         };
         (i.to_string(), bytes)
     };
-    // Every fifth batch is longer than a chunk of 64 patches.
+    // For `simd`, every fifth batch is longer than a chunk of 64 patches.
     let long = |(i, (name, bytes)): (usize, (String, Vec<u8>))| {
         let is_long = target == "simd" && i % 5 == 0;
         let bytes = if is_long {
