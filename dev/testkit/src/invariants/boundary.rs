@@ -9,8 +9,9 @@ use tess_core::{
 use tess_verify::Case;
 
 /// 12.5: the points on an outer edge are those of that edge's factor, whatever the other factors
-/// and whichever edge it is, and one minus them are the same points in reverse. An isoline patch,
-/// which has no other factor, gives the points of a factor.
+/// and whichever edge it is, and one minus them are the same points in reverse.
+///
+/// An isoline patch, which has no other factor, gives the points of a factor.
 ///
 /// # Errors
 /// The edge that has other points.
