@@ -1,11 +1,11 @@
-//! Every kernel of the CPU backend at every level beside the model's stage: the table of
+//! Times every kernel of the CPU backend at every level, and the model's stage: the table of
 //! `tess-simd/tests/kernels`.
 //!
 //! Each entry runs its inputs of four rounds: integer and fractional-even factors, random and
-//! extreme. Behind Criterion's own report stands a table: the nanoseconds of an element (a point,
-//! an index, or a patch or number where the stage makes neither) and how many times as many the
-//! model takes, which also notes what each word is. The least time of all samples counts, so that
-//! other work on the machine disturbs little.
+//! extreme. A table follows Criterion's own report: the nanoseconds per element (a point, an index,
+//! or a patch or number where the stage makes neither), and how many times as long the model takes,
+//! which also notes the meaning of each word. The smallest time of all samples counts, so that
+//! other work on the machine has little effect.
 #![expect(clippy::float_arithmetic, reason = "times are divided")]
 
 #[path = "../../tess-simd/tests/kernels/table.rs"]
@@ -64,8 +64,7 @@ fn kernels(criterion: &mut Criterion) {
     let _ = std::io::stdout().write_all(report.as_bytes());
 }
 
-/// Benches a routine; returns the least time that one call took in any sample, if the filter lets
-/// it run.
+/// Times a routine; returns the smallest time of one call in any sample, if the filter selects it.
 fn least(
     group: &mut BenchmarkGroup<'_, WallTime>,
     name: &str,

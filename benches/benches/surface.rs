@@ -1,5 +1,5 @@
-//! Evaluation of surfaces on one thread at every CPU level, beside filling as many vertices:
-//! elements are vertices, at the domain points of factor 8.
+//! Times the evaluation of surfaces on one thread at every CPU level, and filling as many vertices.
+//! Elements are vertices, at the domain points of factor 8.
 #![expect(clippy::float_arithmetic, reason = "heights and corners are floats")]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
@@ -32,7 +32,7 @@ fn pn_triangle() -> Surface {
     Surface::PnTriangle(PnTriangle::new(corners, edges))
 }
 
-/// Nanoseconds a vertex: the time of an element.
+/// Nanoseconds per vertex: the time of an element.
 fn surface(criterion: &mut Criterion) {
     let quad = domain_points(QuadFactors::uniform(8.0).into());
     let triangle = domain_points(TriangleFactors::uniform(8.0).into());

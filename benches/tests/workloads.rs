@@ -1,5 +1,5 @@
-//! Workloads are measured right: the first batch of each, by the model and by the SIMD backend,
-//! against the random-access formulation, which shares no walk with them.
+//! Workloads are measured correctly: compares the first batch of each, by the model and by the SIMD
+//! backend, with the random-access formulation, which shares no walk with them.
 
 use tess_core::{DomainPoint, Patch, PatchFactors};
 use tess_simd::{Numbering, Output, OwnedBatch, Tessellator};
@@ -53,7 +53,7 @@ fn every_workload_is_right() {
     }
 }
 
-/// The comparison can fail: with other factors there are other indices.
+/// The comparison can fail: other factors give other indices.
 #[test]
 fn another_patch_is_seen() {
     let workload = Workload::all().swap_remove(0);

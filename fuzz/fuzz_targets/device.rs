@@ -1,4 +1,4 @@
-//! A tessellator of one's own against the model, by cases instead of bytes.
+//! A user's own tessellator against the model, by cases instead of bytes.
 #![no_main]
 
 use tess_verify::Case;

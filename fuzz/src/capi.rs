@@ -1,9 +1,9 @@
 //! The C interface with hostile arguments: wrong pointers, sizes, numbers and counts.
 //!
-//! Each call may have any number of things wrong with it. The oracle: with nothing wrong it answers
-//! `TESS_OK` and gives what the core gives; otherwise it answers a status that one of the wrong
-//! things explains, and writes nothing. Buffers are exactly as large as they have to be, so that
-//! the address sanitizer sees any access beyond them.
+//! Each call may have any number of faults. The oracle: a call without a fault answers `TESS_OK`
+//! and the core's result; any other call answers a status that one of its faults explains, and
+//! writes nothing. Buffers are exactly as large as they have to be, so that the address sanitizer
+//! detects any access beyond them.
 
 mod batch;
 mod hostile;
@@ -12,7 +12,7 @@ mod probe;
 
 use crate::input::Bytes;
 
-/// Makes one call of a function that the first byte chooses. Errors: description of the wrong
+/// Makes one call of a function that the first byte selects. Errors: a description of the wrong
 /// answer or write.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let mut bytes = Bytes(data);

@@ -1,4 +1,4 @@
-//! The example of someone's own tessellator (`tess-verify/examples/fuzz`) against the model.
+//! The example of a user's own tessellator (`tess-verify/examples/fuzz`) against the model.
 
 #[path = "../../tess-verify/examples/fuzz/device.rs"]
 mod example;

@@ -1,4 +1,4 @@
-//! The WGSL backend on the first adapter, a software one for example, against the core.
+//! The WGSL backend on the first adapter, for example a software one, against the core.
 
 use crate::compare_with_model;
 use crate::input::Bytes;
@@ -9,19 +9,19 @@ use tess_gpu::{Numbering, PointFormat, Setup};
 use tess_verify::Case;
 use tess_wgpu::{Gpu, Tessellator};
 
-/// Patches in a batch: small, as a software adapter runs them.
+/// The most patches in a batch: few, because a software adapter runs them.
 const MOST: usize = 12;
 
-/// Stays to the end of the process: a driver cannot be closed while a thread's locals go.
+/// Lives until the process ends: a driver cannot be closed while a thread's locals are destroyed.
 static DEVICE: OnceLock<Mutex<(Gpu, Tessellator)>> = OnceLock::new();
 
-/// Compares a batch of packed points and indices that count from the patch.
+/// Compares a batch of packed points, with indices that count from the patch's first point.
 ///
 /// # Errors
 /// The first difference.
 ///
 /// # Panics
-/// Without an adapter: nothing passes because nothing ran.
+/// There is no adapter: nothing must pass because nothing ran.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let (config, patches) = Bytes(data).batch(MOST);
     let Some(first) = patches.first() else { return Ok(()) };

@@ -1,9 +1,9 @@
-//! Cases from the bytes that libFuzzer makes.
+//! Cases from libFuzzer's bytes.
 
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, SplitOrder};
 use tess_verify::Case;
 
-/// Bytes, taken from the front. Where none are left, zeros come.
+/// Bytes, taken from the front. After the last one, zeros follow.
 #[derive(Clone, Copy, Debug)]
 pub struct Bytes<'a>(pub &'a [u8]);
 
@@ -48,9 +48,9 @@ impl Bytes<'_> {
 
     /// A batch of at most `most` patches, and of little more than `MOST_POINTS` points.
     ///
-    /// A setting below [`SETTINGS`], then patches as long as there are bytes; or one above, then
-    /// how many patches there are, a step, and patches that repeat with their bits growing by the
-    /// step, so that a short input makes a long batch.
+    /// A setting below [`SETTINGS`] is followed by patches until the bytes end. A higher one is
+    /// followed by the number of patches, a step, and patches that repeat with their bits growing
+    /// by the step, so that a short input makes a long batch.
     pub fn batch(&mut self, most: usize) -> (Config, Vec<PatchFactors>) {
         let byte = self.byte();
         let (domain, config) = setting(byte);
@@ -76,9 +76,9 @@ impl Bytes<'_> {
     }
 }
 
-/// How many settings there are.
+/// The number of settings.
 pub const SETTINGS: u8 = 96;
-/// Where batches end, as unoptimised kernels run on them at every CPU level.
+/// The size at which batches end, because unoptimised kernels run on them at every CPU level.
 const MOST_POINTS: u32 = 20_000;
 
 fn setting(byte: u8) -> (Domain, Config) {
@@ -101,7 +101,7 @@ pub fn batch_bytes(domain: Domain, config: Config, patches: &[PatchFactors]) -> 
     bytes
 }
 
-/// The bytes that [`Bytes::batch`] reads as `count` patches: these again and again, the bits of
+/// The bytes that [`Bytes::batch`] reads as `count` patches: these repeatedly, with the bits of
 /// their factors growing by `step`.
 pub fn repeated_bytes(plain: &[u8], count: u8, step: u32) -> Vec<u8> {
     let (setting, patches) = plain.split_at(1);

@@ -1,9 +1,9 @@
 //! Cases from bytes, and one oracle for each fuzz target.
 //!
-//! An oracle takes what libFuzzer made and describes the first difference, ending with the case as
-//! a line that `tess check -` reads back and as a `tess patch` command. The targets in
-//! `fuzz_targets` only call them. `TESS_FUZZ_FAULT=1` plants a fault on the observed side, so that
-//! anyone can watch each oracle fail.
+//! An oracle takes libFuzzer's bytes and describes the first difference, ending with the case as a
+//! line that `tess check -` reads back and as a `tess patch` command. The targets in `fuzz_targets`
+//! only call oracles. `TESS_FUZZ_FAULT=1` plants a fault on the observed side, so that anyone can
+//! watch each oracle fail.
 
 pub mod capi;
 pub mod device;
@@ -32,7 +32,7 @@ pub fn fail_if(result: Result<(), String>) {
 
 static PLANTED: AtomicBool = AtomicBool::new(false);
 
-/// Plants the fault from here on, as `TESS_FUZZ_FAULT` does for a whole run.
+/// Plants the fault from now on, as `TESS_FUZZ_FAULT` does for a whole run.
 pub fn plant_fault() {
     PLANTED.store(true, Ordering::Relaxed);
 }

@@ -1,5 +1,6 @@
-//! The readers of mesh files, on any bytes: they refuse a file and say where it is wrong, or what
-//! they read equals an independent reading, which is as plain as can be and checks nothing.
+//! The readers of mesh files, on any bytes: they refuse a file and name the place of the fault, or
+//! their result equals that of an independent reader, which is as simple as possible and checks
+//! nothing.
 
 pub mod bpt;
 pub mod gltf;
@@ -10,7 +11,8 @@ pub mod seeds;
 use crate::fault_is_planted;
 use tess_surface::{MeshError, FaceError, Model, PolygonMesh, Style};
 
-/// Checks one reading: `names_a_place` judges the message of a refusal, `independent` reads again.
+/// Checks one file: `names_a_place` judges the message of a refusal, and `independent` reads the
+/// file again.
 fn check<T>(
     read: Result<T, String>,
     words: impl Fn(&T) -> Vec<u32>,
@@ -40,12 +42,12 @@ fn check<T>(
     }
 }
 
-/// A float as bits that are equal where the numbers are: there is one NaN.
+/// The bits of a float, which are equal if the numbers are: all NaNs are one.
 fn bits(number: f32) -> u32 {
     if number.is_nan() { f32::NAN.to_bits() } else { number.to_bits() }
 }
 
-/// Everything in a mesh, list after list, each after its length.
+/// All contents of a mesh, list after list, each after its length.
 fn mesh_words(mesh: &PolygonMesh) -> Vec<u32> {
     let length = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
     let mut words = vec![length(mesh.positions.len())];
@@ -64,7 +66,7 @@ fn mesh_words(mesh: &PolygonMesh) -> Vec<u32> {
     words
 }
 
-/// Makes models of a mesh, as the program does; no face may be refused for corners that coincide.
+/// Makes models of a mesh, as the program does; no face may be refused because corners coincide.
 fn models(mut mesh: PolygonMesh) -> Result<(), String> {
     tess_program::fuzzing::without_collapsed(&mut mesh);
     for style in [Style::Flat, Style::PointNormal] {

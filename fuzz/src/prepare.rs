@@ -1,8 +1,8 @@
 //! Factor preparation against a second formulation, in binary64 with every rounding made explicit.
 //!
-//! Sums, products and quotients of two binary32 numbers, computed in binary64 and then rounded to
-//! binary32, are the correctly rounded binary32 results, as 53 bits are more than twice 24 plus
-//! one.
+//! Sums, products and quotients of two binary32 numbers that are computed in binary64 and then
+//! rounded to binary32 are the correctly rounded binary32 results, because 53 bits are more than
+//! twice 24 plus one.
 
 use crate::fault_is_planted;
 use crate::input::Bytes;
@@ -29,7 +29,8 @@ pub fn check(data: &[u8]) -> Result<(), String> {
         for (name, (mut observed, expected)) in domain.factor_names().iter().zip(values) {
             observed ^= u32::from(fault_is_planted());
             if observed != expected {
-                // The case is the request in the form of a patch: scales stand for inside factors.
+                // The case is the request in the form of a patch, with scales in place of inside
+                // factors.
                 let case = Case { config, factors };
                 return Err(format!(
                     "\n{case}\nprepared with {reduction:?}, axes {axes:?}: {result} {name} is \
@@ -48,7 +49,7 @@ struct Second {
     axes: QuadAxes,
 }
 
-/// To binary32, nearest even.
+/// Rounds to binary32, to nearest, ties to even.
 fn rounded(x: f64) -> f32 {
     x as f32
 }

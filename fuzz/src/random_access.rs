@@ -1,4 +1,4 @@
-//! The sequential formulation against random access, and against the invariants that hold always.
+//! The sequential formulation against random access, and against the invariants of every output.
 
 use crate::input::Bytes;
 use crate::{compare_with_model, repeatable};

@@ -1,4 +1,4 @@
-//! Seeds: the factors at which something changes, in the form that each target reads.
+//! Seeds: factors at boundaries, in the form that each target reads.
 
 use crate::input::{batch_bytes, repeated_bytes};
 use crate::mesh;
@@ -63,7 +63,7 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
         };
         (i.to_string(), bytes)
     };
-    // Every fifth batch of these goes on beyond a chunk of 64 patches.
+    // For `simd`, every fifth batch is longer than a chunk of 64 patches.
     let long = |(i, (name, bytes)): (usize, (String, Vec<u8>))| {
         let is_long = target == "simd" && i % 5 == 0;
         let bytes = if is_long {
@@ -73,7 +73,7 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
         };
         (name, bytes)
     };
-    // A batch is slow; one patch is all that the other targets read.
+    // A batch is slow, and the other targets read only one patch.
     let size = if matches!(target, "simd" | "gpu") { 12 } else { 1 };
     // Calls that make a batch take milliseconds under a sanitizer.
     let step = if target == "capi" { 5 } else { 1 };
@@ -82,10 +82,10 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
     Ok(seeds.chain(if target == "capi" { culled_calls() } else { Vec::new() }).collect())
 }
 
-/// Calls of `tess_patch` with a culled patch, whose points lie nowhere (254) or askew (255), with a
-/// capacity of `SIZE_MAX` (1), two points (8) or none (0). Bytes stand for a setting and factors,
-/// for what is right with the configuration and the number of factors, then for the capacities and
-/// the pointers.
+/// Calls of `tess_patch` with a culled patch, whose pointer to points is null (254) or misaligned
+/// (255), with a capacity of `SIZE_MAX` (1), two points (8) or none (0). The bytes are a setting
+/// and factors, zeros for a valid configuration and number of factors, then the capacities and the
+/// pointers.
 fn culled_calls() -> Vec<(String, Vec<u8>)> {
     let call = |capacity: u8, pointer: u8| {
         let bytes = [&[0; 15], &[capacity, 0, 0, 0, 0, pointer, 0][..]].concat();
@@ -98,7 +98,7 @@ fn numbered(seeds: Vec<Vec<u8>>) -> Vec<(String, Vec<u8>)> {
     seeds.into_iter().enumerate().map(|(number, seed)| (number.to_string(), seed)).collect()
 }
 
-/// Bytes without a meaning of their own, a case each.
+/// Bytes without a meaning of their own, each a case.
 fn device_seeds() -> Vec<Vec<u8>> {
     let mut random = SplitMix64::new(1);
     let mut word = || random.next_u64().to_le_bytes();
@@ -109,7 +109,7 @@ fn low_byte(number: usize) -> u8 {
     number.to_le_bytes()[0]
 }
 
-/// A file that no recorded one is like: by coordinates, without a count.
+/// A file unlike every recorded one: it has coordinates and no count.
 const CAPTURE: &str = "\
 # tess-vectors 1 kind=listings source=capture
 case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000
@@ -131,7 +131,7 @@ fn recorded(golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
     let mut seeds = vec![("capture".to_owned(), CAPTURE.as_bytes().to_vec())];
     for file in std::fs::read_dir(golden)? {
         let file = file?;
-        // Folders have other things than vector files.
+        // Folders also contain other files than vector files.
         if file.file_type()?.is_dir() {
             continue;
         }
@@ -142,7 +142,7 @@ fn recorded(golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
     Ok(seeds)
 }
 
-/// The head of a vector file, with the number of its records put right.
+/// The head of a vector file, with the number of its records corrected.
 fn first_records(text: &str) -> Option<String> {
     let (header, rest) = text.split_once('\n')?;
     let (before, count) = header.split_once(" count=")?;
@@ -158,7 +158,7 @@ fn first_records(text: &str) -> Option<String> {
     Some(format!("{before} count={records} {after}\n{body}"))
 }
 
-/// Every interesting factor, on an edge, inside or everywhere in a patch, and `size` patches to a
+/// Every boundary factor, on an edge, inside or everywhere in a patch, with `size` patches per
 /// batch.
 fn batches(size: usize) -> Vec<(Domain, Config, Vec<PatchFactors>)> {
     let factors = boundary_factors();
@@ -175,7 +175,7 @@ fn batches(size: usize) -> Vec<(Domain, Config, Vec<PatchFactors>)> {
     factors.chunks(size).enumerate().map(batch).collect()
 }
 
-/// An ordinary patch with a factor in its first place, its last or all of them.
+/// An ordinary patch with a factor in its first position, its last or all of them.
 fn patch(domain: Domain, place: usize, factor: f32) -> PatchFactors {
     let mut list = [3.0, 4.5, 1.0, 7.25, 2.0, 5.0][..domain.factors()].to_vec();
     match (place % 3, list.as_mut_slice()) {

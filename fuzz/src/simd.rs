@@ -8,7 +8,8 @@ use tess_core::{Config, DomainPoint, PatchFactors, Tessellation};
 use tess_simd::{ExactOutput, Level, Numbering, Output, OwnedBatch, Tessellator};
 use tess_verify::Case;
 
-/// Patches in a batch: more than three chunks of 64 patches, the last of which is not whole.
+/// The most patches in a batch: more than three chunks of 64 patches, the last of which is not
+/// full.
 const MOST: usize = 200;
 
 thread_local! {

@@ -4,9 +4,10 @@ use crate::fault_is_planted;
 use tess_verify::Case;
 use tess_verify::vectors::{Coordinates, Listing, Record, VectorFile};
 
-/// Reads a file to its end. It never panics; it gives as many records as its header says, at least
-/// one where it says nothing, or an error that names a line of the file; and what it read says the
-/// same when written and read again. Errors: description of the broken promise.
+/// Reads a file to its end. The reader never panics. It returns as many records as the header
+/// announces, at least one if the header gives no number, or an error that names a line of the
+/// file. The contents stay the same when they are written and read again. Errors: a description of
+/// the broken promise.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let lines = data.split(|&byte| byte == b'\n').count() as u64 + 1;
     let mut file = match VectorFile::new("fuzz", data) {
@@ -34,8 +35,8 @@ pub fn check(data: &[u8]) -> Result<(), String> {
     }
 }
 
-/// An error reads `fuzz:LINE: ...`, with a line that the file has, or the one behind its end; it is
-/// short, and has nothing in it that a terminal would obey.
+/// An error reads `fuzz:LINE: ...`, with a line of the file or the one after its end. It is short,
+/// and contains nothing that a terminal would obey.
 fn names_a_line(message: &str, lines: u64) -> Result<(), String> {
     if message.len() > 1000 || message.chars().any(char::is_control) {
         return Err(format!("an error of {} bytes: {message:?}", message.len()));
@@ -71,7 +72,7 @@ fn listing_survives(listing: &Listing) -> Result<(), String> {
     )
 }
 
-/// A record of this text is read back as the same one, and so is its case.
+/// Checks that a record of this text is read back as the same one, and so is its case.
 fn survives(case: &Case, text: &str, is_same: impl Fn(&Record) -> bool) -> Result<(), String> {
     case_survives(case)?;
     let file = format!("# tess-vectors 1 kind=listings source=fuzz\n{text}# end\n");

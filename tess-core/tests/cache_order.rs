@@ -1,4 +1,4 @@
-//! The vertex-cache order has every triangle once, and its vertices come back soon.
+//! The vertex-cache order lists every triangle once and reuses vertices soon.
 
 use std::collections::VecDeque;
 use tess_core::cache_order::CacheOrder;
@@ -11,7 +11,7 @@ fn config() -> Config {
     Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw)
 }
 
-/// For each place in the vertex-cache order, the triangle that is there.
+/// The triangle at each place of the vertex-cache order.
 fn drawn(patch: &Patch) -> Vec<u32> {
     let count = patch.counts().primitives;
     let mut drawn = vec![None; count as usize];
@@ -25,7 +25,7 @@ fn drawn(patch: &Patch) -> Vec<u32> {
     drawn.into_iter().flatten().collect()
 }
 
-/// The same by runs, with what is inside the innermost ring behind them.
+/// The same by runs, with the triangles inside the innermost ring at the end.
 fn run_by_run(patch: &Patch) -> Vec<u32> {
     let mut drawn = Vec::new();
     let add = |range: std::ops::Range<u32>| {
@@ -77,7 +77,7 @@ fn every_triangle_is_drawn_once() {
     }
 }
 
-/// Vertices that are not among the last 32 when they are asked for.
+/// Counts the vertices that are not among the last 32 when they are needed.
 fn misses(patch: &Patch, order: impl Iterator<Item = u32>) -> usize {
     let mut recent = VecDeque::new();
     let mut misses = 0;
@@ -96,7 +96,7 @@ fn misses(patch: &Patch, order: impl Iterator<Item = u32>) -> usize {
     misses
 }
 
-/// A quarter of the vertices at least need not be computed again.
+/// At least a quarter of the vertices need not be computed again.
 #[test]
 fn vertices_come_back_soon() {
     for factor in [12, 16, 64] {
@@ -108,7 +108,7 @@ fn vertices_come_back_soon() {
     }
 }
 
-/// Lines, points, isolines and minimum patches are drawn as they come.
+/// Lines, points, isolines and minimum patches keep the specification's order.
 #[test]
 fn what_has_no_rings_keeps_its_order() {
     for output in [OutputPrimitive::Point, OutputPrimitive::Line] {

@@ -1,4 +1,4 @@
-//! The examples run to their end; what they assert holds.
+//! The examples run to their end, and their assertions hold.
 
 #[path = "../examples/intermediate_values.rs"]
 mod intermediate_values;

@@ -1,5 +1,5 @@
-//! Recorded results of the reference model, in both formulations: enough of `golden/` for the
-//! core's tests to stand alone. All of it goes through `tess-verify`.
+//! Recorded results of the reference model, in both formulations: enough of `golden/` to test the
+//! core without other crates. `tess-verify` compares all of it.
 
 mod recorded;
 #[path = "common/shown.rs"]
@@ -14,7 +14,7 @@ use tess_core::{
 
 type Elements = (Vec<DomainPoint>, Vec<u32>);
 
-/// Points and indices in sequence and by number.
+/// Points and indices, in sequence and by number.
 fn both_formulations(patch: &Patch) -> [(Elements, &'static str); 2] {
     let whole = patch.tessellate();
     let indices = |primitive: Primitive| primitive.indices().to_vec();
@@ -22,7 +22,7 @@ fn both_formulations(patch: &Patch) -> [(Elements, &'static str); 2] {
     [((whole.points, whole.indices), "in sequence"), (by_number, "by number")]
 }
 
-/// The first point or index that differs, with where it comes from.
+/// The first point or index that differs, with its origin.
 fn first_difference(patch: &Patch, observed: &Elements, expected: &Elements) -> Option<String> {
     let point = |i: usize| patch.locate_point(u32::try_from(i).ok()?);
     let size = patch.primitive(0).map_or(1, |primitive| primitive.size() as usize);
@@ -68,7 +68,7 @@ fn whole_outputs() {
     assert_eq!(cases, 51, "cases in the file");
 }
 
-/// Checks a digest of a patch's points and one of its indices.
+/// Compares the digests of a patch's points and indices.
 fn check_digests(row: &str, patch: &Patch, recorded: &[&str]) {
     let counts = patch.counts();
     let [points, indices] = [recorded[0], recorded[1]].map(|n| n.parse::<u32>().expect("a number"));

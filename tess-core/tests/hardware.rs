@@ -1,5 +1,5 @@
-//! Section 14 of the specification, "For hardware": every number in it is computed here, and every
-//! formula compared with the model.
+//! Section 14 of the specification, "For hardware": computes every number in it, and compares every
+//! formula with the model.
 
 use std::fmt::Write as _;
 use tess_core::place::placement;
@@ -12,7 +12,7 @@ use tess_core::{
 
 const ONE: u32 = 0x10000;
 
-/// The section's text; a table row or a formula that is not in it has changed.
+/// The section's text; a table row or formula that it lacks has changed.
 fn section() -> String {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/specification.md");
     let text = std::fs::read_to_string(path).expect("the specification");
@@ -25,7 +25,7 @@ fn expect_row(row: &str) {
     assert!(section().lines().any(|line| line == row), "section 14 lacks the row\n{row}");
 }
 
-/// The least and the greatest of the values seen.
+/// The smallest and the largest value seen.
 #[derive(Clone, Copy)]
 struct Range {
     least: u32,
@@ -40,7 +40,7 @@ impl Range {
         self.most = self.most.max(value);
     }
 
-    /// The row of a value: its range and the bits of its greatest.
+    /// The row of a value: its range and the bits of its maximum.
     fn row(self, name: &str) -> String {
         let shown = |value: u32| match value {
             0..=4225 => value.to_string(),
@@ -51,7 +51,7 @@ impl Range {
     }
 }
 
-/// Every factor that reaches the contexts: of each parity, in each split order.
+/// Every factor that reaches the contexts, of each parity and in each split order.
 fn every_context(mut see: impl FnMut(FixedFactor, &FactorContext)) {
     for split in SplitOrder::ALL {
         for (parity, least, most) in [(Parity::Odd, 1, 63), (Parity::Even, 2, 64)] {
@@ -82,8 +82,8 @@ fn contexts_have_the_widths_that_the_specification_says() {
     }
 }
 
-/// 14.1, the placer. Within a half edge `a` and `b` do not decrease, so the last position of the
-/// half edge has the greatest value of each, and of their weighted sum.
+/// 14.1, the placer. Within a half edge `a` and `b` do not decrease, so each of them, and their
+/// weighted sum, is largest at the last position.
 #[test]
 fn placements_have_the_widths_that_the_specification_says() {
     let [mut a, mut b, mut sum, mut x] = [Range::NONE; 4];
@@ -138,7 +138,7 @@ fn ring_locations_have_the_widths_that_the_specification_says() {
     let [mut perp, mut shift] = [Range::NONE; 2];
     every_context(|_, context| {
         for ring in 1..context.points / 2 {
-            // Rings lie on the first half of the edge, where places do not decrease.
+            // Rings are on the first half of the edge, where places do not decrease.
             if ring == 1 || ring + 1 == context.points / 2 {
                 let place = placement(context, ring).location.to_bits();
                 let location = (place * 0xAAAA + ONE / 2) >> 16;
@@ -160,7 +160,7 @@ fn first_of_ring(domain: Domain, [n_u, n_v]: [u32; 2], outer: u32, ring: u32) ->
     }
 }
 
-/// Points of ring `ring` (from 1), which is not a row.
+/// Points of ring `ring` (from 1), if the ring is not a row.
 fn points_of_ring(domain: Domain, [n_u, n_v]: [u32; 2], ring: u32) -> u32 {
     match domain {
         Domain::Triangle => 3 * (n_u - 1 - 2 * ring),
@@ -208,8 +208,8 @@ fn rings_begin_where_the_specification_says() {
     assert!(rings_seen > 5000, "only {rings_seen} rings were compared");
 }
 
-/// 14.2, from a point's number to its origin: five comparisons find the ring, subtractions the edge
-/// and the position.
+/// 14.2, from a point's number to its origin: five comparisons find the ring, and subtractions find
+/// the edge and the position.
 fn origin(domain: Domain, counts: [u32; 2], outer: u32, number: u32) -> PointOrigin {
     let rings = counts[0].min(counts[1]) / 2 - 1;
     if rings == 0 {
@@ -290,8 +290,8 @@ fn masks_are_those_of_the_specification() {
     }
 }
 
-/// The rows that advance in a transition, found by the next set bit: one triangle for each turn of
-/// a loop.
+/// The rows that advance in a transition, found by the next set bit, with one triangle per
+/// iteration.
 fn by_next_bit(split: SplitOrder, outer_points: u32, inside_points: u32) -> Vec<Side> {
     let [oh, ih] = [outer_points, inside_points].map(|points| (points - 1) / 2);
     let [outer_mask, inner_mask] = [oh, ih].map(|half| mask(split, half));
@@ -299,7 +299,7 @@ fn by_next_bit(split: SplitOrder, outer_points: u32, inside_points: u32) -> Vec<
     let (mut outer, mut inner) = (outer_mask, inner_mask);
     while outer | inner != 0 {
         let bit = 1 << (outer | inner).trailing_zeros();
-        // At one position the inner row comes first.
+        // At one position the inner row comes first,
         let (mask, side) =
             if inner & bit != 0 { (&mut inner, Side::Inner) } else { (&mut outer, Side::Outer) };
         *mask ^= bit;
@@ -310,7 +310,7 @@ fn by_next_bit(split: SplitOrder, outer_points: u32, inside_points: u32) -> Vec<
     let (mut outer, mut inner) = (outer_mask, inner_mask);
     while outer | inner != 0 {
         let bit = 1 << (31 - (outer | inner).leading_zeros());
-        // And on the way back the outer row.
+        // and on the way back the outer row.
         let (mask, side) =
             if outer & bit != 0 { (&mut outer, Side::Outer) } else { (&mut inner, Side::Inner) };
         *mask ^= bit;
@@ -335,8 +335,8 @@ fn the_next_set_bit_walks_every_transition() {
     }
 }
 
-/// Points, primitives and indices of the largest patch: whatever the factors, no count exceeds that
-/// of the largest ones, as every formula of section 12.6 grows with each count.
+/// Points, primitives and indices of the largest patch: no factors give more than the largest ones
+/// do, because every formula of section 12.6 grows with each count.
 #[test]
 fn the_largest_outputs_are_those_of_the_specification() {
     let names = ["isoline", "triangle", "quad"];
@@ -359,7 +359,7 @@ fn the_largest_outputs_are_those_of_the_specification() {
     }
 }
 
-/// 14.4: how far apart the indices of a triangle are, at most.
+/// 14.4: the largest distance between the indices of a triangle.
 #[test]
 fn the_spread_of_a_triangle_is_that_of_the_specification() {
     for (domain, name) in [(Domain::Triangle, "triangle"), (Domain::Quad, "quad")] {

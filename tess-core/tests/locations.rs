@@ -1,4 +1,4 @@
-//! The known exceptions of spec section 12, counted over every fixed-point factor there is.
+//! The known exceptions of spec section 12, counted over every fixed-point factor.
 
 use std::ops::RangeInclusive;
 use tess_core::fixed_point::ONE;
@@ -7,17 +7,17 @@ use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder, place};
 /// A row of the table of spec section 12.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Exceptions {
-    /// All factors.
+    /// The number of factors.
     factors: u32,
     /// Factors with two equal neighbouring locations.
     equal: u32,
-    /// Factors where a location lies before its predecessor.
+    /// Factors with a location that is less than its predecessor.
     backwards: u32,
-    /// The first and the last of those.
+    /// The smallest and the largest of those.
     backwards_range: Option<(u32, u32)>,
-    /// How far back a location lies at most.
+    /// The largest decrease from a location to the next.
     furthest_back: u32,
-    /// The most by which any of these factors exceeds an integer of its parity.
+    /// The largest excess of any of these factors over an integer of its parity.
     largest_excess: u32,
 }
 
@@ -47,8 +47,8 @@ fn every_factor(parity: Parity) -> RangeInclusive<u32> {
     (2 - parity.odd()) << 16..=(64 - parity.odd()) << 16
 }
 
-/// Counts the exceptions; on the way checks range and symmetry (spec 12.1, 12.2) of each location
-/// and that the ends of an edge are 0 and one.
+/// Counts the exceptions. Also checks range and symmetry (spec 12.1, 12.2) of each location, and
+/// that the ends of an edge are 0 and one.
 fn exceptions(split: SplitOrder, parity: Parity) -> Exceptions {
     let mut exceptions = Exceptions::default();
     let mut locations = Vec::with_capacity(65);
@@ -66,7 +66,7 @@ fn exceptions(split: SplitOrder, parity: Parity) -> Exceptions {
     exceptions
 }
 
-/// Checks a row of the table; all exceptions exceed an integer by less than 0.02.
+/// Compares a row of the table; all exceptions exceed an integer by less than 0.02.
 fn check(split: SplitOrder, parity: Parity, expected: &Exceptions) {
     let found = exceptions(split, parity);
     let excess = found.largest_excess;

@@ -1,4 +1,4 @@
-//! Nothing but vectors of results allocates.
+//! Only vectors of results allocate.
 
 use allocation_counter::measure;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};

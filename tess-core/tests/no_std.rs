@@ -1,4 +1,5 @@
-//! A program of the core alone links without the standard library, an allocator or libc, and runs.
+//! A program that uses only the core links without the standard library, an allocator or libc, and
+//! runs.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 use std::process::Command;
@@ -7,13 +8,13 @@ use std::process::Command;
 fn a_program_without_the_standard_library_links_and_runs() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
     let manifest = &format!("{root}/dev/nostd-proof/Cargo.toml");
-    // A workspace of its own, with the versions of this one.
+    // It is a workspace of its own, with this one's versions.
     std::fs::copy(format!("{root}/Cargo.lock"), format!("{root}/dev/nostd-proof/Cargo.lock"))
         .expect("the versions");
     let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/nostd-proof");
     let mut build = Command::new(env!("CARGO"));
     build.args(["build", "--quiet", "--manifest-path", manifest, "--target-dir", target]);
-    // Flags for the workspace, such as those that measure coverage, need the standard library.
+    // Flags for this workspace, such as those that measure coverage, need the standard library.
     build.env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS");
     build.env_remove("CARGO_BUILD_TARGET");
     let output = build.output().expect("cargo runs");

@@ -1,4 +1,4 @@
-//! All ways out of a patch agree: sinks, slices, vectors and predicted counts.
+//! All outputs of a patch agree: sinks, slices, vectors and predicted counts.
 
 use proptest::prelude::*;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
@@ -8,7 +8,7 @@ use tess_core::{
 };
 use tess_testkit::strategies;
 
-/// Value of unwritten elements.
+/// The value of unwritten elements.
 const POINT: DomainPoint = DomainPoint::from_bits(0xDEAD_BEEF, 0xDEAD_BEEF);
 const INDEX: u32 = 0xDEAD_BEEF;
 
@@ -24,7 +24,7 @@ fn check_buffers(config: Config, factors: PatchFactors) -> Result<(), TestCaseEr
     let counted = (counter.points, counter.primitives, counter.indices);
     prop_assert_eq!(counted, (counts.points, counts.primitives, counts.indices), "counted");
 
-    // Exactly as written, and nothing after it.
+    // Room for the output and two elements, which must stay unwritten.
     let (mut points, mut indices) = (vec![POINT; n + 2], vec![INDEX; m + 2]);
     prop_assert_eq!(patch.write(&mut points, &mut indices), Ok(counts), "room to spare");
     prop_assert!(points[..n] == whole.points && indices[..m] == whole.indices, "contents");
@@ -33,7 +33,7 @@ fn check_buffers(config: Config, factors: PatchFactors) -> Result<(), TestCaseEr
     Ok(())
 }
 
-/// Both buffers stay as they are when either is too small.
+/// Both buffers keep their values if either is too small.
 fn check_too_small(
     patch: &Patch,
     (points, indices): (usize, usize),
@@ -79,8 +79,8 @@ proptest! {
         }
     }
 
-    /// Factor preparation: culled patches come back as they were, with zeros; the rounded factors
-    /// of all others lie in the partitioning's range, so that the tessellator clamps nothing.
+    /// Factor preparation: culled patches come back as they were, with zeros. The rounded factors
+    /// of all others are in the partitioning's range, so the tessellator clamps none.
     #[test]
     fn prepared_factors_are_in_range(
         partitioning in prop::sample::select(&Partitioning::ALL[..]),
@@ -132,7 +132,7 @@ fn the_error_says_what_was_needed() {
     );
 }
 
-/// The largest patch fills the largest buffers, and what lies past its end is nowhere.
+/// The largest patch fills the largest buffers, and there is no element past its end.
 #[test]
 fn the_largest_patch() {
     let [u0, v0, u1, v1, inside_u, inside_v] = [64.0; 6];

@@ -36,8 +36,8 @@ impl Elements {
     }
 }
 
-/// The first element that random access gives differently, one past the ends included, with where
-/// it comes from.
+/// The first element that random access gives differently, including one past the end, with its
+/// origin.
 fn first_difference(patch: &Patch, sequential: &Elements) -> Option<String> {
     fn differ<T: Copy + PartialEq>(
         sequential: &[T],
@@ -68,7 +68,7 @@ fn assert_equal(config: Config, factors: PatchFactors) {
     assert_eq!(difference, None, "{config:?} {factors:?}");
 }
 
-/// Integer factors have every parity and number of half points that a factor can have, and a
+/// Integer factors have every parity and every number of half points that a factor can have, and a
 /// patch's connectivity depends on nothing else (spec section 12.8).
 fn integer(split: SplitOrder) -> Config {
     let (partitioning, output) = (Partitioning::Integer, OutputPrimitive::TriangleCw);
@@ -79,7 +79,7 @@ fn pairs() -> impl Iterator<Item = (u8, u8)> {
     (1..=64).flat_map(|a| (1..=64).map(move |b| (a, b)))
 }
 
-/// Factor `a` moved on by `step` within 1..=64.
+/// Factor `a` advanced by `step`, wrapping within 1..=64.
 fn turned(a: u8, step: u8) -> f32 {
     f32::from((a - 1 + step) % 64 + 1)
 }
@@ -142,7 +142,7 @@ proptest! {
     }
 }
 
-/// The comparison is seen to fail on each kind of damage.
+/// The comparison detects each kind of damage.
 #[test]
 fn damage_is_noticed() {
     let factors = TriangleFactors { u0: 3.0, v0: 4.0, w0: 5.0, inside: 6.0 };

@@ -1,4 +1,4 @@
-//! Sentences of the specification that no comparison of whole outputs would single out.
+//! Sentences of the specification that comparisons of whole outputs do not test individually.
 
 use proptest::prelude::*;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS, ceil, floor};
@@ -31,7 +31,7 @@ proptest! {
         prop_assert!(pow2 == integer, "{config:?} {factors:?}");
     }
 
-    /// Section 12: what a checker may demand of patches that are far from the table's exceptions.
+    /// Section 12: the demands that a checker may make of patches far from the table's exceptions.
     #[test]
     fn areas_are_positive_far_above_integers(
         config in strategies::config(),
@@ -54,7 +54,7 @@ fn is_far_above_an_integer(factor: tess_core::ProcessedFactor) -> bool {
     excess == 0 || excess > 0x51E // 0.02
 }
 
-/// Section 2: the nearest multiples of 2^-16, the upper of two that are equally near.
+/// Section 2: the nearest multiple of 2^-16, and the upper one of two that are equally near.
 #[test]
 fn reciprocals_are_rounded_half_up() {
     for n in 1..=64 {
@@ -94,14 +94,14 @@ fn outer_factors_up_to_zero_cull() {
     }
 }
 
-/// Section 3.4: from which factor on a patch has a picture frame, wherever that factor stands.
+/// Section 3.4: the factor above which a patch has a picture frame, whichever factor it is.
 #[test]
 fn a_picture_frame_needs_one_factor_above_one() {
     let above = [f32::from_bits(0x3F80_0041), f32::INFINITY];
     let not_above = [f32::from_bits(0x3F80_0040), 1.0, 0.25];
     for domain in [Domain::Triangle, Domain::Quad] {
         for at in 0..domain.factors() {
-            // A NaN is not greater than anything, and outside it culls.
+            // A NaN is not greater than anything, and as an outer factor it culls.
             let nan = (at >= domain.outer_factors()).then_some(f32::NAN);
             for factor in above.into_iter().chain(not_above).chain(nan) {
                 let factors = PatchFactors::from_fn(domain, |i| if i == at { factor } else { 1.0 });
@@ -116,7 +116,8 @@ fn a_picture_frame_needs_one_factor_above_one() {
     }
 }
 
-/// Sections 4 and 6: what an inside factor of 1 counts as, and the least numbers of points inside.
+/// Sections 4 and 6: the value that an inside factor of 1 counts as, and the smallest numbers of
+/// points inside.
 #[test]
 fn inside_factors_have_the_least_points_that_are_said() {
     for split in SplitOrder::ALL {
@@ -178,7 +179,7 @@ fn centre_triangles_and_minimum_patches_have_the_vertices_that_are_said() {
     }
 }
 
-/// Section 7.1: a row runs up or down, and closes at one entry.
+/// Section 7.1: a row runs up or down, and one entry may close the ring.
 #[test]
 fn rows_run_both_ways_and_close() {
     let entries = |row: Row| [0, 1, 2, 3].map(|k| row.index(k));
@@ -187,7 +188,8 @@ fn rows_run_both_ways_and_close() {
     assert_eq!(entries(Row::ascending(7).with(2, 0)), [7, 8, 0, 10], "closed at entry 2");
 }
 
-/// Section 7.2: a half edge has a point where its position's rank is below its number of points.
+/// Section 7.2: a half edge has a point at a position if the position's rank is below its number of
+/// points.
 #[test]
 fn positions_have_points_by_rank() {
     for split in SplitOrder::ALL {
@@ -198,7 +200,7 @@ fn positions_have_points_by_rank() {
     }
 }
 
-/// Section 5: how far `a` exceeds a half, for every factor.
+/// Section 5: the largest excess of `a` over a half, for every factor.
 #[test]
 fn coarse_places_exceed_a_half_by_what_is_said() {
     for (split, expected) in [(SplitOrder::Ruler, 7), (SplitOrder::Centre, 10)] {
@@ -217,7 +219,7 @@ fn coarse_places_exceed_a_half_by_what_is_said() {
     }
 }
 
-/// Fields that only exceptions have.
+/// Defects of triangles that only the exceptions have.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Damage {
     zero_areas: bool,
@@ -254,9 +256,9 @@ fn table_of_section_12(context: &FactorContext) -> [bool; 2] {
     [any(|pair| pair[0] == pair[1]), any(|pair| pair[0] > pair[1])]
 }
 
-/// Calls `see` with each factor that exceeds an integer of its parity by less than 0.02, whether
-/// the table of section 12 has it as equal or backwards, and a function from domains to outputs
-/// with all factors this one.
+/// Calls `see` with each factor that exceeds an integer of its parity by less than 0.02, with its
+/// entries in the table of section 12 (equal, backwards), and with a function that tessellates a
+/// domain with all factors equal to it.
 fn every_factor_just_above(
     split: SplitOrder,
     parity: Parity,
@@ -278,8 +280,8 @@ fn every_factor_just_above(
     }
 }
 
-/// Section 12: the exceptions with all factors equal. On triangles there are `further` ones outside
-/// the table.
+/// Section 12: the exceptions if all factors are equal. On triangles there are `further` ones
+/// outside the table.
 fn check_exceptions(split: SplitOrder, parity: Parity, further: u32, flips_on_triangles: bool) {
     let (mut found, mut flipped) = (0, false);
     every_factor_just_above(split, parity, |bits, [equal, backwards], output| {

@@ -1,4 +1,4 @@
-//! A patch's stitches as data: their steps on their rows are the patch's triangles.
+//! A patch's stitches as data: applied to their rows, their steps give the patch's triangles.
 
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, SplitOrder, Step,

@@ -1,5 +1,5 @@
-//! The example `bare_wgpu` over the recorded cases: every word that it leaves is that of the
-//! record, of `tess-core` and of `tess-simd`; and the README shows its lines.
+//! Runs the example `bare_wgpu` over the recorded cases: every word that it leaves must equal the
+//! record, `tess-core` and `tess-simd`. The README must quote its lines.
 
 #[allow(dead_code, reason = "the tests call what `main` calls")]
 #[path = "../examples/bare_wgpu.rs"]
@@ -19,13 +19,13 @@ type Gpu = (wgpu::Device, wgpu::Queue);
 /// A batch's points with the number of their patch, and its indices.
 type Words = (Vec<[u32; 2]>, Vec<u32>);
 
-/// None is a failure, not a reason to skip.
+/// A missing adapter is a failure, not a reason to skip.
 fn open() -> Gpu {
     let backends = wgpu::Backends::from_env().unwrap_or_default();
     bare_wgpu::open(backends).unwrap_or_else(|reason| panic!("{reason}"))
 }
 
-/// The cases of golden/cases.txt: those of one domain and configuration are a batch.
+/// The cases of golden/cases.txt: those of one domain and configuration form a batch.
 fn batches() -> Vec<(Setup, Vec<Listing>)> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../golden/cases.txt");
     let reader = BufReader::new(File::open(path).expect(path));
@@ -44,8 +44,8 @@ fn batches() -> Vec<(Setup, Vec<Listing>)> {
     batches
 }
 
-/// Patches after one another: their points numbered, their indices counting from the first point of
-/// the batch.
+/// Patches one after another: points with their patch's number, and indices that count from the
+/// first point of the batch.
 fn joined(patches: impl Iterator<Item = (Vec<DomainPoint>, Vec<u32>)>) -> Words {
     let (mut points, mut indices) = (Vec::new(), Vec::new());
     for (number, (own_points, own_indices)) in (0..).zip(patches) {
@@ -74,7 +74,7 @@ fn of_simd(setup: Setup, patches: &[PatchFactors]) -> Words {
     (numbered.collect(), output.indices().to_vec())
 }
 
-/// The first word in which the example's buffers differ from what they must hold: output, totals
+/// The first word in which the example's buffers differ from the expected contents: output, totals
 /// and draw arguments.
 fn compare(
     gpu: &Gpu,
@@ -86,7 +86,7 @@ fn compare(
     let count = |elements: usize| u32::try_from(elements).expect("below 2^32");
     let draw = [count(indices.len()), 1, 0, 0, 0];
     let primitives = draw[0] / setup.indices_per_primitive();
-    // Exact, but that no buffer is empty.
+    // Exact room, but no buffer may be empty.
     let room = Capacity { points: count(points.len()).max(1), primitives: primitives.max(1) };
     let buffers = bare_wgpu::tessellate(gpu, setup, patches, room);
     let status = [count(points.len()), 0, primitives, 0, 0];
@@ -126,7 +126,7 @@ fn recorded_cases_are_those_of_core_and_simd() {
     assert_eq!(cases, 51, "all of golden/cases.txt");
 }
 
-/// Another order of the patches, and a factor that is larger by 2^-10.
+/// The patches in another order, and a factor that is larger by 2^-10.
 #[test]
 fn differences_are_seen() {
     let gpu = open();
@@ -154,7 +154,7 @@ fn no_adapter_is_said_and_ends_with_3() {
     assert!(error.starts_with("no adapter: "), "{error}");
 }
 
-/// Each block of the README that is no example of its own stands in the example.
+/// Every block of the README that is not itself an example occurs in the example.
 #[test]
 fn the_readme_quotes_the_example() {
     let readme = include_str!("../README.md");

@@ -1,4 +1,4 @@
-//! Plans: what a host makes, binds and dispatches for a batch.
+//! Plans: the buffers, bindings and dispatches of a host for a batch.
 
 mod common;
 
@@ -37,7 +37,8 @@ fn plans(setup: Setup, limits: Limits) -> Vec<Plan> {
     plans
 }
 
-/// WebGPU's limits: portions and windows end before a dispatch has as many workgroups in a row.
+/// WebGPU's limits: portions and windows end before a dispatch needs more workgroups than a row
+/// has.
 #[test]
 fn default_limits_need_no_rows() {
     for setup in some_setups() {
@@ -61,7 +62,7 @@ fn default_limits_need_no_rows() {
     }
 }
 
-/// Every binding lies within its buffer, where a device can bind it.
+/// Every binding is within its buffer, at an offset and of a size that a device can bind.
 #[test]
 fn bindings_lie_within_buffers_and_limits() {
     for limits in [Limits::WEBGPU, LOW] {
@@ -87,7 +88,7 @@ fn bindings_lie_within_buffers_and_limits() {
 }
 
 /// The windows of each output follow one another, once for each portion, from its first byte to its
-/// last; so do the portions of the factors.
+/// last, and so do the portions of the factors.
 #[test]
 fn portions_and_windows_cover_everything_once() {
     for plan in some_setups().flat_map(|setup| plans(setup, LOW)) {
@@ -148,7 +149,7 @@ fn jobs_are_those_of_the_dispatches() {
     }
 }
 
-/// A limit of workgroups lays dispatches out in rows that are no longer.
+/// With a limit of workgroups, no row of a dispatch is longer than the limit.
 #[test]
 fn rows_keep_to_the_limit() {
     let setup = common::all_setups()[0];
@@ -167,7 +168,7 @@ fn rows_keep_to_the_limit() {
     }
 }
 
-/// Each group has a thread: the last workgroup may have fewer of them.
+/// Each group has a thread: the last workgroup may have fewer groups.
 #[test]
 fn every_group_has_a_thread() {
     for (groups, expected) in [(1, 1), (63, 1), (64, 1), (65, 2), (128, 2), (129, 3)] {
@@ -178,7 +179,7 @@ fn every_group_has_a_thread() {
     }
 }
 
-/// Room for one point fewer than 16 bits number leaves out the index that restarts primitives.
+/// A room of one point less than 16 bits can number leaves out the index that restarts primitives.
 #[test]
 fn sixteen_bits_without_the_restart_index() {
     let setup = Setup { index_type: IndexType::U16, ..quads() };
@@ -192,7 +193,7 @@ fn sixteen_bits_without_the_restart_index() {
     assert_eq!(room(u32::MAX), 8 * 65_536, "as many as 16 bits number");
 }
 
-/// A tile holds points or primitives, so each output has its own last tile.
+/// A tile holds either points or primitives, so each output has its own last tile.
 #[test]
 fn a_short_batch_has_tiles_for_each_output() {
     let setup = common::all_setups()[0];
@@ -241,11 +242,11 @@ fn buffers_have_the_bytes_of_their_layouts() {
         (Resource::Tables, 4 * tables(SplitOrder::Ruler).len() as u64),
         (Resource::Topologies, 2 * 65_536 * 8),
         (Resource::Contexts, 2 * 65_536 * 48),
-        // 65536 patches, 256 blocks twice and a section, the first portion's rounded up to 256
+        // 65536 patches, 256 blocks twice and a section; the first portion's is rounded up to 256
         // bytes.
         (Resource::Offsets, 528_640 + 528_392),
         (Resource::Status, 32 + 2 * 16),
-        // 293 tiles of points, 489 of triangles, two entries more for each.
+        // 293 tiles of points and 489 of triangles, with two more entries for each.
         (Resource::Tiles, 4 * (295 + 491)),
         (Resource::Arguments, 32 + 12 * 12),
         (Resource::Catalogue, 4 * 548_866),
@@ -286,7 +287,7 @@ fn dispatches_bind_their_portion_and_window() {
     assert_eq!(patches, [65_536, 4464], "the first word of a job");
 }
 
-/// The same batch, of which a part is written alone.
+/// The same batch with only a part of its output written.
 #[test]
 fn what_is_not_written_has_no_windows() {
     let room = Capacity { points: 600_000, primitives: 1_000_001 };
@@ -319,7 +320,7 @@ fn a_patch_finds_its_offsets() {
     assert_eq!(plan.alike_entry(100_000), 2_752_512 + 10_752 + 390, "its block's topology");
 }
 
-/// From 16384 patches on, if they give triangles.
+/// Batches of 16384 patches or more, if they give triangles.
 #[test]
 fn large_batches_of_triangles_have_a_catalogue() {
     let lines = Config::new(Partitioning::Integer, OutputPrimitive::Line);
@@ -349,7 +350,7 @@ fn the_stages_of_a_batch_follow_its_size() {
     }
 }
 
-/// 1024 patches and 524288 elements are the most.
+/// A short batch has at most 1024 patches and 524288 elements.
 #[test]
 fn short_batches_have_little_of_everything() {
     let room = |points, primitives| Capacity { points, primitives };
@@ -369,7 +370,7 @@ fn short_batches_have_little_of_everything() {
     }
 }
 
-/// A tile is a power of two: the least of which 2048 hold the output.
+/// A tile is the smallest power of two of which 2048 hold the output.
 #[test]
 fn tiles_of_short_batches_grow_with_their_room() {
     for (primitives, tile) in [(1, 128), (262_143, 128), (262_144, 256), (524_287, 256)] {
@@ -378,7 +379,7 @@ fn tiles_of_short_batches_grow_with_their_room() {
     }
 }
 
-/// Less than 4 MiB is not asked of a plan.
+/// A smaller limit than 4 MiB counts as 4 MiB.
 #[test]
 fn the_least_binding_is_4_mib() {
     let least = Limits { storage_binding: 1, workgroups: 0 };
@@ -388,8 +389,8 @@ fn the_least_binding_is_4_mib() {
     assert_eq!(plan.portion_patches(), 65_536, "a whole section");
 }
 
-/// Sixteen patches of 65 by 65 points are more than 16-bit indices can name, unless they begin anew
-/// with each patch or are not written.
+/// Sixteen patches of 65 by 65 points are more than 16-bit indices can number, unless each patch is
+/// numbered from 0 or indices are not written.
 #[test]
 fn points_beyond_16_bits_are_no_room() {
     let most = 1 << 16;
@@ -415,7 +416,7 @@ fn points_beyond_16_bits_are_no_room() {
     }
 }
 
-/// A patch of factor 64 has 65 by 65 points; the sum ends at what 32 bits hold.
+/// A patch of factor 64 has 65 by 65 points; the sum saturates at 32 bits.
 #[test]
 fn the_worst_case_is_that_of_factor_64() {
     let room = |points, primitives| Capacity { points, primitives };

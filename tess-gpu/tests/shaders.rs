@@ -1,4 +1,4 @@
-//! Every shader in every setup: valid, without floats, with the layouts that the host has.
+//! Every shader in every setup is valid, has no floats, and has the host's layouts.
 
 mod common;
 
@@ -36,7 +36,7 @@ fn every_shader_is_valid_in_every_setup() {
     }
 }
 
-/// The sources of all stages in all setups, equal ones once, and their modules.
+/// The distinct sources of all stages in all setups, and their modules.
 fn stages() -> &'static [(Stage, String, Module)] {
     static STAGES: LazyLock<Vec<(Stage, String, Module)>> = LazyLock::new(|| {
         let setups = all_setups();
@@ -51,8 +51,8 @@ fn stages() -> &'static [(Stage, String, Module)] {
     &STAGES
 }
 
-/// A planted fault changes a shader, and is no error in it: the comparison has to notice it, not
-/// the compiler.
+/// A planted fault changes a shader, but the shader stays valid: the comparison has to notice the
+/// fault, not the compiler.
 #[test]
 fn every_fault_can_be_planted() {
     let setups = all_setups();
@@ -68,7 +68,7 @@ fn every_fault_can_be_planted() {
     }
 }
 
-/// The house rule: no float arithmetic. There is not even a float type.
+/// The rule of the project: no float arithmetic, and not even a float type.
 #[test]
 fn no_stage_knows_floats() {
     for (stage, _, module) in stages() {
@@ -86,7 +86,7 @@ fn the_house_rule_sees_floats() {
     }
 }
 
-/// Types of a module with floats in them, and its float literals.
+/// The types of a module that contain floats, and its float literals.
 fn float_types(module: &Module) -> Vec<String> {
     let scalar_of = |inner: &TypeInner| match *inner {
         TypeInner::Scalar(scalar)
@@ -211,7 +211,7 @@ fn layouts_are_those_of_the_shaders() {
     );
 }
 
-/// Each bit of two words, and no bit.
+/// Each bit of two words in turn, and no bit.
 fn words_of_one_bit() -> impl Iterator<Item = [u32; 2]> {
     (0..=64).map(|bit| 1u64.checked_shl(bit).unwrap_or(0)).map(|bits| {
         let [low, high] = [bits, bits >> 32].map(|half| half & u64::from(u32::MAX));
@@ -237,7 +237,8 @@ fn packed_words_are_read_alike() {
             assert_eq!(points, topology.outer_points(edge), "{words:x?}, edge {edge}");
         }
         let context = layout::unpack_context(words);
-        // The shaders leave out the top bit of `inv_ceil`, which multiplies 0.
+        // The shaders omit the top bit of `inv_ceil`, because it is set only where `inv_ceil`
+        // multiplies 0.
         let rest = context.inv_ceil & 0xffff;
         for (name, expected) in [
             ("inv_floor_of", context.inv_floor),
@@ -336,7 +337,7 @@ fn workgroups_keep_to_the_default_limits() {
     }
 }
 
-/// Hosts without `tess-wgpu` join modules of surfaces by hand, those of the stage or single ones.
+/// Hosts without `tess-wgpu` join modules of surfaces themselves, the whole stage's or single ones.
 #[test]
 fn surfaces_are_joined_by_hand() {
     use tess_gpu::surfaces::{CULLING, DISPLACEMENT, FLAT, HELPERS};

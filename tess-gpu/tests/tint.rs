@@ -1,5 +1,5 @@
-//! Every shader through Tint, the WGSL compiler of browsers built on Chromium. Unlike naga it
-//! refuses barriers in control flow that may not be uniform.
+//! Compiles every shader with Tint, the WGSL compiler of browsers built on Chromium. Unlike naga,
+//! it refuses barriers in control flow that may not be uniform.
 
 mod common;
 

@@ -1,5 +1,5 @@
-//! Every number of docs/tour-gpu.md, computed from the golden model and the layouts of this crate.
-//! tess-wgpu/tests/batches/tour.rs compares the same numbers with what a device writes.
+//! Computes every number of docs/tour-gpu.md from the golden model and the layouts of this crate.
+//! tess-wgpu/tests/batches/tour.rs compares the same numbers with a device's output.
 
 use std::fmt::Write;
 use tess_core::{
@@ -33,7 +33,7 @@ fn tour() -> String {
     std::fs::read_to_string(path).expect(path)
 }
 
-/// The block stands in the tour as it is.
+/// The tour has this block, word for word.
 fn assert_block(lines: &[String]) {
     let block: String = lines.iter().map(|line| format!("    {line}\n")).collect();
     assert!(tour().contains(&format!("\n\n{block}\n")), "docs/tour-gpu.md lacks\n{block}");

@@ -1,5 +1,6 @@
 //! The worked numbers in the heads of the shaders: computed here from the golden model, and each
-//! line found in its file, so that none of them can rot. The patch is the one of docs/tour-gpu.md.
+//! line found in its file, so that none of them becomes stale. The patch is the one of
+//! docs/tour-gpu.md.
 
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, PointOrigin, Primitive,
@@ -23,14 +24,14 @@ fn factors() -> [ProcessedFactor; 6] {
     }
 }
 
-/// Its topology, packed as layout/topology.wgsl says.
+/// Its topology, packed as in layout/topology.wgsl.
 fn topology() -> Topology {
     let points = factors().map(|factor| factor.context.points);
     let outer = (0..4).fold(0, |word, edge| word | points[edge] << (7 * edge));
     Topology([outer | 2 << 28, points[4] | points[5] << 7])
 }
 
-/// Every line stands in the shader.
+/// The shader contains every line.
 fn assert_lines(file: &str, lines: &[String]) {
     let path = format!("{}/shaders/{file}.wgsl", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).expect(&path);
@@ -161,13 +162,13 @@ fn three_patches() {
     );
 }
 
-/// As `repeat_of` computes it.
+/// The inverse that `repeat_of` computes.
 fn inverse_of(size: u32) -> u32 {
     (0x1f_ffff + size) / size
 }
 
-/// The claim of shared/alike.wgsl and src/sizes.rs: the multiplication divides exactly, and does
-/// not overflow.
+/// The claim of shared/alike.wgsl and src/sizes.rs: the multiplication divides exactly and does not
+/// overflow.
 #[test]
 fn divisions_by_an_inverse_are_exact() {
     for size in 1_u32..=640 {
@@ -178,7 +179,7 @@ fn divisions_by_an_inverse_are_exact() {
     }
 }
 
-/// Constants that stand in the shaders as numbers are those of the model.
+/// Constants that the shaders have as numbers are those of the model.
 #[test]
 fn constants_are_those_of_the_model() {
     let bits = |value: f32| value.to_bits();

@@ -1,5 +1,5 @@
-//! Every stage at the baseline level: a small test program that sees a fault anywhere soon. The
-//! other tests have every level and combination of formats and numberings.
+//! Every stage at the baseline level: a small test program that finds a fault anywhere soon. The
+//! other tests cover every level and combination of formats and numberings.
 
 #[path = "common/patches.rs"]
 mod patches;
@@ -12,7 +12,7 @@ use tess_core::{
 };
 use tess_simd::{Batch, BatchBuffer, Error, Level, LevelUnavailableError, Numbering, Tessellator};
 
-/// One test, the fastest parts first, so that it ends at the first difference.
+/// One test, with the fastest parts first: it ends at the first difference.
 #[test]
 fn every_stage() {
     messages();
@@ -72,8 +72,8 @@ fn many_patches() {
     }
 }
 
-/// Line after line with the same number of points and other locations: factors that differ in
-/// one of their lowest bits.
+/// One line per factor, all with the same number of points and different locations: factors that
+/// differ in one of their lowest bits.
 #[expect(clippy::float_arithmetic, reason = "exact: multiples of 2^-16 below 64")]
 fn factors_that_differ_in_one_bit() {
     for partitioning in [Partitioning::FractionalOdd, Partitioning::FractionalEven] {
@@ -85,8 +85,8 @@ fn factors_that_differ_in_one_bit() {
     }
 }
 
-/// Batches in which one factor takes every integer, up and down again, so that patches come whose
-/// topologies were met before and differ by one point.
+/// Batches in which one factor takes every integer, up and down again: each topology differs from
+/// its neighbour by one point and recurs.
 fn topologies_that_differ_in_one_factor() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     for domain in [Domain::Triangle, Domain::Quad] {
@@ -134,8 +134,8 @@ fn messages() {
     assert_eq!(LevelUnavailableError(Level::Avx512).to_string(), message, "a level");
 }
 
-/// `Tessellator::memory` is the memory that a tessellator allocates, and a little more for itself.
-/// Tables that it shares are there before.
+/// `Tessellator::memory` is the memory that a tessellator allocates, and the little that it is
+/// itself. The shared tables exist beforehand.
 fn memory() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     drop(Tessellator::new(config));
@@ -155,7 +155,7 @@ fn memory() {
     assert!(within.contains(&memory), "{memory} bytes, {allocated} allocated");
 }
 
-/// Levels that this machine lacks are refused; without `std` it cannot be asked.
+/// Levels that this machine lacks are refused; without `std` the machine cannot be asked.
 fn levels_that_are_missing() {
     if cfg!(not(feature = "std")) {
         let available = Level::ALL.map(Level::is_available);
@@ -187,7 +187,7 @@ fn batches_know_their_size() {
     assert_eq!(uneven.len(), 8, "the shortest column's length");
 }
 
-/// Patches whose factors lie at the least one that needs a picture frame, and below and above it.
+/// Patches whose factors are at, below and above the smallest one that needs a picture frame.
 fn picture_frames() {
     let near_one = [0x3F80_0000, 0x3F80_003F, 0x3F80_0040, 0x3F80_0041].map(f32::from_bits);
     for domain in [Domain::Triangle, Domain::Quad] {
@@ -199,7 +199,7 @@ fn picture_frames() {
     }
 }
 
-/// Single stages beside the core's.
+/// Single stages compared with the core's.
 #[cfg(feature = "taps")]
 mod taps {
     use tess_core::fixed_point::ONE;

@@ -1,7 +1,7 @@
-//! Every kernel at every level beside the model's stage: see `kernels/table.rs`.
+//! Compares every kernel at every level with the model's stage: see `kernels/table.rs`.
 //!
-//! `TESS_KERNEL="stages/points/quad 6"` runs one entry in one round, as a message says; a name
-//! alone runs all its rounds.
+//! `TESS_KERNEL="stages/points/quad 6"` runs one entry in one round, as a message suggests; a name
+//! without a round runs all its rounds.
 
 #[path = "kernels/table.rs"]
 mod table;
@@ -16,7 +16,7 @@ use tess_testkit::levels::levels;
 /// extreme ones.
 const ROUNDS: u32 = 64;
 
-/// The first difference of an entry, if there is one.
+/// The first difference of an entry, if any.
 fn failure(entry: &Entry, levels: &[Level], rounds: impl Iterator<Item = u32>) -> Option<String> {
     for round in rounds {
         let mut case = entry.case(round);
@@ -44,7 +44,7 @@ fn failure(entry: &Entry, levels: &[Level], rounds: impl Iterator<Item = u32>) -
     None
 }
 
-/// The entries and rounds that `TESS_KERNEL` names; all if it is not set.
+/// The entries and rounds that `TESS_KERNEL` names, or all if it is not set.
 fn chosen(text: &str) -> (String, Option<u32>) {
     let parts = text.rsplit_once(' ').and_then(|(name, round)| Some((name, round.parse().ok()?)));
     parts.map_or((text.to_owned(), None), |(name, round)| (name.to_owned(), Some(round)))
@@ -99,7 +99,7 @@ fn every_kernel_has_an_entry() {
     }
 }
 
-/// One wrong bit anywhere is seen, and each entry has something to compare in most rounds.
+/// The test detects one wrong bit anywhere, and each entry compares something in most rounds.
 #[test]
 fn planted_faults_are_seen() {
     for entry in TABLE {

@@ -1,12 +1,12 @@
 //! Any sequence of calls on one tessellator, compared with the core after every call.
 //!
-//! A sequence is drawn from every call there is: batches of runs in every layout, buffers with and
+//! A sequence is drawn from every kind of call: batches of runs in every layout, buffers with and
 //! without ranges that fit, are larger or lack an element, both numberings up to the largest index,
-//! outputs that are kept, single patches, and what changes the tessellator between. A failure
-//! shrinks to the smallest sequence and prints it as a test for `sequences/found.rs`.
+//! outputs that are kept, single patches, and changes of the tessellator in between. A failure
+//! shrinks to the smallest sequence, which is printed as a test for `sequences/found.rs`.
 //!
-//! `TESS_LONG_SECONDS=600` draws other sequences in every run, for so many seconds at each level,
-//! and prints how many there were.
+//! `TESS_LONG_SECONDS=600` draws other sequences in every run, for that many seconds at each level,
+//! and prints their number.
 #![cfg(not(target_family = "wasm"))]
 
 #[path = "sequences/buffers.rs"]
@@ -36,7 +36,7 @@ use strategies::Drawn;
 use subject::replay_counted;
 use tess_simd::Level;
 
-/// Sequences of each level, unless a time is given.
+/// The number of sequences of each level, unless a time is given.
 const SEQUENCES: u32 = 3000;
 
 /// The environment variable with the seconds that each level takes.
@@ -76,7 +76,7 @@ fn any_sequence(level: Level) {
     let _ = writeln!(std::io::stderr(), "{level}: {sequences} sequences of {calls} calls");
 }
 
-/// Makes the calls of sequences that follow from a seed; returns how many calls there were.
+/// Makes the calls of sequences that a seed determines; returns the number of calls.
 fn draw(level: Level, seed: u64, sequences: u32) -> usize {
     let config = Config {
         cases: sequences,
@@ -106,7 +106,7 @@ fn draw(level: Level, seed: u64, sequences: u32) -> usize {
     }
 }
 
-/// The seconds that are asked for.
+/// The seconds that the environment asks for.
 fn seconds() -> Option<Duration> {
     let text = std::env::var(VARIABLE).ok()?;
     let seconds = text.parse().unwrap_or_else(|_| panic!("{VARIABLE}={text} is no number"));

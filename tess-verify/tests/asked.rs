@@ -108,7 +108,8 @@ fn one_coincidence_is_no_place_to_go_on_from() {
     assert_eq!((report.cases, report.mismatches), (1000, 3), "{:?}", shown(&report));
 }
 
-/// How many entries of one list must be inserted, removed or replaced to turn it into another.
+/// The number of entries of one list that must be inserted, removed or replaced to turn it into
+/// another.
 fn distance(answered: &[Case], asked: &[Case]) -> u64 {
     let mut row: Vec<u64> = (0..).take(asked.len() + 1).collect();
     for (number, answer) in (1..).zip(answered) {

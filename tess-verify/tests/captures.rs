@@ -35,8 +35,8 @@ fn run_tested(text: &str, tested: Tested) -> Result<Report, CheckError> {
     check(file, &mut [Box::new(CoreBackend)], tested, &|_| ())
 }
 
-/// The mistake that explains every difference, if there is one. What the specification leaves to a
-/// device is not a mistake.
+/// The mistake that explains every difference, if there is one. The freedoms that the specification
+/// leaves to a device are not mistakes.
 fn turn(report: &Report) -> Option<Way> {
     report.ways().into_iter().find(|way| !way.is_allowed())
 }
@@ -172,7 +172,7 @@ fn listings_without_an_index_buffer() {
     assert_eq!(verdict(&listing.to_string(), ANY).mismatches, 0, "the same triangles");
 }
 
-/// Either all vertices of a record have a third coordinate or none has, so a wrong one cannot be
+/// Either all vertices of a record have a third coordinate or none does, so a wrong one cannot be
 /// left out.
 #[test]
 fn third_coordinates_stand_everywhere_or_nowhere() {

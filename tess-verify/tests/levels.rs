@@ -1,4 +1,4 @@
-//! Tests of the generated levels: what they hit, and that they are reproducible.
+//! Tests of the generated levels: the bins that they hit, and that they are reproducible.
 
 use std::collections::HashSet;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};

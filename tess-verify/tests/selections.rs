@@ -12,7 +12,7 @@ use tess_verify::cover::{Coverage, Exclusions};
 use tess_verify::generate::{GenLevel, Selection, configurations_among};
 use tess_verify::{Case, Named};
 
-/// Each value of a part of a configuration, and none, which means all.
+/// Each value of a part of a configuration, and `None`, which means all.
 fn or_all<T: Copy>(all: &[T]) -> Vec<Option<T>> {
     all.iter().copied().map(Some).chain([None]).collect()
 }

@@ -190,7 +190,7 @@ fn a_point_is_drawn_once() {
     assert!(!any_order().accepts(&case, &again), "point 5 in place of point 6");
 }
 
-/// In each outer position and no inner one.
+/// In each outer position, and in no inner one.
 #[test]
 fn denormals_are_flushed_in_every_outer_position() {
     let flush = Strength { denormals: Denormals::Flush, ..Strength::default() };

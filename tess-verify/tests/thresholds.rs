@@ -1,4 +1,4 @@
-//! Tests of the list of thresholds: each case lies exactly next to its comparison, level 1 contains
+//! Tests of the list of thresholds: each case is exactly next to its comparison, level 1 contains
 //! it, and a neighbouring threshold, as `dev/xtask/faults/thresholds.faults` plants it, changes its
 //! answer.
 

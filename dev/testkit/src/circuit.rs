@@ -1,10 +1,10 @@
-//! The planted faults of the circuit: copies of the design that have one of them, or all behind a
-//! switch.
+//! The planted faults of the circuit: copies of the design with one of them, or with all of them
+//! behind a switch.
 //!
-//! The text of a fault occurs in its file once. It is an expression, `assign` with one
-//! (declarations may precede a wrong one), or whole statements of a procedure, so that a switch can
-//! choose between it and the wrong text. The third fault of the list, `wide[7]` replaced by `1'b1`,
-//! makes this of the design:
+//! The text of a fault occurs once in its file. It is an expression, `assign` with one
+//! (declarations may precede the wrong one), or whole statements of a procedure, so that a switch
+//! can choose between it and the wrong text. The third fault of the list, `wide[7]` replaced by
+//! `1'b1`, changes the design like this:
 //!
 //! ```text
 //! up = wide[7] && low;
@@ -18,7 +18,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
-/// The list, from the root of the repository. Its `seen by` names what the bench reports first.
+/// The list, from the root of the repository. Its `seen by` names the first report of the bench.
 pub const LIST: &str = "rtl/dv/circuit.faults";
 
 const SWITCH: &str = "\
@@ -32,10 +32,10 @@ package tess_fault_pkg;
 endpackage
 ";
 
-/// The faults below the repository's `root`, numbered from 1 on.
+/// The faults below the repository's `root`, numbered from 1.
 ///
 /// # Errors
-/// The list cannot be read, or it names a file that is not there.
+/// The list cannot be read, or it names a file that does not exist.
 pub fn faults(root: &Path) -> Result<Vec<(usize, ListedFault)>, String> {
     let list = read(&root.join(LIST))?;
     let faults = parse(&list).map_err(|error| format!("{LIST}: {error}"))?;
@@ -45,12 +45,13 @@ pub fn faults(root: &Path) -> Result<Vec<(usize, ListedFault)>, String> {
     Ok((1..).zip(faults).collect())
 }
 
-/// Writes the design to `folder` with the fault of this number, 0 for none; without a number with
-/// every fault, of which a simulation's `+fault=N` plants one. A file that is right already is not
-/// touched.
+/// Writes the design to `folder`: with the fault of this number, with none for 0, or without a
+/// number with every fault, of which a simulation's `+fault=N` plants one. A file that already has
+/// the right contents is not touched.
 ///
 /// # Errors
-/// There is no such fault, its text has not one place, or a file cannot be read or written.
+/// There is no such fault, its text does not occur exactly once, or a file cannot be read or
+/// written.
 pub fn plant(root: &Path, folder: &Path, number: Option<usize>) -> Result<(), String> {
     let all = faults(root)?;
     if number.is_some_and(|number| number > all.len()) {
@@ -88,7 +89,7 @@ pub fn plant(root: &Path, folder: &Path, number: Option<usize>) -> Result<(), St
     }
 }
 
-/// The text with these faults behind switches; the text of one may lie within another's.
+/// The text with these faults behind switches; the text of one may be inside another's.
 fn switched(text: &str, faults: &[&(usize, ListedFault)]) -> Result<String, String> {
     let placed = faults.iter().map(|&fault| Ok((place(text, &fault.1)?, fault)));
     let mut places = placed.collect::<Result<Vec<_>, String>>()?;
@@ -111,7 +112,7 @@ fn switched(text: &str, faults: &[&(usize, ListedFault)]) -> Result<String, Stri
     Ok(made + &text[at..])
 }
 
-/// The right text, or one of the wrong ones by its number.
+/// The right text, or one of the wrong ones, selected by number.
 fn chosen(right: &str, wrong: &[(usize, &str)]) -> Result<String, String> {
     let each = |form: &dyn Fn(usize, &str) -> String| -> String {
         wrong.iter().map(|&(number, wrong)| form(number, wrong)).collect()
@@ -127,7 +128,7 @@ fn chosen(right: &str, wrong: &[(usize, &str)]) -> Result<String, String> {
             each(&|n, wrong| format!("if (tess_fault_pkg::number == {n}) begin {wrong} end else "));
         return Ok(format!("{wrong}begin {right} end"));
     };
-    // What stands before a wrong `assign` declares what it needs.
+    // The declarations that precede a wrong `assign` stay before it.
     let same = format!("{}= ", head.trim_start());
     let (mut before, mut values) = (String::new(), Vec::new());
     for &(number, wrong) in wrong {
@@ -140,7 +141,7 @@ fn chosen(right: &str, wrong: &[(usize, &str)]) -> Result<String, String> {
     Ok(format!("{before}{head}= {};", chosen(value, &values)?))
 }
 
-/// The one place of a fault's text.
+/// The only place of a fault's text.
 fn place(text: &str, fault: &ListedFault) -> Result<Range<usize>, String> {
     let ListedFault { name, folder, right, .. } = fault;
     match (text.find(right), fault.places(text)) {

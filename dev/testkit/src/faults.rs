@@ -1,10 +1,10 @@
-//! Planted faults: a backend with one thing wrong, to see that a comparison notices it.
+//! Planted faults: a backend with one fault, which a comparison must notice.
 
 mod faulty;
 
 pub use faulty::Faulty;
 
-/// One thing that goes wrong.
+/// A fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The lowest bit of the first point's u.
@@ -13,37 +13,37 @@ pub enum Fault {
     PointV,
     /// The lowest bit of the last point's v.
     LastPoint,
-    /// The first and the last point change places.
+    /// The first and the last point are exchanged.
     SwappedPoints,
     /// The last point is missing.
     DroppedPoint,
-    /// There is a point too many, at a place that has one.
+    /// There is one point too many, at the place of another.
     ExtraPoint,
-    /// There is a point too many, outside every domain.
+    /// There is one point too many, outside every domain.
     StrayPoint,
-    /// The first and the last index change places.
+    /// The first and the last index are exchanged.
     SwappedIndices,
     /// The last index is one too high.
     LastIndex,
     /// The last index is missing.
     DroppedIndex,
-    /// There is an index too many.
+    /// There is one index too many.
     ExtraIndex,
-    /// A patch comes out culled.
+    /// A patch is answered as culled.
     EmptyPatch,
     /// A patch has the output of the one before it in the batch.
     RepeatedPatch,
-    /// The answer has a patch, factor or context too few.
+    /// The answer has one patch, factor or context too few.
     ShortAnswer,
-    /// The lowest bit of a factor at an edge.
+    /// The lowest bit of an edge's factor.
     OuterFactor,
     /// The lowest bit of an inside factor.
     InsideFactor,
-    /// The lowest bit of a field of a context; parity is turned.
+    /// The lowest bit of a field of a context; parity is inverted.
     Context(ContextField),
     /// The lowest bit of the last location.
     LastLocation,
-    /// The first and the last location change places.
+    /// The first and the last location are exchanged.
     SwappedLocations,
     /// The last location is missing.
     DroppedLocation,

@@ -1,8 +1,8 @@
-//! The invariants of every output (spec section 12), whoever made it and in whatever way.
+//! The invariants of every output (spec section 12), whichever implementation made it.
 //!
-//! Each function takes a case and an output for it, as one implementation gave it, and describes
-//! the first violation. None looks at the coordinates or the connectivity that the model gives for
-//! the case; the numbers of points along each edge come from the model's factor contexts.
+//! Each function takes a case and an implementation's output for it, and describes the first
+//! violation. None uses the coordinates or the connectivity that the model gives for the case; the
+//! numbers of points along each edge come from the model's factor contexts.
 
 mod boundary;
 mod mesh;
@@ -18,10 +18,10 @@ use tess_core::{
 };
 use tess_verify::{Case, Named};
 
-/// An invariant does not hold.
+/// A violated invariant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
-    /// Which one, as spec section 12 calls it.
+    /// Its name in spec section 12.
     pub invariant: &'static str,
     /// The fault.
     pub message: String,
@@ -35,7 +35,7 @@ impl fmt::Display for Violation {
 
 impl std::error::Error for Violation {}
 
-/// A [`Violation`] unless `holds`.
+/// Returns a [`Violation`] unless `holds`.
 pub(crate) fn ensure(
     holds: bool,
     invariant: &'static str,
@@ -44,7 +44,7 @@ pub(crate) fn ensure(
     if holds { Ok(()) } else { Err(Violation { invariant, message: message() }) }
 }
 
-/// Every invariant of one output: all but [`winding`], which takes two.
+/// Checks every invariant of one output except [`winding`], which takes two.
 ///
 /// # Errors
 /// The first violation.
@@ -57,7 +57,7 @@ pub fn all(case: &Case, output: &Tessellation) -> Result<(), Violation> {
     separability(case, output)
 }
 
-/// 12.1: coordinates lie in 0..=1, on triangles u + v too.
+/// 12.1: coordinates are in 0..=1, and on triangles u + v too.
 ///
 /// # Errors
 /// The first point outside.
@@ -73,7 +73,7 @@ pub fn range(case: &Case, output: &Tessellation) -> Result<(), Violation> {
     })
 }
 
-/// 12.2: the locations of an edge are one minus themselves, walked from the other side.
+/// 12.2: one minus the locations of an edge are the same locations in reverse.
 ///
 /// # Errors
 /// The first location that is not.

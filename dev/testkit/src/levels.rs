@@ -1,15 +1,15 @@
-//! The levels that comparisons run at.
+//! The CPU levels at which comparisons run.
 
 use tess_simd::Level;
 
-/// The environment variable that names the levels that must be there.
+/// The environment variable that names the required levels.
 const VARIABLE: &str = "TESS_REQUIRE_LEVELS";
 
-/// The levels to compare at: every one of this machine. One that it lacks is reported, and fails
+/// The levels to compare at: all of this machine's. A level that it lacks is reported, and fails
 /// the test if the environment variable `TESS_REQUIRE_LEVELS` asks for it.
 ///
 /// # Panics
-/// The variable asks for a level that this machine lacks, or names none.
+/// The variable asks for a level that this machine lacks, or names no level.
 #[must_use]
 pub fn levels() -> Vec<Level> {
     let required = std::env::var(VARIABLE).unwrap_or_default();

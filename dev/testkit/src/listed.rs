@@ -1,4 +1,4 @@
-//! Lists of faults: a text of a source, and a wrong one in its place.
+//! Lists of faults: a text of a source, and a wrong text to put in its place.
 //!
 //! ```text
 //! in tess-gpu/shaders                        the folder of the sources, or a file
@@ -15,20 +15,20 @@
 //!
 //! `in` and `seen by` apply until the next one. Both texts may have several lines, and the new one
 //! may be empty. A line that starts with `#` is a comment. `cargo xtask mutants planted`, the
-//! circuit's benches and tests of the shaders read such lists.
+//! circuit's benches and the tests of the shaders read such lists.
 
-/// One wrong text.
+/// A fault of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ListedFault {
-    /// The fault.
+    /// Its name.
     pub name: String,
-    /// The folder of the source or the source, from the root of the repository.
+    /// The folder of the source, or the source itself, from the root of the repository.
     pub folder: String,
     /// The file of the tests that must see it.
     pub tests: String,
-    /// Words that select some of these tests; none are all.
+    /// Words that select some of these tests; without words, all of them.
     pub filters: Vec<String>,
-    /// Why no test can see it.
+    /// The reason why no test can see it.
     pub equivalent: Option<String>,
     /// The text of the source.
     pub right: String,
@@ -37,13 +37,13 @@ pub struct ListedFault {
 }
 
 impl ListedFault {
-    /// The number of places of the text in `source`.
+    /// The number of times that the text occurs in `source`.
     #[must_use]
     pub fn places(&self, source: &str) -> usize {
         source.matches(&self.right).count()
     }
 
-    /// `source` with the fault in every place of the text; `None` if it has none.
+    /// `source` with the fault wherever the text occurs; `None` if it does not occur.
     #[must_use]
     pub fn planted(&self, source: &str) -> Option<String> {
         source.contains(&self.right).then(|| source.replace(&self.right, &self.wrong))
@@ -53,7 +53,7 @@ impl ListedFault {
 /// The faults of a list.
 ///
 /// # Errors
-/// The number of a line that has another form.
+/// The number of the first line that does not have the form.
 pub fn parse(list: &str) -> Result<Vec<ListedFault>, String> {
     let (mut folder, mut seen_by, mut faults) = (None, None, Vec::new());
     let mut lines = (1..).zip(list.lines()).peekable();

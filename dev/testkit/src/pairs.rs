@@ -1,7 +1,7 @@
-//! Covering arrays: rows of options in which any two values of two options meet.
+//! Covering arrays: rows of options in which any two values of two options occur together.
 //!
-//! Most faults of options need one value or two together. All rows of 10 options with 3 values are
-//! 59 049; 15 of them have every two values together. Two values may exclude each other, and then
+//! Most faults of options need one value, or two together. There are 59 049 rows of 10 options with
+//! 3 values; 15 of them have every two values together. Two values may exclude each other, and then
 //! no row has both:
 //!
 //! ```text
@@ -16,7 +16,7 @@ use std::ops::Range;
 /// A value of an option: the option's number, then the value's.
 pub type Choice = (usize, usize);
 
-/// Options by the number of their values, and which two values exclude each other.
+/// Options by their numbers of values, and the pairs of values that exclude each other.
 #[derive(Clone, Debug)]
 pub struct Options<E> {
     values: Vec<usize>,
@@ -25,8 +25,8 @@ pub struct Options<E> {
 }
 
 impl<E: Fn(Choice, Choice) -> bool> Options<E> {
-    /// As many options as `values` has elements, of which each is a number of values. `excluded`
-    /// gets two choices of different options, the one of the lower option first.
+    /// One option for each element of `values`, which is its number of values. `excluded` gets two
+    /// choices of different options, the one of the lower option first.
     ///
     /// # Panics
     /// If there are fewer than two options, or an option has no value.
@@ -35,19 +35,19 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
         Self { values: values.to_vec(), excluded, seldom: Vec::new() }
     }
 
-    /// The same options, of which a row has one of these choices only for a pair with it, or where
-    /// there is no other.
+    /// The same options, with choices that a row has only for a pair with them, or where there is
+    /// no other choice.
     #[must_use]
     pub fn seldom(self, choices: &[Choice]) -> Self {
         Self { seldom: choices.to_vec(), ..self }
     }
 
-    /// Rows with a value of each option, by number. None has a pair that is excluded; every other
-    /// pair is in one of them. The same options give the same rows.
+    /// Rows with a value of each option, by number. No row has an excluded pair; every other pair
+    /// is in one of them. The same options give the same rows.
     ///
     /// # Panics
-    /// If no row can have a pair that is not excluded, as when one of the two excludes all values
-    /// of a third option.
+    /// If no row can have some pair that is not excluded, for example because one of the two
+    /// excludes all values of a third option.
     pub fn rows(&self) -> Vec<Vec<usize>> {
         let mut missing: BTreeSet<[Choice; 2]> = self.pairs(false).collect();
         let mut rows: Vec<Vec<usize>> = Vec::new();
@@ -61,7 +61,7 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
         rows
     }
 
-    /// Each pair that is excluded, and a row that has it and no other such pair.
+    /// Each excluded pair, with a row that has it and no other excluded pair.
     ///
     /// # Panics
     /// If there is no such row.
@@ -73,7 +73,7 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
         self.pairs(true).map(row).collect()
     }
 
-    /// All pairs of choices that are excluded, or all that are not.
+    /// All excluded pairs of choices, or all others.
     fn pairs(&self, excluded: bool) -> impl Iterator<Item = [Choice; 2]> {
         let choices = |option: usize| (0..self.values[option]).map(move |value| (option, value));
         let all = move |options: Range<usize>| options.flat_map(choices);
@@ -81,8 +81,8 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
         two.filter(move |&[a, b]| (self.excluded)(a, b) == excluded)
     }
 
-    /// A row with the choices of `start`, and otherwise without excluded pairs; it has many pairs
-    /// of `missing`.
+    /// A row with the choices of `start` and otherwise no excluded pairs; it has many pairs of
+    /// `missing`.
     fn row(
         &self,
         start: &[Choice],
@@ -97,7 +97,8 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
     }
 
     /// Chooses a value of each option that has none yet: the one that adds most pairs of `missing`,
-    /// and among equals each in turn, those of `seldom` last. Goes back where no value is left.
+    /// and among equals each in turn, with those of `seldom` last. Goes back where no value is
+    /// possible.
     fn complete(
         &self,
         chosen: &mut Vec<Choice>,

@@ -6,7 +6,7 @@ use crate::listed::{ListedFault, parse};
 /// Every fault of the list.
 ///
 /// # Panics
-/// The list has another form.
+/// The list does not have the form.
 #[must_use]
 pub fn all() -> Vec<ListedFault> {
     parse(include_str!("../faults/shaders.faults")).unwrap_or_else(|error| panic!("{error}"))
@@ -15,7 +15,7 @@ pub fn all() -> Vec<ListedFault> {
 /// The fault of this name.
 ///
 /// # Panics
-/// There is none.
+/// There is no such fault.
 #[must_use]
 pub fn named(name: &str) -> ListedFault {
     let fault = all().into_iter().find(|fault| fault.name == name);

@@ -6,7 +6,7 @@ use tess_core::{
     TriangleFactors,
 };
 
-/// Bit patterns of factors: any at all, and those around which things change.
+/// Bit patterns of factors: arbitrary ones, and those at boundaries.
 pub fn factor() -> impl Strategy<Value = f32> {
     let special = prop::sample::select(vec![
         0x0000_0000, // 0
@@ -45,7 +45,7 @@ pub fn from_fixed(bits: u32) -> f32 {
     bits as f32 / 65536.0
 }
 
-/// Factors of any domain, all from [`factor`]; small patches are as likely as large ones.
+/// Factors of any domain, each from [`factor`]; small patches are as likely as large ones.
 pub fn factors() -> impl Strategy<Value = PatchFactors> {
     prop_oneof![
         [factor(), factor()].prop_map(|[density, detail]| {

@@ -1,8 +1,8 @@
-//! The verdict of the circuit's bench, read from what it prints.
+//! The verdict of the circuit's bench, read from its output.
 
 use std::fmt;
 
-/// The numbers of what a run compared and found equal.
+/// The numbers of elements that a run compared and found equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "they are numbers of what their names say")]
 pub struct BenchVerdict {
@@ -13,10 +13,10 @@ pub struct BenchVerdict {
 }
 
 impl BenchVerdict {
-    /// The tally in what a bench prints, with `PASS` behind it.
+    /// Reads the tally from a bench's output, which must also have the line `PASS`.
     ///
     /// # Errors
-    /// Something differs, or fewer than so many `patches` were compared.
+    /// Something differs, or fewer than `patches` were compared.
     pub fn read(said: &str, patches: u64) -> Result<Self, String> {
         let tally = said.lines().find_map(|line| line.strip_suffix(" clocks, 0 mismatches"));
         let number = |word: &str| word.split(' ').next()?.parse::<u64>().ok();

@@ -1,4 +1,4 @@
-//! Every comparison is seen to fail: each planted fault is reported, with its element and stage.
+//! Every comparison can fail: each planted fault is reported, with its element and stage.
 
 use std::fs::read_to_string;
 use std::sync::atomic::Ordering;
@@ -11,7 +11,7 @@ use tess_verify::check::{
 use tess_verify::vectors::VectorFile;
 use tess_verify::{Backend, Case, CoreBackend};
 
-/// Rows of a golden file as a file of its own; of listings, all.
+/// Rows of a golden file as a file of its own; of listings, all of them.
 fn excerpt(name: &str, keep: impl Fn(usize, &str) -> bool) -> String {
     let path = format!("{}/../../golden/{name}", env!("CARGO_MANIFEST_DIR"));
     let text = read_to_string(path).expect("readable");
@@ -45,7 +45,7 @@ fn run_core(text: &str) -> Report {
     run(text, &mut [Box::new(CoreBackend)]).expect("a verdict")
 }
 
-/// Whether a difference in `element` and `stage` is what a fault of patches looks like.
+/// Whether a difference in `element` and `stage` fits this fault of patches.
 fn looks_like(fault: Fault, element: &Element, stage: SpecStage) -> bool {
     let first = |wanted| matches!(element, Element::Point { index: 0, coordinate } if *coordinate == wanted);
     match fault {
@@ -138,7 +138,7 @@ fn faults_of_factors() {
     let text = excerpt("factor.csv", |_, row| row.starts_with("fractional_odd,0,"));
     assert_eq!(run_core(&text).cases, 1, "rows of the excerpt");
     for (fault, expected) in [(Fault::OuterFactor, "outer"), (Fault::InsideFactor, "inside")] {
-        // In the last of the 128 batches, the last of which is the number below two.
+        // It strikes in the last of the 128 batches, at the number just below two.
         let report = run_faulty(&text, fault, 127).expect("a verdict");
         assert_eq!(report.mismatches, 1, "{fault:?}");
         let mismatch = &report.differences[0].mismatch;
@@ -168,7 +168,7 @@ fn stages_are_told_apart() {
     }
 }
 
-/// A wrong number in any result column of any kind is a difference.
+/// A wrong number in any result column of any kind of file is a difference.
 #[test]
 fn wrong_records() {
     let files = [
@@ -200,7 +200,7 @@ fn wrong_records() {
     }
 }
 
-/// A device's faults are seen in any order too: none of them is one of order alone.
+/// A device's faults are detected in any order too, because none of them changes only the order.
 #[test]
 fn faults_of_devices_in_any_order() {
     let any = Strength { order: ListOrder::Any, ..Strength::default() };
@@ -224,7 +224,7 @@ fn faults_of_devices_in_any_order() {
     }
 }
 
-/// Whoever made a file, what is tested is said to the checker.
+/// The caller chooses which side is tested, not the source that a file names.
 #[test]
 fn either_side_of_listings_can_be_tested() {
     let text = excerpt("cases.txt", |_, _| true);
@@ -241,7 +241,7 @@ fn either_side_of_listings_can_be_tested() {
     assert_eq!(shown(Tested::Listings(Strength::default())), expected, "a device");
 }
 
-/// The first differences are shown, all are counted, and the number of threads changes nothing.
+/// The first differences are shown and all are counted, whatever the number of threads.
 #[test]
 fn many_differences() {
     let good = excerpt("patches.csv", |i, _| i < 2000);

@@ -1,4 +1,4 @@
-//! The invariants of spec section 12 hold for any factors, and each is seen to fail.
+//! The invariants of spec section 12 hold for any factors, and each can fail.
 
 use proptest::prelude::*;
 use tess_core::{Config, DomainPoint, OutputPrimitive, Tessellation};
@@ -43,7 +43,7 @@ fn moved(point: DomainPoint, u: i32, v: i32) -> DomainPoint {
     DomainPoint::from_bits(u, v)
 }
 
-/// That `check` refuses what `damage` makes of both examples, under its own name.
+/// Checks that `check` refuses both examples after `damage`, under its own name.
 fn refuses(
     name: &str,
     check: impl Fn(&Case, &Tessellation) -> Result<(), Violation>,
@@ -92,7 +92,8 @@ fn counts_are_seen_to_fail() {
 
 #[test]
 fn area_is_seen_to_fail() {
-    // An inner point is surrounded, so moving it changes nothing; an outer point is not.
+    // An inner point is surrounded, so moving it does not change the sum; moving an outer point
+    // does.
     refuses("area", area, |t| t.points[1] = moved(t.points[1], 1, 0));
     refuses("area", area, |t| t.indices.swap(0, 1));
     refuses("area", area, |t| t.indices[0] = u32::MAX);
@@ -116,7 +117,7 @@ fn crack_free_is_seen_to_fail() {
     refuses("crack-free", crack_free, |t| t.points[0] = moved(t.points[0], 1, -1));
     refuses("crack-free", crack_free, |t| t.points.swap(1, 2));
     refuses("crack-free", crack_free, |t| t.points.truncate(5));
-    // The last point of the outer ring: an inner one is nobody else's.
+    // No neighbour shares an inner point, so it may move.
     let (case, mut output) = example(QUAD);
     let last = output.points.len() - 1;
     output.points[last] = moved(output.points[last], 1, 1);

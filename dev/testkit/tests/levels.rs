@@ -1,4 +1,4 @@
-//! The environment variable of CPU levels is read as it is meant.
+//! The environment variable of CPU levels is parsed as documented.
 
 use tess_simd::Level;
 use tess_testkit::levels::required_levels;

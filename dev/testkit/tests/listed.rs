@@ -1,4 +1,4 @@
-//! Lists of faults are read as they are written.
+//! Lists of faults are parsed as documented.
 
 use tess_testkit::listed::parse;
 

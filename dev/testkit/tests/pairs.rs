@@ -1,4 +1,4 @@
-//! Rows of options have every pair that is allowed and none that is not.
+//! Rows of options have every pair that is allowed and none that is excluded.
 
 use tess_testkit::pairs::{Choice, Options};
 
@@ -14,7 +14,7 @@ fn has(row: &[usize], pair: [Choice; 2]) -> bool {
     pair.iter().all(|&(option, value)| row[option] == value)
 }
 
-/// The rows, after seeing that they are right.
+/// The rows, after a check that they are right.
 fn checked(values: &[usize], excluded: impl Fn(Choice, Choice) -> bool + Copy) -> Vec<Vec<usize>> {
     let options = Options::new(values, excluded);
     let (rows, refused) = (options.rows(), options.refused());
@@ -41,7 +41,7 @@ fn every_pair_is_in_a_row() {
     }
 }
 
-/// Alone or together with values that exclude each other, one of them far from the other.
+/// An option alone or together with values that exclude each other, one of them far from the other.
 #[test]
 fn excluded_pairs_are_in_no_row_but_their_own() {
     let values = [3, 4, 2, 2, 5];
@@ -50,8 +50,8 @@ fn excluded_pairs_are_in_no_row_but_their_own() {
     checked(&values, |a, b| (a.1 + b.1) % 3 == 2 && b.0 == 4);
 }
 
-/// The best known arrays of these sizes have 4, 9 and 14 rows; three values with 10 options have 59
-/// 049 rows in all.
+/// The best known arrays of these sizes have 4, 9 and 14 rows. Ten options with 3 values have 59049
+/// rows in all.
 #[test]
 fn rows_are_few() {
     for (values, most) in [(&[2, 2, 2][..], 5), (&[3, 3, 3, 3], 12), (&[3; 10], 22)] {
@@ -60,7 +60,8 @@ fn rows_are_few() {
     }
 }
 
-/// Three rows have every pair of one choice, and choices of two options meet in one of them.
+/// Three rows have every pair of one choice, and choices of two options occur together in one of
+/// them.
 #[test]
 fn seldom_choices_are_in_few_rows() {
     let options = Options::new(&[3, 3, 3, 2], |_, _| false).seldom(&[(0, 1), (3, 1)]);

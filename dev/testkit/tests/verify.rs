@@ -1,4 +1,4 @@
-//! Verification of backends sees every planted fault.
+//! The verification of backends detects every planted fault.
 
 use std::sync::atomic::Ordering;
 use tess_testkit::faults::{Fault, Faulty};
@@ -11,7 +11,7 @@ fn run(backends: Vec<Box<dyn Backend>>, subject: Subject, shard: Shard) -> Vec<S
     verify(&mut [backends], subject, shard, &known, &|_, _| {}).expect("the backends run")
 }
 
-/// The faults that a subject's units must see, and a shard of few of them.
+/// The faults that a subject's units must detect, and a shard with few of the units.
 fn faults_of(subject: Subject) -> (Vec<Fault>, Shard) {
     let (faults, of) = match subject {
         Subject::Factors => (Fault::OF_FACTORS.to_vec(), 16384),
@@ -43,7 +43,7 @@ fn every_subject_sees_every_fault() {
     }
 }
 
-/// A difference is counted for the backend that has it, not for the one beside it.
+/// A difference is counted for the backend that has it, not for the other one.
 #[test]
 fn differences_are_told_apart_by_backend() {
     let faulty = Faulty::new(CoreBackend, Fault::LastIndex, 0);
@@ -68,7 +68,8 @@ fn one_bit_of_one_random_patch() {
     }
 }
 
-/// The patch that differs is excused, and no other; the stage of what is not is counted.
+/// Only the patch that differs and is listed is excused; the stage of a difference that is not
+/// excused is counted.
 #[test]
 fn a_known_difference_is_no_mismatch() {
     let subject = Subject::Random { patches: 100, seed: 3 };

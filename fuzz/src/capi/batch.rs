@@ -21,7 +21,7 @@ use tess_verify::Case;
 const NO_RANGE: TessRange =
     TessRange { first_point: CANARY, points: CANARY, first_index: CANARY, indices: CANARY };
 
-/// A batch's own memory.
+/// The buffers of a batch.
 struct BatchMemory {
     points: Vec<TessPoint>,
     indices: Vec<u32>,
@@ -60,7 +60,7 @@ pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
     if untouched { Ok(()) } else { Err(repeatable(&case, "tess_batch_run wrote, but refused")) }
 }
 
-/// Output buffers, sometimes wrong.
+/// Output buffers, some of them wrong.
 fn output(
     bytes: &mut Bytes<'_>,
     wrongs: &mut Wrongs,
@@ -70,7 +70,7 @@ fn output(
         let (capacity, room) = capacity(bytes, needed);
         let possible = is_possible(capacity, size);
         wrongs.add_if(!possible, TESS_TOO_LARGE);
-        // A possible capacity must be there: the library may believe it.
+        // A possible capacity must really exist, because the library may trust it.
         (capacity, if possible { capacity } else { room })
     };
     let needed_points = model.iter().map(|patch| patch.points.len()).sum();
@@ -133,8 +133,8 @@ fn run(
             Entry::Vacant(place) => Ok(place.insert(Made::new(case, &config)?).0),
         });
     let batch = batch?;
-    // SAFETY: a batch that was made; buffers that are null, askew, impossibly large or as large as
-    // they say.
+    // SAFETY: a batch that was made; buffers that are null, misaligned, impossibly large or as
+    // large as they claim.
     let status =
         unsafe { tess_batch_run(batch, factors.as_ptr(), factors.len(), output, &mut counts) };
     Ok((status, counts))
@@ -162,7 +162,7 @@ impl Made {
 
 impl Drop for Made {
     fn drop(&mut self) {
-        // SAFETY: a batch that was made and is not used any more.
+        // SAFETY: a batch that was made and is no longer used.
         unsafe { tess_batch_free(self.0) };
     }
 }

@@ -1,4 +1,4 @@
-//! Arguments that may be wrong, and what may be answered then.
+//! Arguments that may be wrong, and the answers that are allowed then.
 
 use crate::input::Bytes;
 use crate::repeatable;
@@ -55,7 +55,8 @@ impl Wrongs {
         }
     }
 
-    /// The pointer of an output buffer of a capacity. With none, anything may be wrong with it.
+    /// The pointer of an output buffer with a capacity. If the capacity is 0, the pointer may be
+    /// anything.
     pub(super) fn room<T>(
         &mut self,
         bytes: &mut Bytes<'_>,
@@ -66,7 +67,7 @@ impl Wrongs {
         if capacity == 0 { ignored.pointer(bytes, good) } else { self.pointer(bytes, good) }
     }
 
-    /// Sometimes not one of `listed` numbers.
+    /// A number that is sometimes not one of the first `listed`.
     fn number(&mut self, bytes: &mut Bytes<'_>, good: u32, listed: u32) -> u32 {
         if bytes.byte() < 250 {
             return good;
@@ -77,7 +78,7 @@ impl Wrongs {
     }
 }
 
-/// A patch as C describes it, sometimes wrongly, and as the model does when it is right.
+/// A patch as C describes it, sometimes wrongly, and as the model has it if it is right.
 pub(super) struct Hostile {
     pub(super) case: Case,
     pub(super) config: TessConfig,
@@ -116,7 +117,7 @@ impl Hostile {
     }
 }
 
-/// The case whose numbers are these; its factors, if the domain is another, are all 3.
+/// The case that these numbers describe; if the domain is another, all factors are 3.
 fn expected_case(case: Case, config: TessConfig) -> Case {
     use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
     let domain = Domain::ALL[config.domain as usize];

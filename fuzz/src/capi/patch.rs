@@ -24,7 +24,7 @@ pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let factors = wrongs.pointer(bytes, hostile.factors.as_mut_ptr());
     let counts_pointer = wrongs.pointer(bytes, &raw mut counts);
     let count_status =
-        // SAFETY: each pointer is null, askew or to memory as large as the call claims.
+        // SAFETY: each pointer is null, misaligned or to memory as large as the call claims.
         unsafe { tess_count(config, factors, hostile.factor_count, counts_pointer) };
     wrongs.judge("tess_count", &hostile.case, count_status)?;
     let valid = wrongs.is_empty();
@@ -36,7 +36,7 @@ pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
     wrongs.add_if(index_capacity < model.indices.len(), TESS_BUFFER_TOO_SMALL);
     let to_points = wrongs.room(bytes, points.as_mut_ptr(), point_capacity);
     let to_indices = wrongs.room(bytes, indices.as_mut_ptr(), index_capacity);
-    // SAFETY: as above; a capacity beyond the memory is impossible, which is refused.
+    // SAFETY: as above; a capacity beyond the memory is impossible, and is refused.
     let status = unsafe {
         let n = hostile.factor_count;
         tess_patch(
@@ -73,12 +73,12 @@ pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
     compare_with_model("tess_patch", &hostile.case, observed, &model)
 }
 
-/// Whether memory can have so many elements of a size.
+/// Whether memory can have this many elements of a size.
 pub(super) fn is_possible(count: usize, size: usize) -> bool {
     count.checked_mul(size).is_some_and(|bytes| isize::try_from(bytes).is_ok())
 }
 
-/// A capacity around what is needed or far beyond it, and the elements that are really there.
+/// A capacity near the needed one or far beyond it, and the number of elements that really exist.
 pub(super) fn capacity(bytes: &mut Bytes<'_>, needed: usize) -> (usize, usize) {
     let around = |delta: usize| (needed + delta).saturating_sub(2);
     match bytes.byte() % 16 {

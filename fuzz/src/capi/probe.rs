@@ -8,7 +8,7 @@ use tess_capi::status::{TESS_NOT_A_CONTEXT, TESS_OK, TESS_OUT_OF_RANGE, TESS_UNK
 use tess_capi::types::{TessContext, TessPoint};
 use tess_core::fixed_point::ONE;
 
-/// Point and primitive of any number.
+/// A point and a primitive of any number.
 pub(super) fn check_element(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let mut wrongs = Wrongs::default();
     let mut hostile = Hostile::new(bytes, &mut wrongs);
@@ -20,7 +20,7 @@ pub(super) fn check_element(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let mut point = NO_POINT;
     let mut point_wrongs = Wrongs::default();
     point_wrongs.add_if(number >= patch.counts().points, TESS_OUT_OF_RANGE);
-    // SAFETY: each pointer is null, askew or to memory as large as the call claims.
+    // SAFETY: each pointer is null, misaligned or to memory as large as the call claims.
     let status = unsafe { tess_point(config, factors, n, number, &mut point) };
     judge(&wrongs, &point_wrongs, "tess_point", &hostile, status)?;
     let expected = match patch.point(number) {
@@ -61,7 +61,7 @@ fn judge(
     wrongs.judge(call, &hostile.case, status)
 }
 
-/// A place with a context that may be altered: refused, or consistent with itself.
+/// A place with a context that may be altered: it is refused, or consistent with itself.
 pub(super) fn check_place(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let [factor, parity, split] = [bytes.word(), bytes.word() % 2, bytes.word() % 2];
     let mut context = TessContext::default();

@@ -1,4 +1,4 @@
-//! Bezier patch files, and a reader that takes numbers as they come.
+//! Bezier patch files, and a reader that takes numbers in sequence.
 
 use super::{bits, names_a_line, without_mark, words_of};
 use glam::{Vec3, Vec4};
@@ -9,7 +9,7 @@ use tess_surface::{BezierPatch, Model};
 pub fn check(data: &[u8]) -> Result<(), String> {
     let read = fuzzing::bpt(data);
     if let Ok(patches) = &read {
-        // Refused or not, it must come to an end.
+        // Refused or not, it must return.
         let _ = Model::bezier(patches.clone());
     }
     let words = |patches: &Vec<BezierPatch>| {
@@ -25,7 +25,7 @@ fn naive(data: &[u8]) -> Option<Vec<BezierPatch>> {
     let lines: Vec<Vec<String>> = lines.map(words_of).filter(|words| !words.is_empty()).collect();
     let all: Vec<String> = lines.concat();
     let count: usize = all.first()?.parse().ok()?;
-    // A patch is the line of its degrees and 16 points; before all there is their number.
+    // A patch is the line of its degrees and 16 points; the number of patches precedes them all.
     let has_right_length = |(k, line): (usize, &Vec<String>)| match k % 17 {
         0 => line.len() == 2,
         _ => matches!(line.len(), 3 | 4),

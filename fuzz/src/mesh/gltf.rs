@@ -1,4 +1,4 @@
-//! glTF files, and a reader that walks the JSON as it comes, one number at a time.
+//! glTF files, and a reader that walks the JSON directly, one number at a time.
 
 use super::{mesh_words, models};
 use base64::Engine;
@@ -8,7 +8,7 @@ use serde_json::Value;
 use tess_program::fuzzing;
 use tess_surface::{Face, PolygonMesh, Sides};
 
-/// Most vertices and triangles: files of fuzz targets are small, but may repeat what they hold.
+/// The most vertices and triangles: files of fuzz targets are small, but may repeat their contents.
 const MOST: usize = 1 << 14;
 
 /// Compares one file. Errors: the first difference, or a message that names no place.
@@ -20,7 +20,7 @@ pub fn check(data: &[u8]) -> Result<(), String> {
     super::check(read, mesh_words, names_a_place, || naive(data))
 }
 
-/// A part of the binary form, a JSON path, or the line of text that is not JSON.
+/// A part of the binary form, a JSON path, or the line of a text that is not JSON.
 fn names_a_place(message: &str) -> bool {
     const MEMBERS: &str =
         "asset extensionsUsed extensionsRequired scenes scene nodes meshes accessors bufferViews \
@@ -87,7 +87,7 @@ fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 
-/// A whole number, also one that is written with a point.
+/// A whole number, also if it is written with a decimal point.
 fn index(value: &Value) -> Option<usize> {
     let float = value.as_f64().filter(|float| float.fract() == 0.0 && *float >= 0.0);
     value.as_u64().map_or_else(|| float.map(|float| float as usize), |n| usize::try_from(n).ok())
@@ -287,7 +287,7 @@ impl File {
         Some(elements)
     }
 
-    /// Element `k` of whatever has a `bufferView` and perhaps a `byteOffset`.
+    /// Element `k` of an object that has a `bufferView` and perhaps a `byteOffset`.
     fn element(
         &self,
         source: &Value,
@@ -325,7 +325,7 @@ impl File {
     }
 }
 
-/// The normal of a face that a matrix moves: the cofactors of the matrix, in units of its largest
+/// The normal of a face that a matrix moves: the matrix's cofactors, in units of its largest
 /// element, times the normal.
 fn turned(matrix: &Mat4, n: Vec3) -> Vec3 {
     let m = Mat3::from_mat4(*matrix).to_cols_array();

@@ -1,4 +1,4 @@
-//! PNG files as heights, and the numbers that another decoder has for them.
+//! PNG files as heights, compared with another decoder's numbers.
 
 use super::bits;
 use lodepng::{ColorType, Decoder, Error, Image};
@@ -6,14 +6,14 @@ use miniz_oxide::inflate::decompress_to_vec_with_limit;
 use std::io::Write;
 use tess_program::fuzzing::{self, Heights};
 
-/// Most pixels.
+/// The most pixels.
 const MOST: u64 = 1 << 16;
 
 /// Compares one file. Errors: the first difference, or an empty message.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let read = fuzzing::height_png(data, MOST);
     let independent = read.as_ref().ok().and_then(|_| naive(data));
-    // Which files are right is the decoders' business, and this one is stricter.
+    // The decoders decide which files are valid, and this one is stricter.
     if read.is_ok() && independent.is_none() {
         return Ok(());
     }
@@ -21,7 +21,8 @@ pub fn check(data: &[u8]) -> Result<(), String> {
         let size = [*width as u32, *height as u32];
         size.into_iter().chain(texels.iter().map(|&texel| bits(texel))).collect()
     };
-    // A file of numbers has no places that a user could look at; the message says what is wrong.
+    // A file of numbers has no places that a user could look at, so the message only names the
+    // fault.
     super::check(read, words, |message| !message.is_empty(), || independent)
 }
 
@@ -33,7 +34,7 @@ fn naive(data: &[u8]) -> Option<Heights> {
     let Ok(Image::RGBA16(image)) = decoder.decode(data) else { return None };
     let is_grey = matches!(data[25], 0 | 4);
     let texels = image.buffer.iter().map(|pixel| {
-        // As in the file, the most significant byte comes first.
+        // The most significant byte comes first, as in the file.
         let value = |channel| f32::from(u16::from_be(channel)) / 65535.0;
         let [r, g, b] = [pixel.r, pixel.g, pixel.b].map(value);
         if is_grey { r } else { 0.2126 * r + 0.7152 * g + 0.0722 * b }
@@ -41,7 +42,7 @@ fn naive(data: &[u8]) -> Option<Heights> {
     Some((image.width, image.height, texels.collect()))
 }
 
-/// The data behind two bytes of zlib's header; its checksum at the end is left alone.
+/// The data after the two bytes of zlib's header; its checksum at the end is ignored.
 fn inflate(data: &[u8], output: &mut dyn Write) -> Result<(), Error> {
     let raw = decompress_to_vec_with_limit(data.get(2..).unwrap_or_default(), 1 << 24);
     let raw = raw.unwrap_or_else(|error| error.output);

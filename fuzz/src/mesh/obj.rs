@@ -1,4 +1,4 @@
-//! OBJ files, and a reader that believes every line.
+//! OBJ files, and a reader that trusts every line.
 
 use super::{mesh_words, models, names_a_line, without_mark, words_of};
 use glam::{Vec2, Vec3};
@@ -11,8 +11,7 @@ pub fn check(data: &[u8]) -> Result<(), String> {
     if let Ok(mesh) = &read {
         models(mesh.clone())?;
     }
-    // Which triangles a polygon is cut into is not compared: tests of the program measure their
-    // areas.
+    // The triangles of a polygon are not compared: tests of the program measure their areas.
     let words = |mesh: &PolygonMesh| match has_polygons(data) {
         true => mesh_words(&PolygonMesh { faces: Vec::new(), ..mesh.clone() }),
         false => mesh_words(mesh),

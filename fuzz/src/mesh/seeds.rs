@@ -1,4 +1,4 @@
-//! Seeds of the readers of mesh files: small files of every form, all of them right.
+//! Seeds of the readers of mesh files: small valid files of every form.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;

@@ -1,6 +1,6 @@
 //! Every seed passes its oracle, and each oracle fails when a fault is planted.
 //!
-//! One test, as the planted fault is seen by the whole process.
+//! There is one test, because the planted fault affects the whole process.
 
 mod mutations;
 
@@ -26,10 +26,10 @@ const ORACLES: &[(&str, Oracle)] = &[
     ("gpu", tess_fuzz::gpu::check),
 ];
 
-/// Bytes that a reader of mesh files and its oracle may allocate.
+/// The most bytes that a reader of mesh files and its oracle may allocate.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Whether the reader takes a file.
+/// Whether the reader accepts a file.
 fn is_read(target: &str, bytes: &[u8]) -> Result<(), String> {
     match target {
         "obj" => fuzzing::obj(bytes).map(drop),
@@ -39,8 +39,8 @@ fn is_read(target: &str, bytes: &[u8]) -> Result<(), String> {
     }
 }
 
-/// Readers take the seeds. Files with faults they refuse, or read as the independent reading does,
-/// with little memory.
+/// The readers accept the seeds. They refuse files with faults or read them as the independent
+/// reader does, and use little memory.
 fn files_with_faults_pass(target: &str, oracle: Oracle) {
     let (mut count, mut read) = (0, 0);
     for (name, bytes) in seeds::of(target, Path::new("")).expect("seeds") {

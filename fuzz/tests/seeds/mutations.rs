@@ -14,7 +14,7 @@ pub(crate) fn of(target: &str, seed: &[u8]) -> Vec<Vec<u8>> {
     variants
 }
 
-/// Changed, missing and repeated bytes, and files that are cut.
+/// Changed, missing and repeated bytes, and truncated files.
 fn of_bytes(seed: &[u8]) -> Vec<Vec<u8>> {
     let mut variants = Vec::new();
     let step = (seed.len() / 60).max(1);
@@ -30,7 +30,7 @@ fn of_bytes(seed: &[u8]) -> Vec<Vec<u8>> {
     variants
 }
 
-/// Every value of a document replaced by every one of these, and removed.
+/// Every value of a document replaced by each of these, and removed.
 fn of_json(seed: &[u8]) -> Vec<Vec<u8>> {
     let Ok(document) = serde_json::from_slice::<Value>(seed) else { return Vec::new() };
     let numbers = [0, 1, 2, 3, 4, 5, 7, 255, 5120, 5121, 5122, 5123, 5124, 5125, 5126];

@@ -1,4 +1,4 @@
-//! Elements as messages show them.
+//! Elements as messages print them.
 
 use tess_core::DomainPoint;
 

@@ -55,7 +55,7 @@ pub(crate) fn factors(domain: &str, bits: &[&str]) -> PatchFactors {
     }
 }
 
-/// Factors as the files show them.
+/// Factors as the files write them.
 pub(crate) fn hex_words(factors: &PatchFactors) -> String {
     let numbers = match factors {
         PatchFactors::Isoline(f) => vec![f.density, f.detail],
@@ -83,12 +83,12 @@ impl<'a> RecordedLines<'a> {
         Self(text.lines())
     }
 
-    /// Rest of the next line that begins with `start`.
+    /// The rest of the next line that begins with `start`.
     pub(crate) fn next_starting(&mut self, start: &str) -> Option<&'a str> {
         self.0.find_map(|line| line.strip_prefix(start))
     }
 
-    /// The numbers of a list of items with `each` numbers; its length follows `start`.
+    /// The numbers of a list whose items have `each` numbers; the list's length follows `start`.
     pub(crate) fn next_list(&mut self, start: &str, each: usize, radix: u32) -> Vec<u32> {
         let length = self.next_starting(start).expect("a list");
         let length = length.parse::<usize>().expect("its length") * each;

@@ -1,5 +1,5 @@
-//! Evaluates WGSL functions that are one expression of integers, as the accessors of packed words
-//! are.
+//! Evaluates WGSL functions that are a single expression of integers, such as the accessors of
+//! packed words.
 
 use naga::{BinaryOperator as Op, Expression, Function, Handle, Literal, Module, Statement};
 

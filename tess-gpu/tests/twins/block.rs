@@ -1,4 +1,4 @@
-//! shared/block.wgsl: what factor processing leaves of a block of 256 patches.
+//! shared/block.wgsl: the results of factor processing for a block of 256 patches.
 
 use super::buffers::{Bound, Pass, counts, sum};
 use super::catalogue::{self, Catalogue};
@@ -6,9 +6,9 @@ use tess_core::{Patch, PatchFactors, ProcessedFactor, ProcessedPatch};
 use tess_gpu::Resource::{Contexts, Offsets, Topologies};
 use tess_gpu::layout::pack_context;
 
-/// Topologies, contexts, offsets within the block, and the topology that all its patches have,
-/// or 0. Slots of the catalogue are with that one, or else with each patch's. Returns the counts of
-/// the block.
+/// Writes topologies, contexts, offsets within the block, and the topology that all its patches
+/// have, or 0. That topology holds the slot of the catalogue; if there is none, each patch's own
+/// does. Returns the counts of the block.
 pub(crate) fn process_block(
     pass: &Pass<'_>,
     block: u32,
@@ -25,7 +25,7 @@ pub(crate) fn process_block(
         all = sum(all, counts(patch));
     }
     let is_alike = topologies.iter().all(|topology| *topology == topologies[0]);
-    // In the second word; 0 if there is none.
+    // The slot is in the second word; 0 if there is none.
     let slot = |at: usize, b: &mut Bound<'_>| {
         let patch = &block_of(pass, block)[at];
         catalogue.map_or(0, |it| it.slot_of(topologies[at], counts(patch), b)) << 14
@@ -46,12 +46,12 @@ pub(crate) fn process_block(
     all
 }
 
-/// The patches of a block, fewer in the portion's last one.
+/// The patches of a block; the portion's last block may have fewer.
 fn block_of<'a>(pass: &Pass<'a>, block: u32) -> &'a [Patch] {
     pass.patches.chunks(256).nth(block as usize).unwrap_or_default()
 }
 
-/// layout/topology.wgsl: the points along everything, and the state.
+/// layout/topology.wgsl: the numbers of points along edges and axes, and the state.
 pub(crate) fn topology(patch: &Patch) -> [u32; 2] {
     let (state, factors) = match patch.processed() {
         ProcessedPatch::Culled => return [0, 0],
@@ -70,7 +70,7 @@ pub(crate) fn topology(patch: &Patch) -> [u32; 2] {
     [outer, inside]
 }
 
-/// The same. Only the state of a culled patch says anything; its points are as the device left
+/// The same, but in a culled patch only the state is defined; its points are as the device left
 /// them.
 fn topology_left(patch: &Patch, at: u32, b: &Bound<'_>) -> [u32; 2] {
     match patch.processed() {
@@ -82,7 +82,7 @@ fn topology_left(patch: &Patch, at: u32, b: &Bound<'_>) -> [u32; 2] {
     }
 }
 
-/// The contexts of regular patches with fractional factors; no others are read.
+/// Writes the contexts of regular patches with fractional factors; no others are read.
 fn write_contexts(pass: &Pass<'_>, patch: &Patch, at: u32, b: &mut Bound<'_>) {
     let ProcessedPatch::Regular(factors) = patch.processed() else { return };
     if pass.setup.has_integer_factors() {

@@ -1,4 +1,4 @@
-//! The words of a batch's buffers, and what a pass binds of them.
+//! The words of a batch's buffers, and those that a pass binds.
 
 use tess_core::Patch;
 use tess_gpu::layout::Job;
@@ -11,7 +11,7 @@ pub(crate) type Words = [Vec<u32>; Resource::ALL.len()];
 pub(crate) const POINTS: usize = 0;
 pub(crate) const PRIMITIVES: usize = 1;
 
-/// The arguments of a pass, and the patches of its portion as the model has them.
+/// The arguments of a pass, and the patches of its portion in the model.
 #[derive(Debug)]
 pub(crate) struct Pass<'a> {
     pub(crate) setup: Setup,
@@ -20,15 +20,15 @@ pub(crate) struct Pass<'a> {
     pub(crate) patches: &'a [Patch],
 }
 
-/// The buffers as a pass binds them: a number of a word counts from the beginning of the binding. A
-/// twin reads what they hold and writes what they must hold.
+/// The buffers as a pass binds them: words are numbered from the beginning of the binding. A twin
+/// reads their contents and writes the expected ones.
 #[derive(Debug)]
 pub(crate) struct Bound<'a> {
     words: &'a mut Words,
     /// The device's words in the buffers that the pass writes.
     left: &'a Words,
     spans: [Option<Span>; Resource::ALL.len()],
-    /// A choice of the device that the pass may not make: the word, and what is wrong.
+    /// A choice of the device that the pass may not make: the word, and the fault.
     pub(crate) refused: Option<(Resource, u32, String)>,
 }
 
@@ -55,8 +55,8 @@ impl<'a> Bound<'a> {
         self.words[resource as usize][at] = value;
     }
 
-    /// The device's words. A twin looks only where the pass may choose: slots and places of the
-    /// catalogue, and the unused bits of culled topologies.
+    /// The device's words. A twin reads them only where the pass may choose: slots and places of
+    /// the catalogue, and the unused bits of culled topologies.
     pub(crate) fn left(&self, resource: Resource, word: u32) -> u32 {
         self.left[resource as usize][self.at(resource, word)]
     }
@@ -71,27 +71,27 @@ impl<'a> Bound<'a> {
         self.set(resource, 2 * entry + 1, second);
     }
 
-    /// The words of the whole binding.
+    /// The number of words of the whole binding.
     pub(crate) fn size(&self, resource: Resource) -> u32 {
         let span = self.spans[resource as usize].map_or(0, |span| span.size / 4);
         u32::try_from(span).expect("below 2^32")
     }
 
-    /// Where in the batch's output a patch of the portion begins (shared/offsets.wgsl): the sum of
+    /// The place of a patch of the portion in the batch's output (shared/offsets.wgsl): the sum of
     /// its own entry, its block's and its section's.
     pub(crate) fn patch_offset(&self, job: &Job, patch: u32) -> [u32; 2] {
         let entries = [patch, job.blocks_at + patch / 256, job.sections_at + patch / 65536];
         entries.map(|entry| self.pair(Resource::Offsets, entry)).into_iter().fold([0; 2], sum)
     }
 
-    /// Where the portion's elements begin and end: `[begin, end]` of points and of primitives.
+    /// The ranges of the portion's elements: `[begin, end]` of points and of primitives.
     pub(crate) fn ranges(&self, job: &Job) -> [[u32; 2]; 2] {
         let at = STATUS_RANGES + 4 * job.portion;
         let word = |word| self.word(Resource::Status, at + word);
         [[word(0), word(1)], [word(2), word(3)]]
     }
 
-    /// Whether the output does not fit, so that nothing of it is written.
+    /// Whether the output does not fit, so that none of it is written.
     pub(crate) fn is_overflow(&self) -> bool {
         self.word(Resource::Status, STATUS_OVERFLOW) != 0
     }
@@ -111,7 +111,7 @@ pub(crate) fn counts(patch: &Patch) -> [u32; 2] {
     [patch.counts().points, patch.counts().primitives]
 }
 
-/// A number of a constant of `layout/setup.wgsl`'s prelude, which host and shaders share.
+/// The value of a constant in the prelude of `layout/setup.wgsl`, which host and shaders share.
 pub(crate) fn constant(setup: Setup, name: &str) -> u32 {
     let source = Stage::List.source(setup);
     let line = format!("const {name} = ");

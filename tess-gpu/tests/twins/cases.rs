@@ -1,4 +1,4 @@
-//! Batches that reach every way through the passes.
+//! Batches that reach every branch of the passes.
 
 use super::run::{Batch, Machine, PlanForm};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
@@ -16,7 +16,7 @@ pub(crate) fn setup(domain: Domain, partitioning: Partitioning) -> Setup {
     Setup::new(domain, Config::new(partitioning, OutputPrimitive::TriangleCw))
 }
 
-/// Random patches, boundary values, culled and degenerate ones, and one of factor 1.
+/// Random patches, boundary values, culled and degenerate ones, and one patch of factor 1.
 fn random(domain: Domain, count: u32) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(u64::from(count));
     let mut all: Vec<_> = (1..count).map(|_| random_patch(domain, &mut random)).collect();
@@ -24,7 +24,7 @@ fn random(domain: Domain, count: u32) -> Vec<PatchFactors> {
     all
 }
 
-/// Patches of these factors at random.
+/// Patches with random choices of these factors.
 pub(crate) fn of(domain: Domain, count: u32, factors: &[f32]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(77);
     let most = u32::try_from(factors.len()).expect("some factors");
@@ -32,7 +32,7 @@ pub(crate) fn of(domain: Domain, count: u32, factors: &[f32]) -> Vec<PatchFactor
     (0..count).map(|_| PatchFactors::from_fn(domain, &mut factor)).collect()
 }
 
-/// Runs of like patches that begin and end within blocks.
+/// Runs of equal patches that begin and end within blocks.
 pub(crate) fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
     let run = |&(factor, count)| vec![PatchFactors::uniform(domain, factor); count];
     runs.iter().flat_map(run).collect()
@@ -42,7 +42,7 @@ fn assert_equal(machine: &mut Machine, batch: &Batch) -> Vec<Stage> {
     machine.run(batch).unwrap_or_else(|difference| panic!("{difference}"))
 }
 
-/// Every domain and partitioning as a short and as a long batch; outputs, formats, numberings,
+/// Every domain and partitioning as a short and as a long batch, with outputs, formats, numberings,
 /// index types, orders and split orders in turn.
 #[test]
 fn every_configuration() {
@@ -86,7 +86,7 @@ fn orders_and_numberings() {
     }
 }
 
-/// Output that does not fit: points, primitives or both, by one element; no room at all; and no
+/// Output that does not fit by one element (points, primitives or both), no room at all, and no
 /// patches.
 #[test]
 fn overflow_and_nothing() {
@@ -111,7 +111,7 @@ fn overflow_and_nothing() {
     assert_eq!(assert_equal(&mut machine, &Batch::new(setup, Vec::new())), [Stage::Totals]);
 }
 
-/// Runs of like patches, which are copied, and the same without copies.
+/// Runs of equal patches, which are copied, and the same without copies.
 #[test]
 fn copies() {
     let mut machine = Machine::open();
@@ -125,8 +125,8 @@ fn copies() {
     }
 }
 
-/// A catalogue that holds every topology: unlike patches, like ones, culled ones and ones too large
-/// for it.
+/// A catalogue that holds every topology: unlike patches, equal ones, culled ones, and ones too
+/// large for it.
 pub(crate) fn catalogued(domain: Domain) -> Vec<PatchFactors> {
     let mut patches = of(domain, CATALOGUE_PATCHES, &[1.0, 1.25, 2.0, 2.75, 4.0]);
     patches.extend(runs(domain, &[(3.0, 700), (0.0, 300), (17.0, 40)]));
@@ -146,9 +146,9 @@ fn catalogue() {
     }
 }
 
-/// As many blocks, and as many patches in the last block, as the steps of the search in the table
-/// of tiles add up to, and one more. Each patch has several tiles, so that every patch is looked
-/// for.
+/// The numbers of blocks, and of patches in the last block, that the steps of the search in the
+/// table of tiles add up to, and one more. Each patch has several tiles, so the search looks for
+/// every patch.
 #[test]
 fn searches_end_at_every_step() {
     let mut machine = Machine::open();
@@ -204,7 +204,7 @@ fn batches_that_write_less() {
     }
 }
 
-/// Sums of sections that pass 2^32 several times, as no test's patches have them.
+/// Sums of sections that exceed 2^32 several times, which no test's patches reach.
 #[test]
 fn totals_beyond_32_bits() {
     let patches = of(Domain::Isoline, 300_000, &[1.0]);

@@ -7,17 +7,17 @@ use tess_gpu::Resource::Catalogue as Words;
 use tess_gpu::layout::Topology;
 use tess_gpu::{Copies, Setup};
 
-/// Slots that are tried for a key, from its hash on.
+/// The number of slots that are tried for a key, starting at its hash.
 const PROBES: u32 = 16;
 
-/// Where everything is in the catalogue.
+/// The layout of the catalogue.
 #[derive(Debug)]
 pub(crate) struct Catalogue {
     pub(crate) setup: Setup,
     pub(crate) slots: u32,
     pub(crate) used_at: u32,
     pub(crate) places_at: u32,
-    /// Where points and triangles begin, how many there is room for, and the words of each.
+    /// The first word of points and of triangles, the room for them, and the words of each.
     pub(crate) elements: [(u32, u32, u32); 2],
     most: [u32; 2],
 }
@@ -39,11 +39,11 @@ impl Catalogue {
         }
     }
 
-    /// The slot of a topology, from 1 on, in which its key must stand; 0 if it has none.
+    /// The slot of a topology, counted from 1, which must hold its key; 0 if it has none.
     ///
-    /// Which of two keys that meet gets the first slot is not defined. What is: each key stands
-    /// once, in one of the 16 slots from its hash on, behind taken ones; it has none only if other
-    /// keys have all 16.
+    /// It is not defined which of two colliding keys gets the first slot. It is defined that each
+    /// key occurs once, in one of the 16 slots that start at its hash, after taken ones, and that it
+    /// has none only if other keys have all 16.
     pub(crate) fn slot_of(&self, topology: [u32; 2], counts: [u32; 2], b: &mut Bound<'_>) -> u32 {
         let is_small = (0..2).all(|kind| counts[kind] <= self.most[kind]);
         let Some(key) = key_of(self.setup.domain, topology).filter(|_| is_small) else { return 0 };
@@ -57,12 +57,13 @@ impl Catalogue {
     }
 }
 
-/// Whether blocks of like patches are copied, points too: then they need no slot.
+/// Whether blocks of equal patches are copied, points too: then they need no slot.
 pub(crate) fn has_copied_points(setup: Setup) -> bool {
     setup.copies == Copies::WhereAlike && setup.has_integer_factors()
 }
 
-/// The key of a topology, `None` if it is culled or has more than 33 points along something.
+/// The key of a topology, or `None` if it is culled or has more than 33 points along an edge or
+/// axis.
 pub(crate) fn key_of(domain: Domain, topology: [u32; 2]) -> Option<u32> {
     let topology = Topology(topology);
     let edges = u32::try_from(domain.outer_factors()).expect("at most 4");
@@ -74,8 +75,7 @@ pub(crate) fn key_of(domain: Domain, topology: [u32; 2]) -> Option<u32> {
     has_room.then(|| along.by_ref().fold(topology.state() << 30, keyed))
 }
 
-/// A patch of the topology that has this key: each factor has one segment less than there are
-/// points.
+/// A patch of the topology that has this key: each factor has one segment less than points.
 pub(crate) fn patch_of(setup: Setup, key: u32) -> Patch {
     let field = |at: u32| f32::from(u8::try_from((key >> at & 31) + 1).expect("6 bits"));
     let edges = setup.domain.outer_factors();

@@ -1,4 +1,4 @@
-//! The first word that differs, and what it belongs to.
+//! The first word that differs, and its owner.
 
 use super::buffers::Words;
 use super::catalogue::Catalogue;
@@ -7,7 +7,7 @@ use std::fmt;
 use tess_gpu::layout::Job;
 use tess_gpu::{Access, Binding, Dispatch, Resource, Setup, Stage};
 
-/// A word that a pass left otherwise than its twin says.
+/// A word for which a pass and its twin differ.
 #[derive(Debug)]
 pub(crate) struct Difference {
     pub(crate) stage: Stage,
@@ -21,7 +21,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Compares the buffers that a pass writes, `number` passes behind the first.
+/// Compares the buffers that a pass writes, `number` passes after the first.
 pub(crate) fn first_difference(
     context: &Context<'_>,
     dispatch: &Dispatch,
@@ -41,7 +41,7 @@ pub(crate) fn first_difference(
     }
     let written = stage.bindings().iter().filter(|it| it.1 == Access::ReadWrite);
     let mut written: Vec<_> = written.map(|&Binding(resource, _)| resource).collect();
-    // Other buffers hold numbers of its slots.
+    // The catalogue comes first, because other buffers hold numbers of its slots.
     written.sort_by_key(|resource| *resource != Resource::Catalogue);
     for resource in written {
         let (expected, left) = (&words[resource as usize], &left[resource as usize]);
@@ -61,7 +61,7 @@ pub(crate) fn first_difference(
     Ok(())
 }
 
-/// The owner of a word of a buffer; the catalogue is as it must be.
+/// The owner of a word of a buffer, if the catalogue is right.
 fn owner(
     context: &Context<'_>,
     dispatch: &Dispatch,
@@ -99,7 +99,7 @@ fn owner(
     }
 }
 
-/// The slot that a word of the catalogue is of.
+/// The slot that a word of the catalogue belongs to.
 fn catalogue_owner(setup: Setup, word: u32, words: &[u32]) -> String {
     let it = Catalogue::new(setup);
     let [(points_at, _, point_words), (triangles_at, ..)] = it.elements;
@@ -145,8 +145,8 @@ fn status_owner(word: u32) -> String {
     }
 }
 
-/// The element that a word of the output is of, `size` words or indices each; `kind` 0 is points, 1
-/// primitives.
+/// The element that a word of the output belongs to, with `size` words or indices per element;
+/// `kind` 0 is points, 1 primitives.
 fn element_owner(context: &Context<'_>, kind: usize, at: u64, size: u32) -> String {
     let element = at / u64::from(size);
     let begins = &context.begins;

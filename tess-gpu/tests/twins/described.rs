@@ -1,8 +1,8 @@
-//! shared/described.wgsl: how a point is placed, in one word.
+//! shared/described.wgsl: the placement of a point, in one word.
 
 use tess_core::{Patch, PatchFactors, PointOrigin};
 
-/// How the constant coordinate and the placed one become (u, v).
+/// The ways to make (u, v) from the constant coordinate and the placed one.
 const FORM_CORNER: u32 = 3;
 
 /// Point `i` of a patch with fractional factors.
@@ -18,7 +18,7 @@ pub(crate) fn described_point(patch: &Patch, i: u32) -> u32 {
         PointOrigin::Corner { corner } => return corner << 6 | FORM_CORNER << 18,
         PointOrigin::OuterEdge { edge, p } => [0, edge, p],
         PointOrigin::Ring { ring, edge, p } => [ring, edge, p],
-        // A row in the centre lies along the longer axis.
+        // A row in the centre is along the longer axis.
         PointOrigin::Centre { p } => {
             let edge = u32::from(!is_triangle && points[4] > points[5]);
             [shortest / 2, edge, p]

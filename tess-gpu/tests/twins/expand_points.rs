@@ -1,5 +1,5 @@
-//! The pass `expand_points`: the points of the portion that lie in the window, each patch's where
-//! its offsets say.
+//! The pass `expand_points`: the points of the portion that are in the window, each patch's at its
+//! offset.
 
 use super::buffers::{Bound, POINTS, Pass};
 use std::ops::Range;

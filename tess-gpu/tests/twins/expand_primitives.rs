@@ -1,4 +1,4 @@
-//! The pass `expand_primitives`: the indices of the portion's primitives that lie in the window.
+//! The pass `expand_primitives`: the indices of the portion's primitives that are in the window.
 
 use super::buffers::{Bound, POINTS, PRIMITIVES, Pass};
 use super::expand_points::window;

@@ -1,4 +1,4 @@
-//! Faults are seen in the pass that has them, whatever they break behind it.
+//! A fault is detected in the pass that has it, whatever it breaks in later passes.
 
 use super::cases::{catalogued, cut_up, of, runs, setup, too_many};
 use super::run::{Batch, Machine};

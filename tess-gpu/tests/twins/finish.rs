@@ -38,7 +38,7 @@ fn workgroups(job: &Job, part: u32, [points, primitives]: [[u32; 2]; 2]) -> u32 
         None => {
             let everywhere = [0, u32::MAX];
             let tiles = tiles(job, points, everywhere) + tiles(job, primitives, everywhere);
-            // An entry for each tile, and one behind those of each output.
+            // An entry for each tile, and one after those of each output.
             (tiles + 2).div_ceil(WORKGROUP)
         }
         Some(window) if window < job.point_windows => {
@@ -51,7 +51,7 @@ fn workgroups(job: &Job, part: u32, [points, primitives]: [[u32; 2]; 2]) -> u32 
     }
 }
 
-/// How many tiles of a window have elements of a range.
+/// The number of tiles of a window that have elements of a range.
 fn tiles(job: &Job, [begin, end]: [u32; 2], [first, last]: [u32; 2]) -> u32 {
     if begin == end {
         return 0;

@@ -1,5 +1,5 @@
 //! The pass `groups`: the draw arguments of each group. A group can begin in one portion and end in
-//! another, so each portion writes what it knows, and the last one knows it right.
+//! another, so each portion writes the values that it knows, and the last one makes them right.
 
 use super::buffers::{Bound, PRIMITIVES, Pass};
 use tess_gpu::Resource::{Draws, Groups};
@@ -21,7 +21,7 @@ pub(crate) fn groups(pass: &Pass<'_>, b: &mut Bound<'_>) {
     }
 }
 
-/// The first index of a patch; behind the portion, the end of the portion's indices.
+/// The first index of a patch, or for a patch after the portion, the end of the portion's indices.
 fn first_index(pass: &Pass<'_>, patch: u32, b: &Bound<'_>) -> u32 {
     let job = &pass.job;
     let in_portion = patch - job.first_patch;

@@ -1,5 +1,5 @@
 //! The pass `list`: the points and triangles of each topology that has a slot. Only the places are
-//! found by the slot; the keys become 0 for the next run.
+//! found by slot; the keys become 0 for the next run.
 
 use super::buffers::{Bound, POINTS, PRIMITIVES, Pass, counts, sum};
 use super::catalogue::{Catalogue, patch_of};
@@ -37,9 +37,9 @@ pub(crate) fn list(pass: &Pass<'_>, b: &mut Bound<'_>) {
     }
 }
 
-/// Faults of the places that the device chose. Their order is not defined. Defined is this:
-/// elements of two topologies share no word; if there is room for all, all have a place and no word
-/// between them is left; places lie within the room.
+/// Faults in the places that the device chose. Their order is not defined, but elements of two
+/// topologies share no word, and places are within the room. If there is room for all, all have a
+/// place, and no word is left between them.
 fn refusal(
     catalogue: &Catalogue,
     taken: &[(u32, Patch, [u32; 2])],
@@ -69,8 +69,8 @@ fn refusal(
     None
 }
 
-/// The elements of a topology: integer points are those of every patch that has it, other points
-/// are described; a triangle has 10 bits for each vertex.
+/// Writes the elements of a topology: integer points are those of every patch that has it, other
+/// points are described, and a triangle has 10 bits for each vertex.
 fn write_patch(catalogue: &Catalogue, patch: &Patch, places: [u32; 2], b: &mut Bound<'_>) {
     let setup = catalogue.setup;
     for (i, point) in (0..).zip(patch.points()) {

@@ -1,6 +1,6 @@
-//! Twins of the passes: for each file of `shaders/entry_points` a function that says what the
-//! buffers must hold behind the pass, given what they held before. Read a twin first; the shader
-//! says how threads do it together.
+//! Twins of the passes: each file of `shaders/entry_points` has a function that computes the
+//! contents of the buffers after the pass from those before it. Read the twin first; the shader
+//! shows how threads do it together.
 //!
 //! ```text
 //! pass                twin                      writes
@@ -17,10 +17,10 @@
 //! ```
 //!
 //! Contexts, counts, points and triangles are those of `tess-core`. A batch runs pass by pass on
-//! wgpu, with the host code of `examples/bare_wgpu.rs`; behind each pass every word of every buffer
-//! that it may write is compared. What is not defined, and so taken from the device once it was
-//! checked: which slot a key gets, in which order the places of the catalogue are given, and the
-//! points of a culled topology.
+//! wgpu, with the host code of `examples/bare_wgpu.rs`; after each pass, every word of every buffer
+//! that it may write is compared. Some results are not defined, and so taken from the device after
+//! a check: the slot of each key, the order of the places in the catalogue, and the points of a
+//! culled topology.
 
 #[allow(dead_code, reason = "the tests run the passes one by one")]
 #[path = "../../examples/bare_wgpu.rs"]
@@ -48,7 +48,7 @@ mod totals;
 use buffers::{Bound, Pass};
 use tess_gpu::Stage;
 
-/// Makes the buffers what they must be behind the pass.
+/// Gives the buffers their expected contents after the pass.
 fn twin(pass: &Pass<'_>, bound: &mut Bound<'_>) {
     let twin = match pass.stage {
         Stage::Short => short_batch::short_batch,

@@ -1,6 +1,6 @@
-//! The pass `partition`: for each tile of the portion's output the patch that its first element of
-//! the portion belongs to, then the patch of the portion's last element. No workgroup runs if the
-//! output does not fit.
+//! The pass `partition`: for each tile of the portion's output, the patch of its first element in
+//! the portion; then the patch of the portion's last element. No workgroup runs if the output does
+//! not fit.
 
 use super::buffers::{Bound, Pass};
 use tess_gpu::Resource::Tiles;
@@ -21,7 +21,7 @@ pub(crate) fn partition(pass: &Pass<'_>, b: &mut Bound<'_>) {
         let entries = end.div_ceil(1 << job.tile_bits) - first + 1;
         for entry in 0..entries {
             let element = ((first + entry) << job.tile_bits).clamp(begin, end - 1);
-            // Of patches that begin together only the last has elements.
+            // Of several patches that begin at one place, only the last has elements.
             let patch = begins.partition_point(|&begin| begin <= element) - 1;
             b.set(Tiles, tables[kind] + entry, u32::try_from(patch).expect("below 2^30"));
         }

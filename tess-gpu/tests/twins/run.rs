@@ -1,4 +1,4 @@
-//! Runs a batch pass by pass and compares what each leaves with its twin.
+//! Runs a batch pass by pass and compares each pass's results with its twin.
 
 use super::bare_wgpu;
 use super::buffers::{Bound, Pass, Words};
@@ -12,7 +12,7 @@ use tess_gpu::{
     Access, Binding, Capacity, Dispatch, Limits, Plan, Resource, Setup, Stage, Written,
 };
 
-/// No output has these bits, so a word that was not written differs from any that was.
+/// No output has these bits, so an unwritten word differs from any that was written.
 const POISON: u32 = 0xFFFF_FFFF;
 
 /// A device and the pipelines that were made on it, without faults.
@@ -21,7 +21,7 @@ pub(crate) struct Machine {
     pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
 }
 
-/// Which stages a batch has.
+/// The stages of a batch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum PlanForm {
     /// Those of a short batch if it is one.
@@ -37,7 +37,7 @@ pub(crate) enum PlanForm {
 pub(crate) struct Batch {
     pub(crate) setup: Setup,
     pub(crate) patches: Vec<PatchFactors>,
-    /// The room for output; `None` is a little more than the batch needs.
+    /// The room for output; `None` gives a little more than the batch needs.
     pub(crate) room: Option<Capacity>,
     pub(crate) limits: Limits,
     pub(crate) form: PlanForm,
@@ -51,7 +51,7 @@ impl Batch {
         Self { setup, patches, room, limits: Limits::WEBGPU, form: PlanForm::Any, groups }
     }
 
-    /// The same batch in the stages of a long one.
+    /// The same batch with the stages of a long one.
     pub(crate) fn long(self) -> Self {
         Self { form: PlanForm::Long, ..self }
     }
@@ -78,7 +78,7 @@ pub(crate) struct Context<'a> {
     pub(crate) batch: &'a Batch,
     pub(crate) plan: Plan,
     pub(crate) patches: Vec<Patch>,
-    /// Where each patch's points and primitives begin.
+    /// The places at which each patch's points and primitives begin.
     pub(crate) begins: Vec<[u32; 2]>,
     jobs: Vec<u8>,
 }
@@ -108,7 +108,7 @@ impl<'a> Context<'a> {
 }
 
 impl Machine {
-    /// None is a failure, not a reason to skip.
+    /// A missing adapter is a failure, not a reason to skip.
     pub(crate) fn open() -> Self {
         let backends = wgpu::Backends::from_env().unwrap_or_default();
         let gpu = bare_wgpu::open(backends).unwrap_or_else(|reason| panic!("{reason}"));
@@ -139,7 +139,7 @@ impl Machine {
         let mut words = self.poisoned(&plan, &buffers);
         let mut stages = Vec::new();
         let mut edited = HashMap::new();
-        // Twice: what a run leaves is what the next one finds.
+        // Twice, because the next run finds what a run leaves.
         for dispatch in plan.dispatches().chain(plan.dispatches()) {
             let stage = dispatch.stage();
             let pipeline = edited.entry(stage).or_insert_with(|| {
@@ -157,7 +157,7 @@ impl Machine {
         Ok(stages)
     }
 
-    /// Runs the first pass of a stage alone, with other words in one buffer before it.
+    /// Runs only the first pass of a stage, with other words in one buffer before it.
     pub(crate) fn run_alone(
         &mut self,
         batch: &Batch,

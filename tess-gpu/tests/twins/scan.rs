@@ -1,4 +1,4 @@
-//! The pass `scan`: where each block begins in its section of 256 blocks, and each section's
+//! The pass `scan`: the start of each block in its section of 256 blocks, and each section's
 //! counts. The pass `factors` has left the counts of the blocks.
 
 use super::buffers::{Bound, Pass, sum};

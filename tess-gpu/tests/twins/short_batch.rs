@@ -1,5 +1,6 @@
-//! The pass `short_batch`: what `factors`, `scan`, `totals` and `partition` leave of a batch of one
-//! portion, in one pass. Blocks begin in the batch, which is one section.
+//! The pass `short_batch`: in one pass, the results of `factors`, `scan`, `totals` and `partition`
+//! for a batch of one portion. The offsets of blocks count from the start of the batch, which is
+//! one section.
 
 use super::block::process_block;
 use super::buffers::{Bound, Pass, counts, sum};
@@ -23,8 +24,8 @@ pub(crate) fn short_batch(pass: &Pass<'_>, b: &mut Bound<'_>) {
     write_tiles(pass, all, b);
 }
 
-/// Each patch enters itself for the tiles that begin in it, unless it ends beyond the room. If
-/// everything fits, the last patch that has output enters itself behind the last tile.
+/// Each patch writes its number for the tiles that begin in it, unless it ends beyond the room. If
+/// everything fits, the last patch that has output also writes it after the last tile.
 fn write_tiles(pass: &Pass<'_>, all: [u32; 2], b: &mut Bound<'_>) {
     let job = &pass.job;
     let room = [job.point_capacity, job.primitive_capacity];

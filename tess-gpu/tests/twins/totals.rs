@@ -1,6 +1,6 @@
-//! The pass `totals`: where each section begins in the output, the portion's range and what the
-//! batch needs so far. Totals have a second word; offsets and ranges wrap, where the output could
-//! not fit anyway.
+//! The pass `totals`: the start of each section in the output, the portion's range, and the size
+//! that the batch needs so far. Totals have a second word; offsets and ranges wrap, but only where
+//! the output could not fit anyway.
 
 use super::buffers::{Bound, POINTS, PRIMITIVES, Pass, STATUS_RANGES};
 use super::finish::finish;

@@ -1,5 +1,5 @@
-//! Memory of tessellators, owned batches, the largest batch, levels. `sequences.rs` has buffers of
-//! every size and batches that are refused.
+//! Memory of tessellators, owned batches, the largest batch, and levels. `sequences.rs` tests
+//! buffers of every size and refused batches.
 
 use allocation_counter::measure;
 use tess_core::{
@@ -19,7 +19,7 @@ fn quad(f: f32) -> QuadFactors {
 #[test]
 fn batches_of_2_pow_32_indices_are_too_large() {
     let all = |f: f32| TriangleFactors { u0: f, v0: f, w0: f, inside: f };
-    // 18432 indices each, and 3.
+    // 18432 indices each, and 3 more.
     let mut patches = vec![all(64.0); 233_016];
     patches.resize(233_016 + 5461, all(1.0));
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
@@ -69,7 +69,7 @@ fn levels_that_this_machine_lacks_are_errors() {
     }
 }
 
-/// The instructions that the machine is asked for, in one list.
+/// The CPU features that the levels need, in one list.
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn the_machine_is_asked_for_every_instruction() {
@@ -106,8 +106,7 @@ fn a_warm_tessellator_allocates_nothing() {
     assert_eq!(run(&[]), 0, "an empty batch");
 }
 
-/// All memory at once: no patch and no batch allocates, whatever comes, and there is not more in
-/// the end.
+/// After all memory is reserved, no patch and no batch allocates, and the memory does not grow.
 #[test]
 fn a_reserved_tessellator_allocates_nothing() {
     for partitioning in Partitioning::ALL {
@@ -144,8 +143,8 @@ fn a_reserved_tessellator_allocates_nothing() {
     }
 }
 
-/// A second tessellator of a configuration has its tables; a small patch takes little memory, and
-/// one that was seen none.
+/// A second tessellator of a configuration shares its tables; a small patch takes little memory,
+/// and a patch that was seen before takes none.
 #[test]
 fn small_patches_take_little_memory() {
     let config = Config { partitioning: Partitioning::Integer, ..CONFIG };

@@ -1,4 +1,5 @@
-//! Whole batches, bit for bit the core's: every configuration, level, format and numbering.
+//! Whole batches, equal to the core's bit for bit: every configuration, level, format and
+//! numbering.
 
 use crate::patches::{Patches, compare, configs, difference};
 use tess_core::{
@@ -42,8 +43,8 @@ fn every_configuration_at_every_level() {
     }
 }
 
-/// Equal patches, alone and with another patch before or after them, at every length at which a
-/// batch is processed in another way: 4 patches one by one, 8 are worth copying, 64 are a chunk.
+/// Equal patches, alone and with another patch before or after them, at every length that is
+/// processed differently: up to 4 patches go one by one, from 8 copying pays, and 64 are a chunk.
 #[test]
 fn runs_of_every_length() {
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
@@ -82,8 +83,8 @@ fn large_batches() {
 }
 
 /// More topologies of compact patches than there is room for, and then the first ones again: the
-/// room is emptied several times, and what was forgotten is made again. With points as primitives
-/// the room for points ends first, with triangles the room for indices.
+/// room is emptied several times, and lost templates are made again. With points as primitives the
+/// room for points is full first, with triangles the room for indices.
 #[test]
 fn more_compact_templates_than_there_is_room_for() {
     let mut random = SplitMix64::new(41);
@@ -91,7 +92,7 @@ fn more_compact_templates_than_there_is_room_for() {
     let mut all: Vec<_> =
         (0..6000).map(|_| PatchFactors::from_fn(Domain::Quad, |_| factor())).collect();
     all.extend_from_within(..3000);
-    // Twice every quad of factors 1 and 2: the minimum patch has the counts of another.
+    // Every quad of factors 1 and 2, twice: the minimum patch has the counts of another.
     let small = |bits: u8| PatchFactors::from_fn(Domain::Quad, |i| f32::from(1 + (bits >> i & 1)));
     all.extend((0..128).map(small));
     let patches = Patches::new(all);
@@ -152,8 +153,8 @@ fn every_pair_of_counts() {
     }
 }
 
-/// A run of more equal patches than 16 bits count, numbered through the batch: minimum triangles,
-/// of which patch k has the points 3k to 3k + 2.
+/// A run of more equal patches than 16 bits can count, numbered through the batch: minimum
+/// triangles, of which patch k has the points 3k to 3k + 2.
 #[test]
 fn long_runs() {
     const PATCHES: u32 = 70_000;
@@ -179,7 +180,8 @@ fn long_runs() {
     }
 }
 
-/// The points that 16 bits number without the index that restarts primitives: 21 845 triangles.
+/// The largest batch that 16 bits number without the index that restarts primitives: 21 845
+/// triangles.
 #[test]
 fn sixteen_bits_without_the_restart_index() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
@@ -191,7 +193,7 @@ fn sixteen_bits_without_the_restart_index() {
     assert_eq!(counted.largest_index(numbering), Some(<u16 as IndexFormat>::LARGEST - 1));
 }
 
-/// The comparison above sees a fault in any element.
+/// The comparison above detects a fault in any element.
 #[test]
 fn planted_faults_are_seen() {
     let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);

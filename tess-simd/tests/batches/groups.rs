@@ -33,8 +33,8 @@ fn groups_that_cannot_be() {
     assert_eq!(bad(&[0, 2, 1]), Some(back), "back");
 }
 
-/// A batch in two parts has the indices of the whole batch, if the second part is numbered behind
-/// the first.
+/// A batch in two parts has the indices of the whole batch, if the numbers of the second part
+/// continue those of the first.
 #[test]
 fn a_part_is_numbered_behind_the_parts_before_it() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);

@@ -1,5 +1,5 @@
-//! Whole batches: bit for bit, on several threads, in memory of every size. One program, since each
-//! compiles the kernels anew for every pair of formats that it names.
+//! Whole batches: bit for bit, on several threads, in memory of every size. They are one program,
+//! because each program compiles the kernels again for every pair of formats that it names.
 
 mod buffers;
 mod exact;

@@ -1,4 +1,4 @@
-//! Batches on several threads: the same output as on one, whatever their number.
+//! Batches on several threads have the same output as on one, for any number of threads.
 
 use crate::patches::{Patches, compare, configs};
 use std::sync::Mutex;
@@ -34,7 +34,7 @@ fn counted_on_several_threads() {
     }
 }
 
-/// Threads of a pool that is larger than there are workspaces.
+/// A pool with more threads than there are workspaces.
 #[test]
 fn within_a_larger_pool() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(5).build().expect("five threads");
@@ -47,8 +47,8 @@ fn within_a_larger_pool() {
     });
 }
 
-/// Workspaces of threads that have written a batch hold templates in the order of that batch. All
-/// of them are forgotten when the order changes, whichever thread they belong to.
+/// Workspaces of threads that have written a batch hold templates in the order of that batch. When
+/// the order changes, all of them are dropped, whichever thread they belong to.
 #[test]
 fn every_workspace_takes_the_new_order() {
     const THREADS: usize = 3;
@@ -70,7 +70,7 @@ fn every_workspace_takes_the_new_order() {
     }
 }
 
-/// A thread that is alone writes all slices: those before its own ones too.
+/// A single thread writes all slices, also those before its own.
 #[test]
 fn each_thread_alone_writes_every_slice() {
     const THREADS: usize = 3;
@@ -84,7 +84,7 @@ fn each_thread_alone_writes_every_slice() {
                 let mut tessellator = Tessellator::new(CONFIG).with_threads(THREADS);
                 assert_same(&mut tessellator, Domain::Quad, &patches);
             } else {
-                // Busy, so that it takes no work from the one that is alone.
+                // Busy, so that it takes no work from the single thread.
                 while !done.load(Ordering::Acquire) {
                     std::thread::yield_now();
                 }
@@ -93,7 +93,7 @@ fn each_thread_alone_writes_every_slice() {
     }
 }
 
-/// Sets a flag when it goes, even in a panic.
+/// Sets a flag when it is dropped, even in a panic.
 struct SetAtEnd<'a>(&'a AtomicBool);
 
 impl Drop for SetAtEnd<'_> {
@@ -102,7 +102,7 @@ impl Drop for SetAtEnd<'_> {
     }
 }
 
-/// However many threads are asked for, there are at most 256.
+/// There are at most 256 threads, however many are requested.
 #[test]
 fn too_many_threads() {
     let of = |threads| Tessellator::new(CONFIG).with_threads(threads);
@@ -129,7 +129,7 @@ fn alone(test: &str, variable: &str, value: &str) {
     assert!(stdout.contains("1 passed"), "{stdout}");
 }
 
-/// rayon would start all threads that are asked for.
+/// rayon would start every requested thread.
 #[test]
 fn too_large_a_pool() {
     alone("in_a_pool_of_256", "RAYON_NUM_THREADS", "100000");
@@ -148,7 +148,7 @@ fn in_a_pool_of_256() {
     assert_same(&mut Tessellator::new(CONFIG).with_threads(2), Domain::Quad, &patches);
 }
 
-/// No thread has such a stack.
+/// No thread can have such a stack.
 #[test]
 fn no_threads() {
     alone("where_no_thread_can_be_started", "RUST_MIN_STACK", &(1_u64 << 46).to_string());
@@ -165,7 +165,7 @@ fn where_no_thread_can_be_started() {
     assert_same(&mut Tessellator::new(CONFIG).with_threads(3), Domain::Isoline, &patches);
 }
 
-/// Each thread has one workspace, in a copy too.
+/// Each thread has one workspace, also in a copy.
 #[test]
 fn workspaces_are_counted() {
     let of = |threads| Tessellator::new(CONFIG).with_threads(threads).memory();

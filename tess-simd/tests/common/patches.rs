@@ -8,7 +8,7 @@ use tess_simd::{Batch, Error, IndexFormat, Numbering, Order, Output, OutputPoint
 use tess_verify::Case;
 use tess_verify::generate::SplitMix64;
 
-/// Every configuration there is.
+/// Every configuration.
 pub(crate) fn configs() -> impl Iterator<Item = Config> {
     SplitOrder::ALL.into_iter().flat_map(|split| {
         Partitioning::ALL.into_iter().flat_map(move |partitioning| {
@@ -50,7 +50,7 @@ pub(crate) fn factor(random: &mut SplitMix64) -> f32 {
     }
 }
 
-/// Factors of one patch: mostly unrelated, often all equal, now and then all one or culled.
+/// Factors of one patch: mostly unrelated, often all equal, sometimes all one or culled.
 pub(crate) fn patch(random: &mut SplitMix64, domain: Domain) -> PatchFactors {
     let equal = match random.below(8) {
         0 => Some(1.0),
@@ -112,7 +112,7 @@ impl Patches {
     }
 }
 
-/// A point or an index as the bits of what the core would have.
+/// A point or an index as the bits of the core's value.
 pub(crate) trait Bits: Copy {
     fn bits(self) -> [u32; 2];
 }
@@ -137,8 +137,8 @@ impl Bits for u32 {
     }
 }
 
-/// The first difference between an output and the core's patches, with the patch that can be run
-/// again.
+/// The first difference between an output and the core's patches, with the patch as a case that can
+/// be run again.
 pub(crate) fn difference<P: OutputPoint + Bits, I: IndexFormat + Bits>(
     (config, patches): (Config, &[PatchFactors]),
     expected: &[Tessellation],
@@ -161,7 +161,7 @@ pub(crate) fn difference<P: OutputPoint + Bits, I: IndexFormat + Bits>(
         };
         let base = match numbering {
             Numbering::PerPatch => 0,
-            // One past the largest index where nothing but culled patches follows.
+            // One past the largest index, where only culled patches follow.
             Numbering::PerBatch { base_vertex } => {
                 base_vertex.wrapping_add(u32::try_from(first_point).unwrap_or(u32::MAX))
             }

@@ -21,7 +21,7 @@ fn each_factor(line: impl Fn(&ProcessedFactor) -> String) -> String {
     })
 }
 
-/// A line for each chunk of `items`, which begins with the number of its first item.
+/// One line for each chunk of `items`, which begins with the number of its first item.
 fn numbered<T>(items: &[T], a_line: usize, text: impl Fn(&T) -> String) -> String {
     let mut all = String::new();
     for (line, items) in items.chunks(a_line).enumerate() {

@@ -5,7 +5,7 @@ use tess_core::{
 };
 use tess_verify::generate::SplitMix64;
 
-/// Where inputs come from.
+/// The source of inputs.
 pub(crate) struct Draw {
     random: SplitMix64,
     extreme: bool,
@@ -31,7 +31,7 @@ impl Draw {
         from[self.random.below(u32::try_from(from.len()).unwrap_or(1)) as usize]
     }
 
-    /// A raw factor up to `most` or so: mostly in range, or at an edge of something.
+    /// A raw factor up to about `most`: usually in range, or at a boundary.
     fn factor(&mut self, most: u32) -> f32 {
         let whole = 1 + self.below(most);
         let [integer, largest] = [whole, most].map(|n| from_fixed(n << 16));
@@ -83,7 +83,7 @@ pub(crate) struct Patches {
     pub(crate) outputs: &'static [OutputPrimitive],
 }
 
-/// The property that all patches of an input have.
+/// A property that all patches of an input have.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Class {
     Any,
@@ -94,7 +94,7 @@ pub(crate) enum Class {
     /// So few points that `stages/template, compact` takes them; not culled.
     Compact,
     CompactRegular,
-    /// Compact ones of a fractional partitioning.
+    /// Compact patches of a fractional partitioning.
     CompactFractional,
 }
 
@@ -163,11 +163,11 @@ impl Patches {
         };
         let equal = draw.below(8) == 0;
         let frame = draw.extreme && draw.below(8) == 0;
-        // Minimum patches are those of ones alone.
+        // A minimum patch has only ones.
         let one = if draw.below(4) == 0 { 1.0 } else { draw.factor(most) };
         PatchFactors::from_fn(domain, |_| match self.class {
             _ if equal => one,
-            // Around the least factor that needs a picture frame.
+            // Around the smallest factor that needs a picture frame.
             _ if frame => f32::from_bits(0x3F80_0000 + (draw.below(4) << 6) + draw.below(3)),
             Class::Any if draw.below(3) == 0 => draw.any_factor(),
             _ => draw.factor(most),
@@ -220,7 +220,7 @@ pub(crate) mod numbers {
         (0..1 << 14).map(|_| one(draw)).collect()
     }
 
-    /// The bits of binary32 numbers in 1..=64; extreme ones lie around multiples of 2^-17.
+    /// The bits of binary32 numbers in 1..=64; extreme ones are around multiples of 2^-17.
     pub(crate) fn in_range(draw: &mut Draw) -> Vec<u32> {
         let one = |draw: &mut Draw| {
             let number = if draw.extreme {
@@ -238,12 +238,12 @@ pub(crate) mod numbers {
         (0..1 << 14).map(|_| one(draw)).collect()
     }
 
-    /// Fixed-point factors of the parity, in range; extreme ones lie around integers.
+    /// Fixed-point factors of the parity, in range; extreme ones are around integers.
     pub(crate) fn fixed(draw: &mut Draw) -> Vec<u32> {
         (0..1 << 14).map(|_| one_fixed(draw)).collect()
     }
 
-    /// Fewer of them, as each has up to 65 points.
+    /// Fewer of them, because each has up to 65 points.
     pub(crate) fn few_fixed(draw: &mut Draw) -> Vec<u32> {
         (0..256).map(|_| one_fixed(draw)).collect()
     }
@@ -268,7 +268,7 @@ pub(crate) mod numbers {
         (0..1 << 14).map(|_| one(draw)).collect()
     }
 
-    /// Runs for writers, of lengths around those of blocks.
+    /// Runs for writers, of lengths around the lengths of blocks.
     pub(crate) fn runs(draw: &mut Draw) -> Vec<u32> {
         let lengths = [0, 1, 7, 8, 9, 16, 23, 24, 25, 31, 32, 33, 63, 64, 65, 128, 129];
         let one = |draw: &mut Draw| {
@@ -304,7 +304,7 @@ pub(crate) mod numbers {
             let more = if draw.extreme { extreme } else { draw.below(63) };
             least + (more / step * step)
         });
-        // Ring 1 has two points less than the inside factor, which has three at least.
+        // Ring 1 has two points less than the inside factor, which has at least three.
         let inside = if inside < 3 { 4 } else { inside };
         match draw.below(6) {
             0 => (1 << 24) | ((1 + draw.below(61)) << 8),

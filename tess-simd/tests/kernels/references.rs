@@ -1,5 +1,5 @@
-//! The model's answers for each kernel, in the order in which `KernelTap::words` lists it: numbers
-//! and the front end.
+//! The model's answers for each kernel, in the order in which `KernelTap::words` lists them:
+//! numbers and the front end.
 
 mod output;
 
@@ -143,7 +143,8 @@ pub(crate) fn packets(case: &Case, words: &mut Words) {
     }
 }
 
-/// The point count, and what the sum that [`place`] rounds is, as a function of the position.
+/// The point count, and the coefficients of the sum that [`place`] rounds, as a function of the
+/// position.
 fn spacing(context: &FactorContext) -> [u32; 4] {
     let FactorContext { inv_floor, inv_ceil, fraction, split, points, .. } = *context;
     // Both modulo 2^32: positions are small enough for the rest.

@@ -1,13 +1,13 @@
-//! Every kernel of `tess-simd` beside the model's stage: one table, which is checked and timed.
+//! Every kernel of `tess-simd` with the model's stage that it must equal: one table, which is
+//! checked and timed.
 //!
 //! # The problem
 //!
-//! A wrong word in a batch says that something between raw factors and the output is wrong. It does
-//! not say what: a patch goes through a dozen stages, each compiled for three CPU levels. So each
-//! stage also runs alone, at each level, and its words are compared with those of the same stage of
+//! A wrong word in a batch shows only that something between raw factors and the output is wrong: a
+//! patch goes through a dozen stages, each compiled for three CPU levels. So each stage also runs
+//! separately, at each level, and its words are compared with those of the same stage of
 //! `tess-core`. `tests/kernels.rs` does that; `benches/benches/kernels.rs` times the same entries
 //! on the same inputs.
-//!
 //! # An entry
 //!
 //! ```text
@@ -17,27 +17,28 @@
 //! ```
 //!
 //! A [`Case`] is an entry's input in one round: random in even rounds, extreme in odd ones, with
-//! another configuration in every second round. It follows from [`SEED`], the entry and the round.
-//! Patches come to a stage through the stages before it, and entries stand in the order of the
-//! data. So the first entry that fails names the faulty kernel, and those after it may only have
-//! got its wrong words.
-//!
+//! A [`Case`] is an entry's input in one round: random in even rounds, extreme in odd ones, with
+//! another configuration in every second round. [`SEED`], the entry and the round determine it.
+//! Patches reach a stage through the stages before it, and the entries are in the order of the
+//! data. So the first entry that fails names the faulty kernel; those after it may only have
+//! received its wrong words.
 //! # One entry at work
 //!
 //! `stages/points/quad` in round 6 takes regular quads of fractional-even factors. For each of them
-//! the model walks its points, and [`Words::points`] notes two words a point under the names `u of
-//! point` and `v of point`. The [`KernelTap`] takes the same patches through the front end and lets
-//! `stages/points` write them into a buffer of exactly that size, twice: what is kept from run to
-//! run must change nothing. If word 9 of patch 2 differs, the message has the entry, the level, the
-//! round, `v of point 4`, both words, and the patch as a case that `tess` reads.
-//!
+//! `stages/points/quad` in round 6 takes regular quads of fractional-even factors. For each of them
+//! the model walks its points, and [`Words::points`] notes two words per point under the names `u
+//! of point` and `v of point`. The [`KernelTap`] takes the same patches through the front end and
+//! lets `stages/points` write them into a buffer of exactly that size, twice: the state that it
+//! keeps from run to run must change nothing. If word 9 of patch 2 differs, the message has the
+//! entry, the level, the round, `v of point 4`, both words, and the patch as a case that `tess`
+//! reads.
 //! # Adding one
 //!
 //! 1. Give the kernel a variant of `Kernel` and an arm in `src/kernels/kernel_taps`, which is
 //!    compiled for each level.
 //! 2. Write in `references` what the model gives, in the order in which `KernelTap::words` lists
-//!    the output.
-//! 3. Add a line to [`TABLE`]. A kernel without one fails the test.
+//! 2. Write the model's answer in `references`, in the order in which `KernelTap::words` lists the
+//! output.
 //! 4. Plant a fault in the kernel and see the test name it.
 
 pub(crate) mod inputs;
@@ -56,7 +57,7 @@ use words::{Difference, Words};
 /// The seed of all inputs.
 pub(crate) const SEED: u64 = 0x7E55_1A7E;
 
-/// A kernel and what it is compared with.
+/// A kernel and its reference.
 #[derive(Clone, Copy)]
 pub(crate) struct Entry {
     /// The file of the kernel and perhaps its function.
@@ -68,7 +69,7 @@ pub(crate) struct Entry {
     expected: Expected,
 }
 
-/// Notes the words that the model gives.
+/// Notes the model's words.
 type Expected = fn(&Case, &mut Words);
 
 /// The inputs of an entry.
@@ -182,7 +183,7 @@ impl Entry {
         Self { format: Format::ApartU32, ..self }
     }
 
-    /// With points alone as primitives, of which the model makes little.
+    /// With only points as primitives, which is little work for the model.
     const fn points(self) -> Self {
         self.making(&[OutputPrimitive::Point])
     }
@@ -199,7 +200,7 @@ impl Entry {
         Self { takes, ..self }
     }
 
-    /// With another file at that level.
+    /// With another file at AVX-512.
     const fn at_avx512(self, name: &'static str) -> Self {
         Self { name_at_avx512: name, ..self }
     }
@@ -245,7 +246,7 @@ impl Entry {
         Case { input, patches: of_model }
     }
 
-    /// The model's words for a case, whose sizes are those of its output from here on.
+    /// The model's words for a case; sets the case's sizes to those of this output.
     pub(crate) fn expected(&self, case: &mut Case) -> Words {
         let mut words = Words::default();
         (self.expected)(case, &mut words);
@@ -258,8 +259,8 @@ impl Entry {
         KernelTap::new(self.kernel, level, &case.input).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// Runs the kernel twice, as what it keeps from run to run may change what it does, and
-    /// compares its output.
+    /// Runs the kernel twice, because the state that it keeps from run to run may change its
+    /// result, and compares its output.
     ///
     /// # Errors
     /// The first difference.

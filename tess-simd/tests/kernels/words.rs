@@ -5,7 +5,7 @@ use std::fmt;
 use tess_core::DomainPoint;
 use tess_verify::Case as Line;
 
-/// The model's answer: words, and what they are.
+/// The model's answer: words, and what each of them is.
 #[derive(Debug, Default)]
 pub(crate) struct Words {
     values: Vec<u32>,
@@ -14,11 +14,11 @@ pub(crate) struct Words {
     indices: usize,
 }
 
-/// Words of one input that come one after another.
+/// Consecutive words of one input.
 #[derive(Debug)]
 struct Mark {
     end: usize,
-    /// The input that they follow from; if none, each follows from the input in its place.
+    /// The input that determines them; if `None`, each is determined by the input at its place.
     input: Option<usize>,
     /// The names of the words of an element.
     names: &'static [&'static str],
@@ -60,7 +60,7 @@ impl Words {
         self.indices += self.values.len() - before;
     }
 
-    /// How many points and indices there are.
+    /// The numbers of points and indices.
     pub(crate) const fn sizes(&self) -> [usize; 2] {
         [self.points, self.indices]
     }
@@ -70,8 +70,8 @@ impl Words {
         self.values.len()
     }
 
-    /// How many elements a stage makes: points and indices; where there are none, locations,
-    /// patches or numbers.
+    /// The number of elements that a stage makes: points and indices, or if there are none,
+    /// locations, patches or numbers.
     #[allow(dead_code, reason = "for the bench")]
     pub(crate) fn elements(&self) -> usize {
         match (self.points + self.indices, self.marks.last()) {
@@ -115,7 +115,7 @@ impl Words {
     }
 }
 
-/// An input of a case, as it can be given again.
+/// An input of a case, in the form that repeats it.
 fn shown(case: &Case, input: usize) -> String {
     if let Some(&factors) = case.input.patches.get(input) {
         let line = Line { config: case.input.config, factors };
@@ -128,7 +128,7 @@ fn shown(case: &Case, input: usize) -> String {
     }
 }
 
-/// The first difference between an output and what the model gives.
+/// The first difference between an output and the model's.
 #[derive(Debug)]
 pub(crate) struct Difference {
     what: String,
@@ -144,7 +144,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// A word in decimal, in bits, and as the binary32 number that it may be.
+/// A word in decimal, in bits, and as a binary32 if it can be one.
 fn bits(word: Option<u32>) -> String {
     let Some(word) = word else { return "nothing".to_owned() };
     let float = f32::from_bits(word);

@@ -1,4 +1,4 @@
-//! Buffers that a call writes into, and what must be in them afterwards.
+//! Buffers that a call writes into, and the contents that they must have afterwards.
 
 use crate::calls::{Format, From, Room, To, Width};
 use crate::expected::{Column, Expected, Of};
@@ -10,7 +10,7 @@ use tess_simd::{
     IndexFormat, Numbering, OutputPoint, PatchRange, Tessellator,
 };
 
-/// Nothing, or what was wrong.
+/// Nothing, or the fault.
 pub(crate) type Outcome = Result<(), String>;
 
 /// Fills buffers before a call. No coordinate has these bits in any format.
@@ -51,7 +51,7 @@ pub(crate) enum Writer<'a, 'b> {
 }
 
 impl Writer<'_, '_> {
-    /// Elements behind the output that may be overwritten.
+    /// Elements after the output that may be overwritten.
     const fn overrun(&self) -> usize {
         match self {
             Self::Batch(..) | Self::Counted(_) => 0,
@@ -63,10 +63,10 @@ impl Writer<'_, '_> {
 /// Indices and ranges.
 type Rest<'a, I> = (Numbering, &'a mut [I], Option<&'a mut [PatchRange]>);
 
-/// Sizes of points, indices and ranges, or why there are none.
+/// Sizes of points, indices and ranges, or the error in their place.
 type Sizes = Result<[usize; 3], Error>;
 
-/// Points in one of the ways there are.
+/// Points in one of the two forms.
 trait PointBuffers {
     /// Arrays of these lengths.
     fn new(lengths: [usize; 2]) -> Self;
@@ -187,14 +187,14 @@ fn write_as<B: PointBuffers, I: IndexFormat + Element>(
 const NO_RANGE: PatchRange =
     PatchRange { first_point: POISON, points: POISON, first_index: POISON, indices: POISON };
 
-/// Nothing if these ranges are the expected ones, and those behind untouched.
+/// Nothing if these ranges are the expected ones, and those after them untouched.
 fn check_ranges(found: &[PatchRange], expected: &[PatchRange]) -> Outcome {
     let all = expected.iter().chain(std::iter::repeat(&NO_RANGE));
     let mut ranges = found.iter().zip(all).enumerate();
     ranges.try_for_each(|(i, (a, b))| equal(&format!("range {i}"), a, b))
 }
 
-/// As many elements as are needed and these beyond.
+/// The length with this many elements more than needed.
 fn length(needed: usize, spare: isize) -> usize {
     needed.saturating_add_signed(spare)
 }

@@ -1,5 +1,5 @@
-//! Calls of a tessellator. What they print as is Rust, so that a sequence that fails can stand in
-//! `found.rs` as it is.
+//! Calls of a tessellator. They print as Rust, so that a failing sequence can be pasted into
+//! `found.rs`.
 
 use std::fmt;
 use tess_core::{Config, Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
@@ -12,12 +12,11 @@ pub(crate) struct Start {
     pub(crate) level: Level,
     pub(crate) order: Order,
     pub(crate) threads: usize,
-    /// Whether the calls come from a thread of a pool of four; otherwise from one outside of any
-    /// pool.
+    /// Whether the calls come from a thread of a pool of four, or from one outside any pool.
     pub(crate) in_pool: bool,
 }
 
-/// One call, or those that belong together.
+/// One call, or several that belong together.
 #[derive(Clone, Debug)]
 pub(crate) enum Call {
     /// `write`, or `write_apart`.
@@ -34,7 +33,7 @@ pub(crate) enum Call {
     Reserve,
     SetOrder(Order),
     SetThreads(usize),
-    /// The copy goes on.
+    /// The copy replaces the tessellator.
     Copy,
 }
 
@@ -54,15 +53,15 @@ impl Patches {
     }
 }
 
-/// How a batch lies in memory.
+/// The layout of a batch in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Layout {
     Structures,
     Columns,
     AnyDomain,
-    /// Columns whose last one has a factor more: refused.
+    /// Columns whose last one has one factor less: refused.
     Uneven,
-    /// A patch of another domain stands last: refused.
+    /// The last patch has another domain: refused.
     Mixed,
 }
 
@@ -71,11 +70,11 @@ pub(crate) enum Layout {
 pub(crate) struct To {
     pub(crate) room: Room,
     pub(crate) from: From,
-    /// Ranges beyond those that are needed; `None`: no ranges are wanted.
+    /// Ranges beyond those needed; `None`: no ranges are wanted.
     pub(crate) ranges: Option<isize>,
 }
 
-/// Buffers of points and indices: elements beyond those that are needed; -1: one element short.
+/// Buffers of points and indices: elements beyond those needed; -1: one element short.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Room {
     pub(crate) format: Format,
@@ -107,8 +106,8 @@ pub(crate) enum Width {
 pub(crate) enum From {
     EachPatch,
     Base(u32),
-    /// The largest index is so much above the largest one of its width. Base vertices end at 0 and
-    /// 2^32 - 1.
+    /// The largest index is this much above the largest one of its width. Base vertices end at 0
+    /// and 2^32 - 1.
     Limit(i64),
 }
 

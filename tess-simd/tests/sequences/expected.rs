@@ -25,13 +25,13 @@ pub(crate) struct Column {
     poison: u32,
 }
 
-/// Which number.
+/// The selected number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Of {
     /// A coordinate: u is 0, v is 1.
     Point(Format, usize),
-    /// An index. The base vertex is that of the batch; there is none if patches are numbered on
-    /// their own.
+    /// An index. The base vertex is that of the batch, or `None` if each patch is numbered
+    /// separately.
     Index(Option<u32>),
 }
 
@@ -86,7 +86,7 @@ impl Expected {
         &self.ranges
     }
 
-    /// Nothing if the elements of the output are right and those from `overrun` behind it on are
+    /// Nothing if the elements of the output are right, and those more than `overrun` after it are
     /// untouched.
     pub(crate) fn check(&self, column: &Column, overrun: usize) -> Result<(), String> {
         let expected = self.bits(column.of);
@@ -127,7 +127,7 @@ impl Expected {
         }
     }
 
-    /// The patch that an element belongs to, and its number there.
+    /// The patch that an element belongs to, and the element's number in it.
     fn place(&self, of: Of, at: usize) -> (usize, usize) {
         let first = |range: &PatchRange| match of {
             Of::Point(..) => range.first_point as usize,

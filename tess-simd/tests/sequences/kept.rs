@@ -9,7 +9,7 @@ use tess_simd::{
     group_ranges,
 };
 
-/// An output, and what must be in it.
+/// An output, and its expected contents.
 #[derive(Debug, Default)]
 struct Kept<P: OutputPoint, I: IndexFormat> {
     output: Output<P, I>,
@@ -17,7 +17,7 @@ struct Kept<P: OutputPoint, I: IndexFormat> {
     base: Option<u32>,
 }
 
-/// All of them.
+/// All kept outputs.
 #[derive(Debug, Default)]
 pub(crate) struct Outputs {
     float_16: Kept<[f32; 2], u16>,
@@ -26,7 +26,7 @@ pub(crate) struct Outputs {
     fixed_32: Kept<DomainPoint, u32>,
 }
 
-/// A batch, what the core says of it, and why it is refused.
+/// A batch, the core's answer, and the error if it is refused.
 pub(crate) type Asked<'a> = (Batch<'a>, Expected, Option<Error>);
 
 impl Outputs {
@@ -60,7 +60,7 @@ impl Outputs {
 }
 
 impl<P: OutputPoint + Element, I: IndexFormat + Element> Kept<P, I> {
-    /// Tessellates a batch; a refused one leaves the last one's output.
+    /// Tessellates a batch; a refused one leaves the previous output.
     fn tessellate(
         &mut self,
         tessellator: &mut Tessellator,
@@ -88,7 +88,7 @@ impl<P: OutputPoint + Element, I: IndexFormat + Element> Kept<P, I> {
     }
 }
 
-/// Nothing if the groups of these patches have the sums of their patches.
+/// Nothing if each group has the sum of its patches.
 fn check_groups(ranges: &[PatchRange], starts: &[u32]) -> Outcome {
     let found = group_ranges(ranges, starts).map(|groups| groups.collect::<Vec<_>>());
     let lowest = |group: usize| group.checked_sub(1).map_or(0, |before| starts[before]);

@@ -1,4 +1,4 @@
-//! Sequences of calls, at random.
+//! Random sequences of calls.
 
 use crate::calls::{
     Call, Factors, Format, From, Layout, List, Patches, Room, Start, To, Width, isoline, quad,
@@ -82,7 +82,7 @@ fn near(Factors(patch): Factors) -> impl Strategy<Value = Factors> {
     })
 }
 
-/// The one before, or another.
+/// The previous value again, or another.
 fn again<T: Clone + std::fmt::Debug + 'static>(
     before: Option<T>,
     other: impl Strategy<Value = T> + 'static,
@@ -114,7 +114,7 @@ fn from() -> impl Strategy<Value = From> + Clone {
     ]
 }
 
-/// Elements beyond those that are needed.
+/// Elements beyond those needed.
 fn spare() -> impl Strategy<Value = isize> + Clone {
     prop_oneof![8 => Just(0), 4 => 1..70_isize, 2 => 70..400_isize, 1 => Just(-1)]
 }
@@ -165,7 +165,7 @@ fn raw() -> impl Strategy<Value = f32> + Clone {
     ]
 }
 
-/// Factors of a patch: a few that come often, equal ones, any.
+/// Factors of a patch: a few that recur often, equal ones, any.
 fn factors(domain: Domain) -> impl Strategy<Value = Factors> + Clone {
     let uniform = move |factor| Factors(PatchFactors::uniform(domain, factor));
     let often = match domain {
@@ -202,7 +202,8 @@ fn layouts() -> impl Strategy<Value = Layout> + Clone {
     ]
 }
 
-/// The most patches of a batch: around packets, chunks and what is counted at once, or any number.
+/// The largest number of patches of a batch: around packets, chunks and the number counted at once,
+/// or any.
 fn lengths() -> impl Strategy<Value = usize> {
     let around = [1, 4, 8, 16, 32, 64, 128, 256].map(|length| length - 1..=length + 1);
     prop_oneof![1 => select(around.into_iter().flatten().collect::<Vec<_>>()), 2 => Just(10_000)]
@@ -221,8 +222,8 @@ fn patches() -> impl Strategy<Value = Patches> {
     })
 }
 
-/// Runs with little output, some with enough patches and output for several threads, and some
-/// patches of which each has a topology of its own, so that templates need all their room.
+/// Runs with little output, some with enough patches and output for several threads, and some of
+/// patches that all have different topologies, so that templates need all their room.
 fn runs(domain: Domain) -> impl Strategy<Value = Vec<(usize, Factors)>> + Clone {
     let times = prop_oneof![6 => Just(1), 5 => 2..=10_usize, 3 => 11..=100_usize];
     let runs = vec((times, factors(domain)), 0..14_usize);
@@ -236,7 +237,7 @@ fn runs(domain: Domain) -> impl Strategy<Value = Vec<(usize, Factors)>> + Clone 
     ]
 }
 
-/// Runs that are so many times as long, but end where they have so many points together.
+/// Runs that are `longer` times as long, but end when they have this many points in total.
 fn cut(runs: Vec<(usize, Factors)>, longer: usize, points: usize) -> Vec<(usize, Factors)> {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let mut left = points;

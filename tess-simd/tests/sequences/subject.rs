@@ -18,7 +18,7 @@ static POOL: LazyLock<ThreadPool> =
 /// Makes calls on a new tessellator until one differs from the core.
 ///
 /// # Errors
-/// Which call it is, and the first element that differs.
+/// The call, and the first element that differs.
 pub(crate) fn replay(start: &Start, calls: &[Call]) -> Outcome {
     replay_counted(start, calls, &AtomicUsize::new(0))
 }
@@ -35,13 +35,13 @@ pub(crate) fn replay_counted(start: &Start, calls: &[Call], begun: &AtomicUsize)
     if start.in_pool { POOL.install(all) } else { all() }
 }
 
-/// A tessellator and what is known of it.
+/// A tessellator and the facts known about it.
 #[derive(Debug)]
 struct Subject {
     tessellator: Tessellator,
     order: Order,
     outputs: Outputs,
-    /// The memory that it has, if all of it is reserved.
+    /// Its memory, if all of it is reserved.
     reserved: Option<usize>,
 }
 
@@ -106,7 +106,7 @@ impl Subject {
         Expected::new(self.tessellator.config(), self.order, patches)
     }
 
-    /// Lays patches out as a batch, which is refused for a reason or not.
+    /// Lays out patches as a batch, with the error if it must be refused.
     fn asked(
         &mut self,
         patches: &Patches,
@@ -163,7 +163,7 @@ const fn alone(room: Room) -> To {
     To { room, from: From::EachPatch, ranges: None }
 }
 
-/// A domain that this one is not.
+/// A different domain.
 fn other(domain: Domain) -> Domain {
     if domain == Domain::Quad { Domain::Isoline } else { Domain::Quad }
 }

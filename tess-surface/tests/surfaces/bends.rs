@@ -64,7 +64,7 @@ fn of_triangles() {
         // corners' mean.
         let mean = edges.as_flattened().iter().map(|point| point.as_dvec3()).sum::<DVec3>() / 6.0;
         let center = mean * 1.5 - (u + v + w).as_dvec3() / 6.0;
-        // P(i, j, k) stands at i + 4 j: i steps from w to u, j to v.
+        // P(i, j, k) is at i + 4 j: i steps from w to u, j to v.
         let net =
             [w, wu, uw, u, wv, center.as_vec3(), uv, w, vw, vu, w, w, v].map(|p| p.as_dvec3());
         let at = |i: usize, j: usize| if (i, j) == (1, 1) { center } else { net[i + 4 * j] };

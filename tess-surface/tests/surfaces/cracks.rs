@@ -1,4 +1,4 @@
-//! No cracks: after welding positions of equal bits, the open edges of a tessellated model are
+//! No cracks: after positions with equal bits are welded, the open edges of a tessellated model are
 //! those of its border, for every model, rule, partitioning and displacement.
 
 use crate::models::{bumps, models, rules};
@@ -52,8 +52,8 @@ fn a_moved_point_is_a_crack() {
     assert!(complaint(&out).is_some(), "one coordinate was moved by one unit in the last place");
 }
 
-/// Every shared edge, at many places: the same bits from both sides, with and without
-/// displacement, while the insides' own formulas differ somewhere (so the edge is needed).
+/// Both sides of every shared edge give the same bits at many places, with and without
+/// displacement. The formulas of the insides differ somewhere, so the edge's own is needed.
 #[test]
 fn both_sides_give_the_same_bits() {
     let bumps = bumps();

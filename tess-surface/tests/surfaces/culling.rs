@@ -1,10 +1,9 @@
-//! The tests that cull, at their bounds; `tess-wgpu` compares the same functions in WGSL with
-//! these.
+//! The culling tests, at their bounds; `tess-wgpu` compares the same functions in WGSL with these.
 
 use glam::{Mat4, Vec3, Vec4};
 use tess_surface::culling::{faces_away, is_behind, is_outside};
 
-/// Balls of radius 2 below the plane z = 0, whose normal has the length 2.
+/// Balls of radius 2 below the plane z = 0, whose normal has length 2.
 #[test]
 fn a_ball_that_touches_a_plane_is_not_behind_it() {
     let plane = Vec4::new(0.0, 0.0, 2.0, 0.0);
@@ -15,8 +14,8 @@ fn a_ball_that_touches_a_plane_is_not_behind_it() {
     }
 }
 
-/// The view of this projection is x in -2..=2, y in -3..=3, z in 0..=4. A ball of radius 0.5 that
-/// touches a plane from outside is not outside, one a step farther away is.
+/// This projection shows x in -2..=2, y in -3..=3, z in 0..=4. A ball of radius 0.5 that touches a
+/// plane from outside is not outside, but one a step further away is.
 #[test]
 fn a_ball_is_outside_behind_any_of_six_planes() {
     let view = Mat4::from_scale(Vec3::new(0.5, 1.0 / 3.0, 0.25));
@@ -33,12 +32,12 @@ fn a_ball_is_outside_behind_any_of_six_planes() {
     }
 }
 
-/// An eye on the ray along which the outermost normal is seen from the side still sees it.
+/// An eye on the ray along which the outermost normal is seen edge-on still sees it.
 #[test]
 fn a_surface_seen_edge_on_does_not_face_away() {
     for (distance, expected) in [(3.0, false), (4.0, false), (4.5, true)] {
         let center = Vec3::new(0.0, 0.0, distance);
-        // Half of the distance for the angle, 2 for the ball.
+        // Half of the distance is for the angle, 2 for the ball.
         assert_eq!(faces_away(center, 2.0, Vec3::Z, 0.5, Vec3::ZERO), expected, "{distance} away");
     }
 }

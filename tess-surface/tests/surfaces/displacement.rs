@@ -94,7 +94,7 @@ fn mirrored_images_meet_at_equal_heights() {
     }
 }
 
-/// 1/256 of a texel is as far as heights at places go; samples go further.
+/// Heights take places rounded to 1/256 of a texel; samples take them as they are.
 #[test]
 fn places_are_rounded_as_samplers_do() {
     for address in [Address::Repeat, Address::Clamp, Address::Mirror] {
@@ -157,7 +157,7 @@ fn textured(positions: &[[f32; 3]], texcoords: &[[f32; 2]]) -> Model {
     Model::polygons(mesh, Style::Flat).unwrap()
 }
 
-/// Texture coordinates beyond the image have its heights there, in lanes as one by one.
+/// Texture coordinates outside the image have its heights there, in lanes as one at a time.
 #[test]
 fn heights_beyond_the_image_move_points() {
     let image = HeightMap::new(2, 2, vec![0.0, 1.0, 2.0, 3.0]).unwrap();
@@ -181,8 +181,8 @@ fn heights_beyond_the_image_move_points() {
     assert!(heights[..3] != heights[3..6] && heights[3..6] != heights[6..], "{heights:?}");
 }
 
-/// A flat patch over an image that rises evenly: its normals are those of the moved points'
-/// differences, however the texture coordinates run and whatever the unit of length is.
+/// A flat patch over an image that rises evenly: its normals are those of differences between the
+/// moved points, for any direction of the texture coordinates and any unit of length.
 #[test]
 fn normals_are_those_of_the_displaced_surface() {
     let texels = (0..16 * 16).map(|i| (i % 16) as f32 * 0.05 + (i / 16) as f32 * 0.03).collect();

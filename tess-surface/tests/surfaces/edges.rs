@@ -1,4 +1,4 @@
-//! Edges that are the same curve from both ends.
+//! Edges are the same curve from both ends.
 
 use glam::{Vec3, Vec4};
 use tess_surface::pn::edge_normal;
@@ -18,13 +18,13 @@ fn bits(position: Vec3) -> [u32; 3] {
     position.to_array().map(f32::to_bits)
 }
 
-/// Places along an edge, and each with the one that is as far from the other end.
+/// Places along an edge, and for each the place at the same distance from the other end.
 fn places() -> Vec<[f32; 2]> {
     (0..=1000u16).map(|i| f32::from(i) * 65.0 / 65536.0).map(|t| [t, 1.0 - t]).collect()
 }
 
-/// So close to a corner that the distance from the other one rounds to 1: the corner itself,
-/// whatever its weight.
+/// So close to a corner that the distance from the other one rounds to 1, the result is the corner
+/// itself, whatever its weight.
 #[test]
 fn ends_of_weighted_edges_are_their_corners() {
     let points: [[Vec3; 4]; 4] = std::array::from_fn(|j| {
@@ -51,7 +51,7 @@ fn ends_of_weighted_edges_are_their_corners() {
     }
 }
 
-/// Such a curve has no canonical direction, so neighbours may walk it either way. It is folded in
+/// Such a curve has no canonical direction, so neighbours may walk it either way. It is folded at
 /// its middle.
 #[test]
 fn palindromic_curves_are_folded() {
@@ -69,12 +69,12 @@ fn palindromic_curves_are_folded() {
     }
 }
 
-/// The same of the patches on both sides, one point at a time and in lanes.
+/// The same for the patches on both sides, one point at a time and in lanes.
 #[test]
 fn patches_agree_on_palindromic_edges() {
     for edge in palindromes() {
         let column = |at: f32| edge.map(|p| p + Vec4::new(at, 0.3 * at * p.x, 0.2 * at, 0.0) * p.w);
-        // The edge u = 0 of both, which run along it in opposite directions: rows along v.
+        // The edge u = 0 of both patches, which run along it in opposite directions: rows along v.
         let net = |across: f32| {
             let columns = [0.0, 1.0, 2.0, 3.0].map(|i| column(i * across));
             BezierPatch { points: std::array::from_fn(|j| columns.map(|column| column[j])) }
@@ -99,7 +99,7 @@ fn patches_agree_on_palindromic_edges() {
     }
 }
 
-/// The polygon of a curve is at least as long as the curve, and as long as a line.
+/// The control polygon of a curve is at least as long as the curve, and as long as a line.
 #[test]
 fn curves_are_at_most_as_long_as_their_polygons() {
     let [a, b, c, d] =
@@ -113,7 +113,7 @@ fn curves_are_at_most_as_long_as_their_polygons() {
     }
 }
 
-/// The corners lie where edges meet, and an edge's middle normal is the same from both ends.
+/// Corners are where edges meet, and an edge's middle normal is the same from both ends.
 #[test]
 fn corners_and_middle_normals_belong_to_edges() {
     for sides in [Sides::Triangle([(); 3]), Sides::Quad([(); 4])] {

@@ -1,4 +1,4 @@
-//! Refused inputs, and the words of each error.
+//! Refused inputs, and the text of each error.
 
 use crate::models::{cube, mesh};
 use glam::{Vec2, Vec3};
@@ -61,7 +61,7 @@ fn polygons() {
     assert_eq!(seams(four), Ok(1), "three one way, one the other");
 }
 
-/// Two cubes that stand edge to edge: the four faces there are neighbours in pairs.
+/// Two cubes that touch along an edge: the four faces there are neighbours in pairs.
 #[test]
 fn surfaces_that_touch() {
     let mut mesh = cube();
@@ -159,7 +159,7 @@ fn messages() {
 #[test]
 fn thin_faces_are_told_by_their_angle() {
     for size in [1.0, 1000.0, 0.001] {
-        // The sines of both angles are some 2^-23 and 2^-21.
+        // The sines of the two angles are about 2^-23 and 2^-21.
         for (height, is_thin) in [(1.2e-7f32, true), (4.8e-7, false)] {
             let model = Model::polygons(
                 mesh(&[[0.0; 3], [size, 0.0, 0.0], [size, height * size, 0.0]], &[&[0, 1, 2]]),
@@ -170,7 +170,7 @@ fn thin_faces_are_told_by_their_angle() {
     }
 }
 
-/// Tangents are differences of positions times a quotient of weights, so the quotient counts.
+/// Tangents are differences of positions times a quotient of weights, so the quotient matters.
 #[test]
 fn positions_times_the_quotient_of_weights_stay_in_range() {
     let points = |far: f32| {

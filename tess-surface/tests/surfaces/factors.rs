@@ -36,7 +36,7 @@ fn factors_stay_in_range() {
     }
 }
 
-/// A rule sees the canonical curve, so the direction in which a patch walks it is no matter.
+/// A rule sees the canonical curve, so the direction in which a patch walks it does not matter.
 #[test]
 fn direction_is_no_matter() {
     let curve = Curve::cubic(
@@ -48,7 +48,7 @@ fn direction_is_no_matter() {
     assert_ne!(Edge::new(curve).direction, Edge::new(curve.reversed()).direction, "two directions");
 }
 
-/// A straight edge has one factor, by its ends as by its curve.
+/// A straight edge has one factor, computed from its ends or from its curve.
 #[test]
 fn straight_edges_are_curves() {
     let ends = [Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0)];
@@ -108,8 +108,8 @@ fn quotients_end_at_1_and_64() {
     }
 }
 
-/// A low arch, whose second derivative is nearly the same everywhere: equal segments deviate by the
-/// tolerance, not less.
+/// A low arch, whose second derivative is nearly constant: equal segments deviate by the tolerance,
+/// not less.
 #[test]
 fn curvature_keeps_the_tolerance_and_no_more() {
     let corner = |x: f32, slope: f32| PnCorner {
@@ -143,8 +143,8 @@ fn insides_are_means() {
         "of the edges that run the same way"
     );
     assert_eq!(inside_triangle([1.0, 2.0, 6.0]), 3.0, "of all three");
-    // Three times this number is halfway between two floats, so that a third of the sum is another
-    // one.
+    // Three times this number is halfway between two floats, so a third of the sum is another
+    // float.
     let awkward = f32::from_bits(1.5f32.to_bits() + 2);
     assert_ne!((awkward + awkward + awkward) / 3.0, awkward, "the plain mean");
     assert_eq!(inside_triangle([awkward; 3]), awkward, "equal edges");
@@ -187,7 +187,7 @@ fn flatness_follows_each_axis() {
         };
         [quad.u0, quad.v0, quad.u1, quad.v1, quad.inside_u, quad.inside_v]
     };
-    // Second differences of 0.5, times 6, over 4 tolerances: 75 squared segments.
+    // Second differences of 0.5, times 6, over 4 tolerances: the square of the segments is 75.
     assert_eq!(factors(along_u), [1.0, 16.0, 1.0, 16.0, 16.0, 1.0], "bent along u");
     assert_eq!(factors(along_v), [16.0, 1.0, 16.0, 1.0, 1.0, 16.0], "bent along v");
 }
@@ -251,7 +251,7 @@ fn an_edge_meets_its_halves() {
     assert_eq!(edge_beside_halves(f32::NAN), [2.0, 1.0], "NaN counts as 1");
 }
 
-/// Why it takes a rule: docs/porting.md has these numbers.
+/// The reason for the rule: docs/porting.md has these numbers.
 #[test]
 fn other_edges_miss_their_halves() {
     let misfits = (1..=32u16).map(|half| {

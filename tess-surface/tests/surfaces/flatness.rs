@@ -1,4 +1,4 @@
-//! The flatness rule keeps its word: no triangle is further from the surface than asked.
+//! The flatness rule keeps its promise: no triangle is further from the surface than the tolerance.
 
 use crate::models::models;
 use glam::Vec3;
@@ -9,7 +9,7 @@ use tess_surface::{FactorRule, Model};
 const INTEGER: Config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
 
 /// The largest distance between a triangle's points and the surface's at the same coordinates;
-/// `None` if a factor is cut off.
+/// `None` if a factor is clamped.
 fn deviation(model: &Model, rule: &FactorRule) -> Option<f32> {
     let mut largest = 0.0f32;
     for number in 0..model.len() {
@@ -44,7 +44,7 @@ fn deviation_stays_within_the_tolerance() {
             let Some(found) = deviation(model, &FactorRule::Flatness { tolerance }) else {
                 continue;
             };
-            // Rounding of positions comes on top.
+            // The rounding of positions adds to the tolerance.
             assert!(found <= tolerance + 1e-5, "{name}: {found} for {tolerance}");
             compared += 1;
         }
@@ -60,9 +60,10 @@ fn a_coarser_cut_is_told() {
     assert!(coarse > 0.05, "two segments deviate by {coarse}");
 }
 
-/// With powers of two, the triangles of a quad extend over no more than a segment of the coarsest
-/// factor along each axis, those of a triangle over 4/3 of one: the constants of the bend's
-/// bounds. With other factors it would be five, as the stitch then runs ahead of the positions.
+/// With powers of two, the triangles of a quad extend over at most one segment of the coarsest
+/// factor along each axis, and those of a triangle over 4/3 of one: the constants of the bend's
+/// bounds. With other factors it would be five, because the stitch then runs ahead of the
+/// positions.
 #[test]
 fn extents_of_triangles() {
     let powers = || (0..=6).map(|k| (1u32 << k) as f32);

@@ -1,4 +1,4 @@
-//! The results that JavaScript's factor rules must have: `bindings/webgpu/factors.json`, which
+//! The expected results of JavaScript's factor rules: `bindings/webgpu/factors.json`, which
 //! `bindings/webgpu/try.mjs` compares with `factors.js`.
 
 use glam::Vec3;
@@ -13,7 +13,7 @@ use tess_verify::generate::SplitMix64;
 /// Distances that are 0, equal, tiny and huge, so that results are clamped at both ends.
 const SCALES: [f32; 8] = [0.0, 1e-30, 0.01, 0.7, 1.0, 5.3, 900.0, f32::INFINITY];
 
-/// A row for each call: the function's name, its arguments, its results, all as bits.
+/// A row for each call: the function's name, its arguments and its results, all as bits.
 fn table() -> String {
     let mut random = SplitMix64::new(53);
     let mut scale = |_| SCALES[(random.next_u64() % 8) as usize];
@@ -28,7 +28,7 @@ fn table() -> String {
     let mut number = || (place.next_u64() % 8192) as f32 / 1024.0 - 4.0 + 0.1;
     for i in 0..120 {
         let [a, b, eye] = [0; 3].map(|_| Vec3::from_array([0; 3].map(|_| number())));
-        // Every tenth edge is a point, seen from itself.
+        // Every tenth edge is a point at the eye.
         let (b, eye) = if i % 10 == 0 { (a, a) } else { (b, eye) };
         let points = [a, b, eye].map(|point| point.to_array());
         let [pixels, segment, most] = [0; 3].map(&mut scale);
@@ -52,12 +52,12 @@ fn table() -> String {
         row("edgeBesideHalves", &[&[factor]], &edge_beside_halves(factor));
     }
     let mut text = String::from("[\n");
-    // Writing to a String does not fail.
+    // Writing to a String cannot fail.
     _ = write!(text, "{}", rows.join(",\n"));
     text + "\n]\n"
 }
 
-/// With `TESS_BLESS` set, writes the table instead of comparing it.
+/// Compares the table, or writes it if `TESS_BLESS` is set.
 #[test]
 fn the_recorded_table_is_of_these_functions() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../bindings/webgpu/factors.json");

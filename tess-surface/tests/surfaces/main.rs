@@ -1,5 +1,5 @@
-//! Promises of the surfaces: no cracks, right normals, bounded deviation, errors that say what is
-//! wrong.
+//! Promises of the surfaces: no cracks, right normals, bounded deviation, and errors that name the
+//! fault.
 #![expect(
     clippy::float_arithmetic,
     clippy::float_cmp,

@@ -57,7 +57,7 @@ pub(crate) fn cube() -> PolygonMesh {
 }
 
 /// A cube whose faces have their own normals, positions and texture coordinates: all edges are
-/// creases and all are seams.
+/// creases and seams.
 pub(crate) fn creased_cube() -> PolygonMesh {
     let shared = cube();
     let mut mesh = PolygonMesh::default();
@@ -67,7 +67,7 @@ pub(crate) fn creased_cube() -> PolygonMesh {
         let first = u32::try_from(mesh.positions.len()).unwrap();
         let numbers = Sides::Quad([first, first + 1, first + 2, first + 3]);
         mesh.positions.extend([*a, *b, *c, *d]);
-        // Tilted, so that both sides want different curves.
+        // Tilted, so that the two sides want different curves.
         let across = (*b - *a).cross(*c - *a);
         mesh.normals.extend([*a, *b, *c, *d].map(|corner| across + corner));
         mesh.texcoords.extend([Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y].map(|t| t * 0.7));
@@ -134,7 +134,7 @@ pub(crate) fn leaf() -> PolygonMesh {
     mesh
 }
 
-/// A face with its corners in the opposite order.
+/// A face with its corners in reverse order.
 fn back(face: &Face) -> Face {
     let positions = match face.positions {
         Sides::Triangle([a, b, c]) => Sides::Triangle([a, c, b]),
@@ -148,8 +148,8 @@ pub(crate) fn fin() -> PolygonMesh {
     let mut mesh = hills();
     let row = 2 * 6;
     let first = u32::try_from(mesh.positions.len()).unwrap();
-    // Twisted: on a plane, the row beside an edge with one segment is so close to it that both are
-    // one in 16.16.
+    // Twisted: on a plane, the row next to an edge with one segment is so close to it that the two
+    // are equal in 16.16.
     let lean = |i: usize| Vec3::new(0.0, 0.8 * (i % 2) as f32, 1.0);
     let tops: Vec<Vec3> = (0..3).map(|i| mesh.positions[row + 1 + i] + lean(i)).collect();
     mesh.positions.extend(tops);
@@ -182,11 +182,11 @@ pub(crate) fn models() -> Vec<(&'static str, Model)> {
     all
 }
 
-/// The unit ball as eight rational patches, each an eighth with one edge collapsed to a pole:
-/// quarter circles as cubics, from the degree-raised rational quadratic.
+/// The unit ball as eight rational patches, each an eighth with one edge collapsed to a pole. Its
+/// quarter circles are cubics, made from the rational quadratic by raising the degree.
 pub(crate) fn rational_ball() -> Vec<BezierPatch> {
     let h = std::f32::consts::FRAC_1_SQRT_2;
-    // (x, y, w) of a quarter circle of degree 2, raised to 3.
+    // (x, y, w) of a quarter circle of degree 2, raised to degree 3.
     let quadratic = [[1.0, 0.0, 1.0], [h, h, h], [0.0, 1.0, 1.0]];
     let raise = |a: [f32; 3], b: [f32; 3], s: f32, t: f32| [0, 1, 2].map(|k| a[k] * s + b[k] * t);
     let quarter = [

@@ -1,4 +1,4 @@
-//! Normals and derivatives against binary64 evaluations written another way: Bernstein
+//! Normals and derivatives compared with binary64 evaluations in another form: Bernstein
 //! polynomials and central differences.
 
 use crate::models::{models, rational_ball};
@@ -24,7 +24,7 @@ fn exact(patch: &BezierPatch, u: f64, v: f64) -> DVec3 {
     DVec3::new(sum[0], sum[1], sum[2]) / sum[3]
 }
 
-/// Derivatives by u and v at a point that is at least `STEP` away from the border.
+/// Derivatives along u and v at a point that is at least `STEP` away from the border.
 fn differences(patch: &BezierPatch, u: f64, v: f64) -> [DVec3; 2] {
     const STEP: f64 = 1e-5;
     let du = exact(patch, u + STEP, v) - exact(patch, u - STEP, v);
@@ -32,7 +32,7 @@ fn differences(patch: &BezierPatch, u: f64, v: f64) -> [DVec3; 2] {
     [du / (2.0 * STEP), dv / (2.0 * STEP)]
 }
 
-/// Domain points away from the border, some of them quite near it.
+/// Domain points away from the border, some of them close to it.
 fn inside() -> impl Iterator<Item = (f32, f32)> {
     let places = [1.0 / 1024.0, 0.1, 0.25, 0.5, 0.7, 0.9, 1023.0 / 1024.0];
     places.into_iter().flat_map(move |u| places.into_iter().map(move |v| (u, v)))
@@ -110,7 +110,7 @@ fn integers(random: &mut SplitMix64) -> ([[Vec3; 4]; 4], [[f32; 4]; 4]) {
     (points, std::array::from_fn(|_| row()))
 }
 
-/// Corners whose two edges leave in one direction: the first derivatives span no plane, and the
+/// Corners whose two edges start in one direction: the first derivatives span no plane, so the
 /// second ones decide.
 #[test]
 fn normals_at_cusps_are_limits() {
@@ -124,13 +124,13 @@ fn normals_at_cusps_are_limits() {
         let way = Vec3::new(1.0 + random.below(3) as f32, 2.0, -1.0);
         points[j][near_i] = points[j][i] + way;
         points[near_j][i] = points[j][i] + way * 2.0;
-        // Powers of two, so that both edges leave in exactly one direction.
+        // Powers of two, so that both edges start in exactly one direction.
         weights[j][i] = if round % 8 < 4 { 1.0 } else { 2.0 };
         let patch = BezierPatch::rational(points, weights);
         let at = [f32::from(u8::from(last_u)), f32::from(u8::from(last_v))];
         let [near, nearer] = [2e-4, 1e-4].map(|by| nearby(&patch, at, by).normalize().as_vec3());
         if near.distance(nearer) > 1e-2 {
-            continue; // it turns too quickly to be told from outside
+            continue; // it turns too quickly for places around it to tell
         }
         let error = patch.normal(at[0], at[1]).distance(nearer);
         assert!(error < 3e-2, "{error} from the limit at {at:?}: {patch:?}");
@@ -139,7 +139,8 @@ fn normals_at_cusps_are_limits() {
     assert!(compared > 100, "{compared} were compared");
 }
 
-/// Whole edges collapsed, with weights: the normal there is the limit along the way inwards.
+/// Edges that are collapsed as a whole, with weights: the normal there is the limit along the way
+/// inwards.
 #[test]
 fn normals_at_collapsed_edges_are_limits() {
     let mut random = SplitMix64::new(8);
@@ -165,7 +166,7 @@ fn normals_at_collapsed_edges_are_limits() {
     assert!(compared > 100, "{compared} were compared");
 }
 
-/// A tip so flat that the second derivatives vanish too: its normal is that of a place a little
+/// A tip so flat that the second derivatives vanish too: its normal is that of a place slightly
 /// further inside.
 #[test]
 fn normals_at_flat_tips_are_those_nearby() {
@@ -222,7 +223,7 @@ fn a_polynomial_patch_is_a_rational_one_of_weights_one() {
     }
 }
 
-/// Every normal of every model is a unit vector, corners and edges included.
+/// Every normal of every model is a unit vector, also at corners and edges.
 #[test]
 fn normals_are_unit_vectors_everywhere() {
     let places = [0.0, 0.25, 0.5, 1.0];

@@ -14,7 +14,8 @@ fn grid(is_triangle: bool) -> Vec<[f32; 2]> {
     all.filter(|(i, j)| !is_triangle || i + j <= 16).map(|(i, j)| at(i, j)).collect()
 }
 
-/// Least and greatest distance from the centre, and the least cosine of normal and radius.
+/// The smallest and the largest distance from the centre, and the smallest cosine of normal and
+/// radius.
 fn roundness(mesh: PolygonMesh, style: Style) -> (f32, f32, f32) {
     let model = Model::polygons(mesh, style).unwrap();
     let (mut least, mut greatest, mut cosine) = (f32::MAX, 0.0f32, 1.0f32);
@@ -48,7 +49,8 @@ fn a_cube_becomes_round() {
     assert!(cosine > 0.95, "normals point outwards: {cosine}");
 }
 
-/// The paper's interpolation: corners and their normals are met, edges leave in the tangent planes.
+/// The paper's interpolation: the surface passes through the corners with their normals, and edges
+/// start in the tangent planes.
 #[test]
 fn corners_and_their_normals_are_met() {
     let corner = |position: [f32; 3], normal: [f32; 3]| PnCorner {
@@ -71,7 +73,7 @@ fn corners_and_their_normals_are_met() {
         let normal = tangents.du.cross(tangents.dv).normalize();
         assert!(normal.distance(corner.normal) < 1e-5, "tangent plane at {at:?}");
     }
-    // The edge's formula and the inside's agree where they meet, but for rounding.
+    // The edge's formula and the inside's agree where they meet, except for rounding.
     for at in grid(true) {
         let gap = patch.position(at).distance(triangle.frame(at[0], at[1]).position);
         assert!(gap < 1e-6, "at {at:?}: {gap}");
@@ -96,7 +98,7 @@ fn tangents_are_derivatives_of_positions() {
     }
 }
 
-/// The quad form keeps what is plane, and any bilinear quad whose normals do not bend its edges.
+/// The quad form keeps planes, and any bilinear quad whose normals do not bend its edges.
 #[test]
 fn planar_quads_stay_as_they_are() {
     let corners = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 2.0, 0.0], [-0.5, 1.0, 0.0]]
@@ -112,7 +114,7 @@ fn planar_quads_stay_as_they_are() {
     }
 }
 
-/// Given normals count: the same two triangles, once smooth and once with a crease.
+/// Given normals matter: the same two triangles, once smooth and once with a crease.
 #[test]
 fn creases_meet_in_the_middle() {
     let positions = [[0., 0., 0.], [1., 0., 0.], [0.5, 1., -0.4], [0.5, -1., -0.4]];
@@ -131,8 +133,8 @@ fn creases_meet_in_the_middle() {
     assert!(normals[0].distance(normals[1]) > 0.1, "the crease is still lit as one");
 }
 
-/// The centre's coefficient makes a quadratic surface of a quadratic boundary, as the paper says:
-/// z = u^2 + 2uv - v^2, its edges raised to cubics.
+/// The centre's coefficient gives a quadratic surface for a quadratic boundary, as the paper says:
+/// z = u^2 + 2uv - v^2, with its edges raised to cubics.
 #[test]
 fn quadratic_surfaces_are_met() {
     let corner = |position| PnCorner { position: Vec3::from_array(position), normal: Vec3::Z };

@@ -8,7 +8,7 @@ use tess_surface::{
     Model, PolygonMesh, Sample, Sides, Style, Surface, SurfacePatch, teapot,
 };
 
-/// A mesh in units so small that its coordinates are this many times as large.
+/// A mesh in a smaller unit, so that its coordinates are `times` as large.
 fn in_units(mut mesh: PolygonMesh, times: f32) -> PolygonMesh {
     mesh.positions.iter_mut().for_each(|position| *position *= times);
     mesh
@@ -59,8 +59,8 @@ fn evaluate(
     (factors, samples.flat_map(|at| [patches.0.sample(at), patches.1.sample(at)]).collect())
 }
 
-/// A unit of a power of two changes the positions' exponents and no other bit, as long as nothing
-/// overflows: neither positions, nor the squares in lengths, bounds and normals.
+/// A power of two as the unit changes only the positions' exponents, as long as nothing overflows:
+/// neither positions nor the squares in lengths, bounds and normals.
 #[test]
 fn the_unit_changes_no_bit() {
     let mut compared = 0;
@@ -114,7 +114,7 @@ fn is_finite(sample: &Sample) -> bool {
     sample.position.is_finite() && sample.texcoord.is_finite()
 }
 
-/// The bound is needed: unchecked, these corners give no position.
+/// The bound is needed: without the check, these corners give no position.
 #[test]
 fn coordinates_out_of_range_overflow() {
     let corners = [Vec3::splat(3e38), Vec3::splat(-3e38), Vec3::splat(3e38), Vec3::ZERO];

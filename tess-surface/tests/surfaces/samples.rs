@@ -1,11 +1,11 @@
-//! Many vertices at a time: the bits of one at a time, whichever lanes they are in.
+//! Many vertices at a time have the bits of one at a time, whichever lanes they are in.
 
 use crate::models::{bumps, models, rational_ball};
 use tess_core::{Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_surface::{DisplacedModel, Level, LevelUnavailableError, Model, Sample};
 use tess_testkit::levels::levels;
 
-/// Domain points of a cut whose edges and inside are of several lengths.
+/// The domain points of a patch whose edges and inside have several lengths.
 fn points(domain: Domain) -> Vec<[f32; 2]> {
     let config = tess_core::Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     let factors = PatchFactors::from_fn(domain, |i| [7.3, 4.0, 9.9, 3.6, 8.2, 5.5][i]);
@@ -22,7 +22,7 @@ fn bits(sample: &Sample) -> Vec<u32> {
     all.map(f32::to_bits).collect()
 }
 
-/// Compares in blocks of several lengths, so that a point comes into every lane, at every level.
+/// Compares at every level, in blocks of several lengths, so that points occur in every lane.
 fn compare(
     name: &str,
     domain: Domain,
@@ -74,7 +74,7 @@ fn many_are_one_by_one() {
 fn every_machine_has_these_bits() {
     let ball = Model::bezier(rational_ball()).expect("a model");
     let (mut plain, mut displaced) = (Digest::default(), Digest::default());
-    // The bits of these were recorded before there were others.
+    // These bits were recorded before there were other models.
     let is_recorded = |(name, _): &(&str, Model)| *name != "leaf" && *name != "fin";
     let recorded = models().into_iter().filter(is_recorded);
     for (_, model) in recorded.chain([("rational ball", ball)]) {

@@ -53,7 +53,7 @@ fn sides_that_are_cut_differently() {
     }
 }
 
-/// Both sides of a curved sheet bend as the sheet does that has one side only.
+/// Both sides of a curved sheet bend as a sheet with only one side does.
 #[test]
 fn curved_sheets() {
     let (one, both) = (rounded(hills()), rounded(leaf()));
@@ -70,8 +70,8 @@ fn curved_sheets() {
     }
 }
 
-/// Faces that are not flat, cut along one diagonal in front and along the other one behind, or not
-/// at all in front: each side's normals are those of a sheet that has one side only.
+/// Faces that are not flat, cut along one diagonal in front and along the other at the back, or in
+/// front not cut at all: each side has the normals of a sheet with only one side.
 #[test]
 fn curved_sides_that_are_cut_differently() {
     let hills = hills();
@@ -88,7 +88,7 @@ fn curved_sides_that_are_cut_differently() {
         halves.map(|face| if reversed { face.into_iter().rev().collect() } else { face }).collect()
     };
     let whole: Vec<Vec<u32>> = quads.iter().map(|quad| quad.to_vec()).collect();
-    // A quad and half of it are two sides however steep they are.
+    // A quad and half of it are two sides, however steep they are.
     for (front, steepness) in [(whole, 1.0), (cut(0, false), 0.3)] {
         let points: Vec<[f32; 3]> =
             hills.positions.iter().map(|point| [point.x, point.y, steepness * point.z]).collect();
@@ -114,7 +114,7 @@ fn curved_sides_that_are_cut_differently() {
     }
 }
 
-/// The faces of one that has the wrong order are a sheet of their own.
+/// A face whose corners are in the wrong order is a sheet of its own.
 #[test]
 fn a_face_in_the_wrong_order() {
     let mut turned = hills();
@@ -129,7 +129,7 @@ fn a_face_in_the_wrong_order() {
     }
 }
 
-/// Displaced, the sides part, and stay together along the border.
+/// When displaced, the sides separate inside and stay together along the border.
 #[test]
 fn a_displaced_sheet_is_closed() {
     let (mesh, bumps) = (square(), bumps());
@@ -150,7 +150,7 @@ fn a_displaced_sheet_is_closed() {
 #[test]
 fn a_fin_is_a_seam() {
     let model = rounded(fin());
-    // The fin's edge 1 (v = 0) stands on the quads below and above it.
+    // The fin's edge 1 (v = 0) meets the quads below and above it.
     let sides = |k: usize| {
         vec![
             HalfEdge { patch: 6 + k, edge: 3 },

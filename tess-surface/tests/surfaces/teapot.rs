@@ -1,4 +1,4 @@
-//! The embedded figures: counts, size, symmetry, what closes and which way is out.
+//! The embedded figures: counts, size, symmetry, closed edges and orientation.
 
 use crate::weld::tessellate;
 use glam::Vec3;
@@ -24,7 +24,7 @@ fn size_and_symmetry() {
     assert_eq!(high.to_array(), [3.525, 2.0, 3.15], "greatest corner");
     let mirrored = |p: &[f32; 3]| points.contains(&[p[0], -p[1], p[2]]);
     assert!(points.iter().all(mirrored), "left and right are alike");
-    // All but handle and spout (patches 12..20) looks the same after a quarter turn.
+    // Everything except handle and spout (patches 12..20) looks the same after a quarter turn.
     let round: Vec<_> = points[..192].iter().chain(&points[320..]).collect();
     let turned = |p: &[f32; 3]| round.contains(&&[p[1], -p[0], p[2]]);
     assert!(round.iter().all(|p| turned(p)), "body and lid are surfaces of revolution");
@@ -47,12 +47,12 @@ fn closes_where_it_should() {
     }
     assert_eq!(shared, 2 * 52, "sides of common curves");
     assert_eq!(collapsed, 8, "four at the knob, four under the bottom");
-    // The rim's inside, both ends of handle and spout, the lid's margin.
+    // The inside of the rim, both ends of handle and spout, and the lid's margin.
     let expected = [0, 1, 2, 3, 12, 13, 14, 15, 16, 17, 18, 19, 24, 25, 26, 27];
     assert_eq!(open, expected, "patches with an open side");
 }
 
-/// The parts' volumes, about their own centres so that open ends matter little.
+/// The parts' volumes about their own centres, so that open ends matter little.
 #[test]
 fn outside_is_out() {
     let patches = teapot::patches();

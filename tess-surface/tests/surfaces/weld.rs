@@ -1,4 +1,4 @@
-//! Tessellating a model and welding the result by the bits of its positions.
+//! Tessellates a model and welds the result by the bits of its positions.
 
 use std::collections::BTreeMap;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
@@ -90,11 +90,11 @@ fn uses(edges: impl Iterator<Item = EdgeKey>) -> BTreeMap<EdgeKey, u32> {
     uses
 }
 
-/// Faults left after welding positions of equal bits: `None` if the edges with an odd
-/// number of triangles are those that the border passes an odd number of times. (Where a coarse
-/// tessellation lays two edges into the same segment, four triangles meet.)
+/// The fault that is left after positions with equal bits are welded: `None` if the edges with an
+/// odd number of triangles are those that the border passes an odd number of times. (Where a coarse
+/// tessellation maps two edges to the same segment, four triangles meet.)
 pub(crate) fn complaint(out: &Tessellated) -> Option<String> {
-    // Triangles that welding has collapsed have no area and count for nothing.
+    // Triangles that welding has collapsed have no area and do not count.
     let solid = out
         .triangles
         .iter()

@@ -185,7 +185,7 @@ fn faults_of_primitives() {
     found_by_alone(VULKAN, Rule::Isolines, &[LINES], |output| output.indices[1] = 2);
 }
 
-/// Rules of Direct3D, which says where every vertex is.
+/// Rules of Direct3D, which defines the place of every vertex.
 #[test]
 fn faults_of_exact_places() {
     const D3D11: Specification = Specification::D3d11;

@@ -171,8 +171,8 @@ fn findings_about_the_model() {
     assert_eq!(broken(&[&plain]), [""; 0], "an inner level of 3");
     let outline = broken(&[&plain, &inner]);
     assert!(outline.contains(&"edge-level"), "{outline:?}");
-    // Level 1 + 2/65536: the new points of the edge lie on its corners. From 1 + 3/65536 on they do
-    // not.
+    // Level 1 + 2/65536: the new points of the edge are on its corners. At 1 + 3/65536 and above
+    // they are not.
     let corner = "case quad fractional_odd triangle_cw ruler 3f800100 40a00000 40a00000 40a00000 40a00000 40a00000";
     assert_eq!(broken(&[corner]), ["segments"], "just above 1");
     let beyond = corner.replace("3f800100", "3f800180");
@@ -185,8 +185,8 @@ fn findings_about_the_model() {
     assert_eq!(broken(&[equal]), [""; 0], "53");
 }
 
-/// Levels just above 1: up to which level the inside touches the outline, and an edge's points
-/// coincide with its corners (specification, section 11).
+/// Levels just above 1: the highest ones at which the inside touches the outline, and an edge's
+/// points coincide with its corners (specification, section 11).
 #[test]
 fn where_rounding_ends() {
     let odd = |domain: &str, levels: &str| {

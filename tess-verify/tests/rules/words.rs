@@ -1,4 +1,4 @@
-//! Tests of the limits of each rule, and the text for what is beyond them.
+//! Tests of the limits of each rule, and of the text for a case beyond them.
 
 use super::*;
 
@@ -6,7 +6,7 @@ use super::*;
 const FOURS: &str =
     "case quad integer triangle_cw ruler 40800000 40800000 40800000 40800000 40800000 40800000";
 
-/// The text on an output that breaks a rule.
+/// The text for an output that breaks a rule.
 fn said(line: &str, rule: Rule, fault: impl FnOnce(&mut Tessellation)) -> Option<String> {
     let (case, mut output) = model(case(line));
     fault(&mut output);
@@ -117,7 +117,7 @@ fn faults_of_primitives_in_words() {
 /// shorter segments.
 #[test]
 fn faults_of_edges_in_words() {
-    // The points from the second one on are moved to these places.
+    // All points after the first are moved to these places.
     let said_of = |line: &str, places: &[u32]| {
         let moved = said(line, Rule::Spacing, |output| {
             for (point, &u) in output.points[1..].iter_mut().zip(places) {

@@ -13,13 +13,13 @@ use tess_verify::vectors::Fnv1a;
 use tess_verify::workloads::{IndexWidth, Totals, Workload};
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
-/// Runs whose median is taken.
+/// The number of runs whose median is taken.
 const SAMPLES: usize = 7;
 
 /// The measurements to take.
 #[derive(Args, Debug)]
 pub(crate) struct AblationArguments {
-    /// List of edits, of which those of one name are a variant of the shaders
+    /// List of edits; those of one name are one variant of the shaders
     edits: PathBuf,
     /// Workloads of `tess bench`, for example uniform-16
     #[arg(required = true, value_name = "WORKLOAD")]
@@ -28,7 +28,7 @@ pub(crate) struct AblationArguments {
     /// needs]
     #[arg(long, value_name = "N")]
     repeats: Option<u64>,
-    /// Take the first N patches of each workload only
+    /// Use only the first N patches of each workload
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     patches: Option<u32>,
 }
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &AblationArguments) -> Result<()> {
     Ok(())
 }
 
-/// The edits of each variant of a list, behind the unedited shaders.
+/// The edits of each variant of a list; the unedited shaders come first.
 fn variants(list: &str) -> Result<Vec<(String, Vec<ListedFault>)>> {
     let mut all = vec![("as they are".to_owned(), Vec::new())];
     for edit in listed::parse(list)? {
@@ -76,7 +76,7 @@ fn variants(list: &str) -> Result<Vec<(String, Vec<ListedFault>)>> {
     Ok(all)
 }
 
-/// The first edit whose text no shader has.
+/// The first edit whose text occurs in no shader.
 fn missing(edits: &[ListedFault], setup: Setup) -> Option<&ListedFault> {
     let sources = Stage::ALL.map(|stage| stage.source(setup));
     edits.iter().find(|edit| sources.iter().all(|source| edit.places(source) == 0))
@@ -119,7 +119,8 @@ impl<'a> WorkloadBench<'a> {
         })
     }
 
-    /// Triangles a second, the time of each stage in microseconds, and whether the bits are right.
+    /// Triangles per second, the time of each stage in microseconds, and whether the bits are
+    /// right.
     fn line(&self, gpu: &Gpu, stopwatch: &Stopwatch, edits: &[ListedFault]) -> Result<String> {
         if let Some(ListedFault { name, right, .. }) = missing(edits, self.setup) {
             return Err(format!("{name}: no shader has the text\n{right}").into());
@@ -154,7 +155,7 @@ impl<'a> WorkloadBench<'a> {
         Ok(line)
     }
 
-    /// The digest of the workload's output, if there is any that hangs together.
+    /// The digest of the workload's output; `None` if the output is not consistent.
     fn observed(&self, gpu: &Gpu, tessellator: &mut Tessellator) -> Option<u64> {
         let output = tessellator.tessellate(gpu, self.setup, &self.workload.patches).ok()?;
         let each = self.setup.indices_per_primitive() as usize;
@@ -172,7 +173,7 @@ impl<'a> WorkloadBench<'a> {
     }
 }
 
-/// Works until the device has reached its clock.
+/// Works until the device has reached its full clock.
 fn warm_up(gpu: &Gpu, batch: &Batch) -> Result<()> {
     let start = Instant::now();
     while start.elapsed() < Duration::from_millis(400) {
@@ -195,7 +196,7 @@ mod tests {
     use super::*;
     use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
-    /// The edits of this crate still find what they replace.
+    /// The edits of this crate still occur in the shaders.
     #[test]
     fn edits_are_of_the_shaders() {
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);

@@ -1,4 +1,4 @@
-//! Finds the batch size from which the GPU is faster than one thread of `tess-simd`.
+//! Finds the batch size above which the GPU is faster than one thread of `tess-simd`.
 
 use crate::Result;
 use crate::groups::batch;
@@ -51,7 +51,8 @@ fn on_cpu(workload: &Workload, count: usize) -> Result<f64> {
     Ok(median(times))
 }
 
-/// The median times of a batch on the device, and from encoding until the host knows it is done.
+/// The median times of a batch on the device, and from encoding until the host knows that it is
+/// done.
 fn on_gpu(
     gpu: &Gpu,
     stopwatch: &Stopwatch,
@@ -69,7 +70,7 @@ fn on_gpu(
         device.push(Duration::from_nanos(nanoseconds));
         both.push(on_both(gpu, &batch)?);
     }
-    // The later half: by then the device has reached its clock.
+    // The second half: by then the device has reached its full clock.
     let later = device.len() / 2;
     Ok((median(device.split_off(later)), median(both.split_off(later))))
 }

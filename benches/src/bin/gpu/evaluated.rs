@@ -9,17 +9,17 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_wgpu::stage::{Points, Room};
 use tess_wgpu::{DeviceLimits, Gpu, Stopwatch, TessellationStage, Tessellator};
 
-/// How long each frame is repeated.
+/// The time for which each frame is repeated.
 const LONG_ENOUGH: Duration = Duration::from_millis(250);
-/// Pixels across and down a target.
+/// The width and height of a target in pixels.
 const SIZE: u32 = 1024;
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Octaves of noise in `domain`: some 40 instructions each.
+/// Octaves of noise in `domain`, each of about 40 instructions.
 const OCTAVES: [u32; 3] = [1, 4, 32];
 
-/// Prints the device's times, in microseconds: `prepare` alone, and whole frames.
+/// Prints the device's times in microseconds: of `prepare` alone, and of whole frames.
 pub(crate) fn run() -> Result<()> {
     let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))?;
     let stopwatch = Stopwatch::new(&gpu)?;
@@ -84,7 +84,7 @@ impl Scene {
                 .depth(depth.clone())
         };
         let first = pass("camera_0").target(FORMAT).build(&gpu.device)?;
-        // Only depth, as shadow maps have it.
+        // Only depth, as in shadow maps.
         let others = ["camera_1", "camera_2", "camera_3"].into_iter().take(passes as usize - 1);
         let others = others.map(|camera| pass(camera).output_of(&first).build(&gpu.device));
         let others = others.collect::<std::result::Result<_, _>>()?;
@@ -99,7 +99,7 @@ impl Scene {
         [colour, depth]: &[wgpu::TextureView; 2],
     ) -> Result<[f64; 2]> {
         self.first.borrow_mut().make_room(&gpu.queue, self.patches)?;
-        // An error of a recorded frame shows when it is submitted.
+        // An error in a recorded frame appears when it is submitted.
         let prepare = |encoder: &mut wgpu::CommandEncoder| {
             let _ = self.first.borrow_mut().prepare(encoder, self.patches);
         };

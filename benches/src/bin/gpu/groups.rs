@@ -1,4 +1,4 @@
-//! Times many meshes as groups of one batch, and as batches of their own.
+//! Times many meshes as groups of one batch, and as separate batches.
 
 use crate::Result;
 use crate::timing::device_time;
@@ -10,12 +10,12 @@ use tess_gpu::{Numbering, Setup};
 use tess_verify::workloads::Workload;
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
-/// How many meshes there are.
+/// The number of meshes.
 const MESHES: u32 = 256;
-/// How long each way is run.
+/// The time for which each variant runs.
 const LONG_ENOUGH: Duration = Duration::from_millis(700);
 
-/// Prints the device's time for each way, in microseconds.
+/// Prints the device's time for each variant, in microseconds.
 pub(crate) fn run() -> Result<()> {
     let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))?;
     let stopwatch = Stopwatch::new(&gpu)?;

@@ -8,10 +8,10 @@
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- ablation benches/edits uniform-16 character
 //! ```
 //!
-//! `ablation` runs workloads of `tess bench` (1 GiB of output) with edited shaders, from a list of
-//! faults whose edits of one name are a variant. Results are compared with the model's digest; most
-//! variants are wrong on purpose, and their lines say so. With `--patches 256 --repeats 1` the
-//! workloads are short batches.
+//! `ablation` runs workloads of `tess bench` (1 GiB of output) with edited shaders. It reads a list
+//! of faults, in which the edits of one name are one variant. Results are compared with the model's
+//! digest; most variants are wrong on purpose, and their lines show it. With `--patches 256
+//! --repeats 1` the workloads are short batches.
 #![expect(clippy::print_stdout, reason = "a program that prints what it measured")]
 
 mod ablation;

@@ -4,10 +4,11 @@ use crate::Result;
 use std::time::{Duration, Instant};
 use tess_wgpu::{Gpu, Stopwatch};
 
-/// Runs whose median is taken, at least.
+/// The smallest number of runs whose median is taken.
 pub(crate) const SAMPLES: usize = 15;
 
-/// The median time of this work on the device, which runs for so long, in microseconds.
+/// The median time of this work on the device, in microseconds; the work is repeated for the given
+/// time.
 pub(crate) fn device_time(
     gpu: &Gpu,
     stopwatch: &Stopwatch,
@@ -19,11 +20,11 @@ pub(crate) fn device_time(
     while times.len() < SAMPLES || start.elapsed() < long_enough {
         times.push(Duration::from_nanos(stopwatch.time(gpu, &work)?));
     }
-    // The later half: by then the device has reached its clock.
+    // The second half: by then the device has reached its full clock.
     Ok(median(times.split_off(times.len() / 2)))
 }
 
-/// The middle of these times, in microseconds.
+/// The median of these times, in microseconds.
 #[expect(clippy::float_arithmetic, reason = "a unit of time")]
 pub(crate) fn median(mut times: Vec<Duration>) -> f64 {
     times.sort_unstable();

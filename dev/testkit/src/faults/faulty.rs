@@ -11,9 +11,9 @@ use tess_verify::{Answers, Backend};
 
 /// A backend that commits one [`Fault`] in one kind of answer.
 ///
-/// Of whole patches it damages one answer, once: the last one that the fault changes, in the first
-/// call that has one after `calls_before` calls. Of the other stages it damages the last answer of
-/// every call after `calls_before`, so that asking again shows the fault again.
+/// In whole patches it damages one answer, once: the last one that the fault changes, in the first
+/// call with such an answer after `calls_before` calls. In the other stages it damages the last
+/// answer of every call after `calls_before`, so that asking again shows the fault again.
 #[derive(Debug)]
 pub struct Faulty<B> {
     inner: B,
@@ -28,14 +28,14 @@ impl<B: Backend> Faulty<B> {
         Self { inner, fault, calls_before, committed: Arc::default() }
     }
 
-    /// Whether the fault was committed, so that a test knows that it was there to be found. Stays
-    /// readable when the backend has been given away.
+    /// Whether the fault was committed, so that a test knows that there was something to find. It
+    /// can still be read after the backend has been given away.
     #[must_use]
     pub fn committed(&self) -> Arc<AtomicBool> {
         self.committed.clone()
     }
 
-    /// Whether it is the fault's turn in a call whose answers have these faults.
+    /// Whether a call whose answers have these faults is the one to damage.
     fn strikes(&mut self, faults: &[Fault]) -> bool {
         let concerned = faults.contains(&self.fault);
         if concerned && self.calls_before > 0 {

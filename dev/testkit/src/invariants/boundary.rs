@@ -1,4 +1,4 @@
-//! Crack-free: what neighbouring patches rely on along a shared edge.
+//! Crack-free: the properties of a shared edge on which neighbouring patches rely.
 
 use super::{Violation, ensure, symmetry};
 use tess_core::fixed_point::ONE;
@@ -9,12 +9,12 @@ use tess_core::{
 use tess_verify::Case;
 
 /// 12.5: the points on an outer edge are those of that edge's factor, whatever the other factors
-/// and whichever edge it is, and one minus themselves walked from the other side.
+/// and whichever edge it is, and one minus them are the same points in reverse.
 ///
-/// An isoline patch, which has no other factor, says which points a factor has.
+/// An isoline patch, which has no other factor, gives the points of a factor.
 ///
 /// # Errors
-/// The edge whose points are others.
+/// The edge that has other points.
 pub fn crack_free(case: &Case, output: &Tessellation) -> Result<(), Violation> {
     let domain = case.domain();
     let is_minimum = match case.patch().processed() {
@@ -49,7 +49,7 @@ pub fn crack_free(case: &Case, output: &Tessellation) -> Result<(), Violation> {
     Ok(())
 }
 
-/// The locations of an edge with this factor: those of a line with this detail.
+/// The locations of an edge with this factor, which are those of a line with this detail.
 fn locations(config: Config, factor: f32) -> Vec<u32> {
     let config = Config { output: OutputPrimitive::Point, ..config };
     let factors = IsolineFactors { density: 1.0, detail: factor };
@@ -57,8 +57,8 @@ fn locations(config: Config, factor: f32) -> Vec<u32> {
     line.points.iter().map(|point| point.u.to_bits()).collect()
 }
 
-/// How far along an outer edge a point lies in the direction of the walk; `None` if it does not
-/// lie on the edge.
+/// The place of a point along an outer edge, in the direction of the walk; `None` if it is not on
+/// the edge.
 fn along(domain: Domain, edge: usize, point: DomainPoint) -> Option<u32> {
     let (u, v) = (point.u.to_bits(), point.v.to_bits());
     match (domain, edge) {

@@ -1,4 +1,4 @@
-//! Area and manifold: what holds for the triangles of a patch.
+//! Area and manifold: invariants of the triangles of a patch.
 
 use super::{Violation, ensure, has_triangles};
 use std::collections::BTreeSet;
@@ -35,8 +35,8 @@ pub fn area(case: &Case, output: &Tessellation) -> Result<(), Violation> {
     ensure(sum == expected, "area", || format!("the sum is {sum:#x}, not {expected:#x}"))
 }
 
-/// 12.4: every directed edge is used once; one used in both directions is interior, the others are
-/// the outer ring's; points - edges + triangles = 1.
+/// 12.4: every directed edge is used once; an edge used in both directions is interior, and the
+/// others are the outer ring's; points - edges + triangles = 1.
 ///
 /// # Errors
 /// The edge or the sum.

@@ -113,7 +113,7 @@ fn steps(case: &Case, number: u32, mut to: impl FnMut(Step)) {
     }
 }
 
-/// A triangle in the winding of the output; none if the output has no triangles.
+/// A triangle in the winding of the output; nothing if the output has no triangles.
 fn wound<T: Copy>(case: &Case, [a, b, c]: [T; 3]) -> impl Iterator<Item = T> {
     let (triangle, corners) = match case.input.config.output {
         OutputPrimitive::TriangleCw => ([a, b, c], 3),
@@ -184,7 +184,7 @@ fn indices(case: &Case, words: &mut Words, narrow: bool) {
     }
 }
 
-/// Which index of the specification's order stands in each place.
+/// The index of the specification's order at each place.
 pub(crate) fn cache_order(case: &Case, words: &mut Words) {
     for (number, patch) in case.patches.iter().enumerate() {
         let mut all = vec![0; patch.counts().indices as usize];
@@ -238,7 +238,7 @@ pub(crate) fn output_and_ranges(case: &Case, words: &mut Words) {
     }
 }
 
-/// The contents of the buffers before: each place its number, and one; again and again.
+/// The buffers' contents before: each place has its number and one, repeatedly.
 pub(crate) fn repeated(case: &Case, words: &mut Words) {
     let runs = case.input.numbers.as_chunks::<3>().0;
     let mut end = [0; 2];
@@ -265,7 +265,7 @@ pub(crate) fn repeated(case: &Case, words: &mut Words) {
     }
 }
 
-/// An output as the model's words are: the points that codes stand for, other words as they are.
+/// An output in the form of the model's words: codes become points, and other words stay.
 pub(crate) fn readable(kernel: Kernel, case: &Case, words: Vec<u32>) -> Vec<u32> {
     if kernel != Kernel::Codes {
         return words;

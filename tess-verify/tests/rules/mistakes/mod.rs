@@ -277,11 +277,12 @@ impl Group {
     }
 }
 
-/// How many patches from the first differing answer on are judged if a standard allows the mistake.
+/// The number of patches that are judged, starting at the first differing answer, if a standard
+/// allows the mistake.
 const OF_ALLOWED: usize = 100;
 
-/// How many patches before a device's first differing answer are judged with it. All are judged if
-/// these break no rule.
+/// The number of patches before a device's first differing answer that are judged with it. All are
+/// judged if these break no rule.
 const NEAR: usize = 25;
 
 /// A checker that returns how often each patch breaks each rule.

@@ -141,7 +141,7 @@ fn a_patch_or_cases() {
     tess_with_input("patch --cases - --format json", TRI).exits(2).says("--format text");
 }
 
-/// Cases are tessellated as they arrive: this many would not fit into memory, and never end.
+/// Cases are tessellated as they arrive: these would not fit into memory, and never end.
 #[cfg(unix)]
 #[test]
 fn cases_are_not_collected() {

@@ -15,7 +15,7 @@ use tess_verify::Case;
 use tess_verify::show::{DrawOptions, draw};
 use tess_verify::vectors::Listing;
 
-/// Two values that exclude each other, and what the message says about each.
+/// Two values that exclude each other, and the words of the message about each.
 type Excluded = ((usize, &'static str), (usize, &'static str), [&'static str; 2]);
 
 /// Options by their values, each of which is words of a command line or empty, after the four that

@@ -1,4 +1,5 @@
-//! Tests of where output goes: links, pipes, permissions, long names, a full stdout, a terminal.
+//! Tests of the places that output goes to: links, pipes, permissions, long names, a full stdout, a
+//! terminal.
 
 use crate::support::{Run, command, directory, shell, tess};
 use std::fs;
@@ -78,7 +79,8 @@ fn pipes_are_streamed() {
     }
 }
 
-/// `-`, `/dev/stdout` and no option are the same: what stdout is redirected to goes on.
+/// `-`, `/dev/stdout` and no option are the same: the output is appended to the file that stdout is
+/// redirected to.
 #[test]
 fn stdout_by_any_name() {
     let folder = directory("stdout_by_any_name");

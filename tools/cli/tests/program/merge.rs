@@ -1,5 +1,5 @@
-//! Tests of `tess merge`: which reports are one campaign, what is listed, that the result is
-//! certain, and how long it takes.
+//! Tests of `tess merge`: the reports that form one campaign, the text that is printed, that the
+//! result is certain, and the time that it takes.
 
 use crate::campaigns::{campaign, json, tess_in};
 use crate::support::{Run, directory, shell, tess_with_input};

@@ -130,7 +130,7 @@ fn normals_without_a_direction() {
     refused(&write(&folder, "word.obj", format!("{face}vn 0 x 0\n")), "", "`x` is not a number");
 }
 
-/// One large quad next to two small ones: the corner that the small ones share lies on the large
+/// One large quad next to two small ones: the corner that the small ones share is on the large
 /// one's edge.
 const HANGING: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0.5 0\nv 2 0 0\nv 2 0.5 0\nv 2 1 0\n\
     vt 0 0\nvt .5 0\nvt .5 1\nvt 0 1\nvt .5 .5\nvt 1 0\nvt 1 .5\nvt 1 1\n\
@@ -161,7 +161,7 @@ fn hanging_corners() {
     assert!(texcoords.lines().any(|line| line == "vt 0.5 0.5"), "half of the edge");
 }
 
-/// Two corners lie on one edge; the corner in the middle of the small quads lies on no edge.
+/// Two corners are on one edge; the corner in the middle of the small quads is on no edge.
 #[test]
 fn several_hanging_corners() {
     let folder = directory("mesh_hanging_more");
