@@ -1,4 +1,4 @@
-//! The tessellation stage: a hull and a domain function in WGSL, drawn.
+//! The tessellation stage, which draws patches with a hull and a domain function in WGSL.
 
 mod build;
 mod builder;
@@ -43,11 +43,11 @@ use wgpu::BufferUsages as Usage;
 
 /// A tessellation stage for a render pass.
 ///
-/// The user's WGSL declares `struct Vertex`, with `@builtin(position)` and the members that are
-/// interpolated, and two functions. Their parameters may have any names:
+/// The user's WGSL declares `struct Vertex`, with `@builtin(position)` and the interpolated
+/// members, and two functions, whose parameters may have any names:
 ///
 /// ```wgsl
-/// fn hull(number: u32) -> QuadFactors              // or TriFactors, IsolineFactors, as the domain is
+/// fn hull(number: u32) -> QuadFactors              // or TriFactors, IsolineFactors: see the table
 /// fn domain(number: u32, uv: vec2<f32>) -> Vertex  // one vertex of patch `number`
 /// ```
 ///
@@ -60,8 +60,8 @@ use wgpu::BufferUsages as Usage;
 /// An edge factor that is 0, negative or NaN culls the patch. On a triangle the third coordinate is
 /// exactly `1.0 - uv.x - uv.y`.
 ///
-/// Names that begin with `tess_` are the stage's. A name of WGSL's own that the stage's functions
-/// use, such as `distance`, cannot be declared.
+/// Names that begin with `tess_` are reserved for the stage. The user's WGSL cannot declare a
+/// built-in name of WGSL that the stage's functions use, such as `distance`.
 #[derive(Debug)]
 pub struct TessellationStage {
     device: wgpu::Device,
@@ -70,14 +70,14 @@ pub struct TessellationStage {
     room: Room,
     lull: Lull,
     groups: Vec<u32>,
-    /// Groups in place of those that the batch was made with, copied there in each frame.
+    /// The first patches of new groups, which each frame copies over those in the batch.
     begins: Option<wgpu::Buffer>,
     bind_groups: Vec<UserGroup>,
-    /// The raw factors of the frame, as the batch reads them.
+    /// The frame's raw factors, as the batch reads them.
     factors: wgpu::Buffer,
     /// The number of patches of the frame.
     count: wgpu::Buffer,
-    /// None if the stage draws another's output.
+    /// `None` if the stage draws the output of another.
     factor_pass: Option<FactorPass>,
     fit: Option<Fit>,
     evaluation: Option<Evaluation>,
@@ -85,26 +85,27 @@ pub struct TessellationStage {
     vertices: VertexLayout,
     /// Whether draws read the factors.
     has_factors: bool,
-    /// The number of instances that draws have, if it is not 1.
+    /// The number of instances, once [`Self::set_instances`] has set it.
     instances: Option<wgpu::Buffer>,
-    /// None if the caller draws with its own.
+    /// `None` if the caller draws with its own pipeline.
     pipeline: Option<Arc<wgpu::RenderPipeline>>,
     /// Shared by the stages that draw it.
     output: Arc<Mutex<StageOutput>>,
-    /// Other groups and their output, from the next frame on.
+    /// New groups and their output, which take effect in the next frame.
     next: Option<(Vec<u32>, StageOutput)>,
     feedback: Arc<Mutex<Feedbacks>>,
     frame: u64,
 }
 
-/// A bind group of the user's, and its dynamic offsets.
+/// A bind group of the user, and its dynamic offsets.
 type UserGroup = (wgpu::BindGroup, Vec<wgpu::DynamicOffset>);
 
 impl TessellationStage {
     /// Bytes of a group's arguments in [`Self::group_indirect`].
     pub const GROUP_BYTES: u64 = size_of::<tess_gpu::layout::DrawIndexed>() as u64;
 
-    /// Begins a stage of up to `patches` patches of one domain, with the user's WGSL.
+    /// Returns a builder for a stage that draws up to `patches` patches of one domain with the
+    /// user's WGSL.
     pub const fn builder(
         source: &str,
         domain: Domain,
@@ -114,18 +115,19 @@ impl TessellationStage {
         StageBuilder::new(source, domain, config, patches)
     }
 
-    /// Draws all patches of the last frame that was prepared. A stage without a pipeline draws with
-    /// the pass's pipeline and bind groups, which must be set.
+    /// Draws all patches of the last prepared frame. If the stage was made without a pipeline, set
+    /// the pass's pipeline and bind groups first.
     ///
-    /// A render bundle would keep buffers that [`Self::prepare`] may replace, so there is no call
-    /// that draws in one. Record your own with [`Self::vertices`], [`Self::indices`] and
-    /// [`Self::indirect`], anew whenever [`Self::capacity`] changes.
+    /// No method draws in a render bundle, because a bundle would keep buffers that
+    /// [`Self::prepare`] may replace. You can record one yourself from [`Self::vertices`],
+    /// [`Self::indices`] and [`Self::indirect`]. Record it again whenever [`Self::capacity`]
+    /// changes, and in the frame after [`Self::set_groups`].
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.draw_as(pass, None);
     }
 
-    /// Draws one group of patches. Call [`Self::set_bind_group`] before it to give the group its
-    /// own material.
+    /// Draws one group of patches. To give the group its own material, call
+    /// [`Self::set_bind_group`] first.
     ///
     /// # Errors
     /// [`StageError::NoSuchGroup`].
@@ -153,54 +155,56 @@ impl TessellationStage {
         output.draw(pass, own, group);
     }
 
-    /// The vertices of the last frame that was prepared, or `None` if the vertex shader computes
-    /// them. They are laid out as [`Self::vertex_layout`] says: with [`Points::Evaluated`] the
-    /// user's `Vertex` structs, with [`Points::Stored`] packed points. The buffer has the usages
-    /// `VERTEX`, `STORAGE` and `COPY_SRC`; evaluated vertices also have `BLAS_INPUT` where the
-    /// device was opened with `EXPERIMENTAL_RAY_QUERY`.
+    /// The vertex buffer of the last prepared frame, or `None` if the vertex shader computes the
+    /// vertices. It holds the user's `Vertex` structs with [`Points::Evaluated`] and packed points
+    /// with [`Points::Stored`]; [`Self::vertex_layout`] is its layout. Its usages are `VERTEX`,
+    /// `STORAGE` and `COPY_SRC`. Evaluated vertices also have `BLAS_INPUT` if the device was opened
+    /// with `EXPERIMENTAL_RAY_QUERY`.
     ///
     /// - **Your own render pass:** set this vertex buffer and [`Self::indices`], and draw with
     ///   [`Self::indirect`].
     /// - **A compute pass:** declare your `struct Vertex` there and bind the buffer as
     ///   `array<Vertex>`, read-only; the first word of [`Self::status`] is the number of vertices.
     ///   Patches, and the points of a patch, follow each other in the model's order.
-    /// - **Reading back:** copy a part of it, once [`Self::feedback`] or [`Self::make_room`] says
-    ///   how much there is.
+    /// - **Reading back:** copy part of it; [`Self::feedback`] and [`Self::make_room`] return the
+    ///   number of points.
     /// - **Ray tracing:** a bottom-level structure reads `Float32x3` at the beginning of each
-    ///   vertex, so the position in the world is the struct's first member. The buffers can be
+    ///   vertex, so make the position in the world the struct's first member. The buffers can be
     ///   longer than the frame's output; see the example `rays`.
     ///
-    /// A call of [`Self::prepare`] replaces the buffers if it makes more room, which
-    /// [`Self::capacity`] shows. So ask for them in each frame.
+    /// [`Self::prepare`] replaces the buffers when it changes the room, which [`Self::capacity`]
+    /// shows, so fetch them in each frame.
     #[must_use]
     pub fn vertices(&self) -> Option<wgpu::Buffer> {
         self.output().stored.loaded().cloned()
     }
 
-    /// The index buffer, 32 bits an index, or `None` with [`Points::PullWithoutIndices`]. An index
-    /// is the number of a vertex of the frame. Primitives are triangles unless the configuration's
-    /// output says otherwise. The usages are `INDEX` and those of [`Self::vertices`] but `VERTEX`.
+    /// The index buffer, with 32-bit indices, or `None` with [`Points::PullWithoutIndices`]. An
+    /// index is the number of a vertex of the frame. The configuration's output decides whether
+    /// primitives are triangles, lines or points. The usages are `INDEX` and those of
+    /// [`Self::vertices`] except `VERTEX`.
     #[must_use]
     pub fn indices(&self) -> Option<wgpu::Buffer> {
         self.output().stored.indices
     }
 
     /// The arguments of `draw_indexed_indirect` for all patches, at offset 0, with the usages
-    /// `INDIRECT`, `STORAGE` and `COPY_SRC`. Their first word is the number of indices. Without
-    /// indices the first four words are those of `draw_indirect`.
+    /// `INDIRECT`, `STORAGE` and `COPY_SRC`. Their first word is the number of indices. If there is
+    /// no index buffer, the first four words are the arguments of `draw_indirect`.
     #[must_use]
     pub fn indirect(&self) -> wgpu::Buffer {
         self.output().batch.draw_arguments().clone()
     }
 
-    /// The same arguments for each group, [`Self::GROUP_BYTES`] apart.
+    /// The arguments of each group's draw, as in [`Self::indirect`], [`Self::GROUP_BYTES`] apart.
     #[must_use]
     pub fn group_indirect(&self) -> wgpu::Buffer {
         self.output().batch.group_arguments().clone()
     }
 
-    /// A [`Status`](tess_gpu::layout::Status) after the frame has run: the numbers of points and
-    /// primitives, and whether they fitted. The usages are `STORAGE` and `COPY_SRC`.
+    /// The buffer of a [`Status`](tess_gpu::layout::Status), which holds the numbers of points and
+    /// primitives, and whether they fitted, once the frame has run. Its usages are `STORAGE` and
+    /// `COPY_SRC`.
     #[must_use]
     pub fn status(&self) -> wgpu::Buffer {
         self.output().batch.status().clone()
@@ -212,8 +216,9 @@ impl TessellationStage {
         &self.vertices
     }
 
-    /// Draws this many instances of everything, from the next call of [`Self::prepare`] on; 1 at
-    /// first. The WGSL asks `tess_instance()` for the number of the instance that is drawn.
+    /// Sets the number of instances of every draw, which is 1 at first. It takes effect in the next
+    /// call of [`Self::prepare`]. In WGSL, `tess_instance()` returns the number of the instance
+    /// that is drawn.
     ///
     /// # Errors
     /// [`StageError::DrawsAnother`] for a stage that draws another's output;
@@ -227,13 +232,14 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Replaces the groups that [`StageBuilder::groups`] gave, from the next call of
-    /// [`Self::prepare`] on. Until then the frame that was prepared is drawn with its own groups.
-    /// Nothing is compiled; as many groups as before are a copy of their numbers.
+    /// Replaces the groups that [`StageBuilder::groups`] set. The change takes effect in the next
+    /// call of [`Self::prepare`]; until then, draws use the groups of the prepared frame. Nothing
+    /// is compiled. If the number of groups stays the same, their first patches are copied and no
+    /// buffer is replaced.
     ///
     /// # Errors
     /// [`Error::MisplacedGroup`]; [`StageError::DrawsAnother`] for a stage that draws another's
-    /// output; [`Error::OutOfMemory`]. The groups are then what they were.
+    /// output; [`Error::OutOfMemory`]. On an error the groups stay as they were.
     pub fn set_groups(&mut self, first_patches: &[u32]) -> Result<(), Error> {
         if self.factor_pass.is_none() {
             return Err(StageError::DrawsAnother.into());
@@ -251,25 +257,25 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or
-    /// `draw` on.
+    /// Replaces one of the user's bind groups, by its number. The next call of `prepare` or `draw`
+    /// uses it.
     ///
-    /// A group of another layout than the builder got is an error of wgpu's when the frame's
-    /// encoder is finished. It names the group's number and the binding.
+    /// If the group's layout differs from the one that the builder got, wgpu reports an error when
+    /// the frame's encoder is finished. The error names the group's number and the binding.
     ///
     /// # Errors
-    /// [`StageError::NoSuchBindGroup`]. The bind groups are then what they were.
+    /// [`StageError::NoSuchBindGroup`]. On an error the bind groups stay as they were.
     pub fn set_bind_group(&mut self, number: u32, group: &wgpu::BindGroup) -> Result<(), Error> {
         self.user_group(number)?.0.clone_from(group);
         Ok(())
     }
 
-    /// The dynamic offsets of one of the user's bind groups, in bytes and in the order of its
-    /// bindings, from the next call of `prepare` or `draw` on. At first there are none. Too many or
-    /// too few are an error of wgpu's when the frame's encoder is finished.
+    /// Sets the dynamic offsets of one of the user's bind groups, in bytes and in the order of its
+    /// bindings. The next call of `prepare` or `draw` uses them; at first there are none. If there
+    /// are too many or too few, wgpu reports an error when the frame's encoder is finished.
     ///
     /// # Errors
-    /// [`StageError::NoSuchBindGroup`]. The offsets are then what they were.
+    /// [`StageError::NoSuchBindGroup`]. On an error the offsets stay as they were.
     pub fn set_dynamic_offsets(&mut self, number: u32, offsets: &[u32]) -> Result<(), Error> {
         self.user_group(number)?.1 = offsets.to_vec();
         Ok(())
@@ -281,8 +287,8 @@ impl TessellationStage {
         Ok(own.ok_or(StageError::NoSuchBindGroup { number, groups })?)
     }
 
-    /// Records new factors from the host for the first `patches.len()` patches. Patches that never
-    /// had factors are culled.
+    /// Records a copy of new factors from the host to the first `patches.len()` patches. Patches
+    /// that never had factors are culled.
     ///
     /// # Errors
     /// [`StageError::NotHostFactors`], [`StageError::TooManyPatches`], [`StageError::OtherDevice`],
@@ -311,8 +317,8 @@ impl TessellationStage {
     }
 
     /// The needs of the latest frame whose numbers have arrived; `None` at first. Numbers arrive a
-    /// frame or two after the submission. This asks the device without waiting, as
-    /// [`Self::prepare`] does.
+    /// frame or two after the submission. Like [`Self::prepare`], this polls the device and does
+    /// not wait.
     #[must_use]
     pub fn feedback(&self) -> Option<Feedback> {
         let mut feedback = locked(&self.feedback);
@@ -322,8 +328,8 @@ impl TessellationStage {
     }
 
     /// The raw factors of the last frame that was submitted, as [`factor_words`] lays them out,
-    /// with the usages `STORAGE` and `COPY_SRC`. If the frame did not fit, they are the ones that
-    /// it was scaled down to. Patches beyond the frame's number have factors of 0.
+    /// with the usages `STORAGE` and `COPY_SRC`. If [`Overflow::Coarser`] scaled them down, they
+    /// are the scaled factors. Patches past the frame's number have factors of 0.
     #[must_use]
     pub const fn factors(&self) -> &wgpu::Buffer {
         &self.factors
@@ -339,8 +345,7 @@ impl TessellationStage {
         locked(&self.output).clone()
     }
 
-    /// The batch that the frames run, and the buffers of its points and indices, where there are
-    /// any.
+    /// The batch that the frames run, and the buffers of its points and indices, if it has them.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn inside(&self) -> (Arc<crate::Batch>, [Option<wgpu::Buffer>; 2]) {
@@ -348,13 +353,13 @@ impl TessellationStage {
         (batch, [stored.points, stored.indices])
     }
 
-    /// Gives room back after so many frames that use little of it.
+    /// Sets the number of frames with little output after which the room shrinks.
     #[cfg(feature = "measure")]
     pub const fn shrink_after(&mut self, frames: u64) {
         self.lull.patience = frames;
     }
 
-    /// A user's WGSL with the stage's types and helpers, and `own` behind it.
+    /// A user's WGSL, followed by the stage's types and helpers and then by `own`.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn joined(user: &str, own: &str) -> String {

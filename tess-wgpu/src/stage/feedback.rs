@@ -1,4 +1,4 @@
-//! A frame's needs, learnt some frames later without waiting.
+//! Reads back what frames needed, some frames later and without waiting.
 
 use super::fit::{Fit, Found};
 use crate::device::gpu;
@@ -9,25 +9,25 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use tess_gpu::layout::Status;
 use wgpu::BufferUsages as Usage;
 
-/// A frame's needs, and what it drew.
+/// The output that a frame needed, and what it drew.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Feedback {
     /// Number of the frame: the first call of `prepare` is frame 0.
     pub frame: u64,
-    /// Points that the factors give.
+    /// Points that the unscaled factors give.
     pub points: u64,
-    /// Primitives that the factors give.
+    /// Primitives that the unscaled factors give.
     pub primitives: u64,
     /// Primitives that were drawn: fewer if they did not fit.
     pub drawn: u64,
-    /// The scale of the factors that made the output fit; 1 if it fitted, or if the stage is to
-    /// draw nothing instead.
+    /// The scale of the factors that made the output fit; 1 if it fitted, and always with
+    /// [`Overflow::DrawNothing`](super::Overflow::DrawNothing).
     pub scale: f32,
 }
 
-/// Read-backs under way at most. A frame beyond them is not read back.
+/// The most read-backs that are under way at once. Frames that exceed it are not read back.
 const MOST: usize = 4;
-/// After this many frames a read-back is given up whose encoder is kept and was never submitted.
+/// The frames after which a read-back is given up if its encoder is kept and was never submitted.
 const PATIENCE: u64 = 64;
 
 const WAITING: u8 = 0;
@@ -42,7 +42,7 @@ struct UnderWay {
     state: Arc<AtomicU8>,
 }
 
-/// Reads back what frames needed.
+/// The read-backs under way, and the latest result.
 #[derive(Debug, Default)]
 pub(crate) struct Feedbacks {
     under_way: Vec<UnderWay>,
@@ -60,13 +60,14 @@ impl Feedbacks {
     pub(crate) fn take(&mut self, device: &wgpu::Device, frame: u64) -> Result<(), Error> {
         gpu::poll(device, wgpu::PollType::Poll)?;
         for mut one in std::mem::take(&mut self.under_way) {
-            // The encoder holds the other half until the answer is there; it goes with an encoder
-            // that is dropped.
+            // The encoder owns the other reference until the answer arrives, or until it is
+            // dropped.
             let has_encoder = Arc::get_mut(&mut one.state).is_none();
             match one.state.load(Ordering::Acquire) {
                 DONE => {
                     self.arrived(read(&one.staging, one.frame));
-                    // A lost device has unmapped it already, which wgpu would end the program for.
+                    // A lost device has unmapped the buffer already, and wgpu ends the program if
+                    // it is unmapped again.
                     if checked(device, || one.staging.unmap()).is_ok() {
                         self.idle.push(one.staging);
                     }
@@ -86,7 +87,7 @@ impl Feedbacks {
         self.last = new.filter(|new| new.frame >= latest).or(self.last);
     }
 
-    /// Makes the buffer that [`Self::record`] needs, unless there is one.
+    /// Makes the buffer that [`Self::record`] needs, unless one is idle.
     pub(crate) fn reserve(&mut self, device: &wgpu::Device) -> Result<(), Error> {
         if self.under_way.len() < MOST && self.idle.is_empty() {
             let usage = Usage::MAP_READ | Usage::COPY_DST;
@@ -95,8 +96,8 @@ impl Feedbacks {
         Ok(())
     }
 
-    /// Records the copies of a frame's numbers, which arrive after `encoder` was submitted, if a
-    /// buffer was reserved.
+    /// Records the copies of a frame's numbers, if a buffer was reserved. They arrive after
+    /// `encoder` was submitted.
     pub(crate) fn record(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -134,7 +135,7 @@ fn read(staging: &wgpu::Buffer, frame: u64) -> Option<Feedback> {
     Some(of_frame(frame, status, found))
 }
 
-/// Reads the numbers of a frame that was submitted.
+/// Waits for the numbers of a submitted frame.
 pub(crate) async fn wait(
     gpu: &Gpu,
     (batch, fit): (&Batch, Option<&Fit>),
@@ -152,7 +153,7 @@ pub(crate) async fn wait(
 fn of_frame(frame: u64, status: &[u8], found: &[u8]) -> Feedback {
     let status: Status = bytemuck::pod_read_unaligned(status);
     let found: Found = bytemuck::pod_read_unaligned(found);
-    // Without the passes that fit, these are zero, and the batch's own numbers are what was needed.
+    // Without the passes of `fit` these are zero, and the batch's own numbers are the needs.
     let needed = match found.needed() {
         [0, 0] => [status.points(), status.primitives()],
         needed => needed,

@@ -1,4 +1,4 @@
-//! Recording frames, and other room between them.
+//! Records frames, and changes the room between them.
 
 use super::feedback::{self, Feedback};
 use super::output::{StageOutput, Stored};
@@ -19,15 +19,15 @@ impl TessellationStage {
     /// time depends on what is drawn and, a little, on the most patches that the stage was made
     /// for.
     ///
-    /// The encoder may be dropped instead of submitted; later frames do not depend on it. It is of
-    /// the stage's device: one of another device is refused here if it is also of another instance,
-    /// and otherwise when it is finished.
+    /// The encoder may be dropped instead of submitted; later frames do not depend on it. It must
+    /// belong to the stage's device. An encoder of another device is refused here if it also
+    /// belongs to another instance, and otherwise when it is finished.
     ///
     /// # Errors
     /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
     /// [`StageError::OtherDevice`]; [`StageError::DrawsAnother`] for a stage that draws another's
-    /// output; [`Error::OutOfMemory`] or [`Error::DeviceLost`]. Nothing is recorded then, and what
-    /// was prepared last can still be drawn.
+    /// output; [`Error::OutOfMemory`] or [`Error::DeviceLost`]. On an error nothing is recorded,
+    /// and the last prepared frame can still be drawn.
     pub fn prepare<'a>(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -61,7 +61,7 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Records a frame's passes, for the number of patches that is there.
+    /// Records a frame's passes, for the number of patches in `self.count`.
     fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(pass) = &self.factor_pass {
             pass.encode(encoder, &self.bind_groups);
@@ -90,12 +90,12 @@ impl TessellationStage {
         locked(&self.feedback).record(encoder, of, self.frame);
     }
 
-    /// Makes the room that a frame needs before it is drawn: runs a frame's compute passes, waits
-    /// for what they found, and grows as [`Room::Automatic`] says. A frame with the same factors is
-    /// then exact if the room allows. Frames of other factors may need more.
+    /// Makes the room that a frame needs before it is drawn. This runs a frame's compute passes,
+    /// waits for their counts, and grows the buffers of [`Room::Automatic`]. A frame with the same
+    /// factors is then exact, if the budget allows. Frames with other factors may need more.
     ///
-    /// It takes one round trip to the device. Call it once after the stage is built, or for a
-    /// picture that is drawn once, when everything that the hull function reads has been written.
+    /// It takes one round trip to the device. Call it once after the stage is built, or before a
+    /// picture that is drawn once, when everything that `hull` reads has been written.
     ///
     /// # Errors
     /// As [`Self::prepare`]; and [`Error::Refused`] in a browser, where only
@@ -109,7 +109,7 @@ impl TessellationStage {
         gpu.finish(self.run_once(&gpu, patches.into()))
     }
 
-    /// The same without blocking: see [`Gpu::read_async`].
+    /// Does the same as [`Self::make_room`] without blocking: see [`Gpu::read_async`].
     ///
     /// # Errors
     /// As [`Self::prepare`].
@@ -140,7 +140,7 @@ impl TessellationStage {
         Ok(found)
     }
 
-    /// A batch of these groups that writes these buffers.
+    /// An output whose batch has these groups and writes these buffers.
     pub(super) fn new_output(
         &mut self,
         room: Capacity,
@@ -153,8 +153,8 @@ impl TessellationStage {
         StageOutput::new(&mut self.tessellator, self.form, (room, stored), of_batch, more)
     }
 
-    /// Makes more room if a frame needed nearly all of it and the stage may, or gives back what
-    /// many did not need.
+    /// Grows the room if the latest frame needed nearly all of it and the budget allows, or shrinks
+    /// it after a lull.
     fn adapt(&mut self) -> Result<(), Error> {
         let last = locked(&self.feedback).last();
         let Some(Feedback { frame, points, primitives, .. }) = last else { return Ok(()) };
@@ -165,7 +165,7 @@ impl TessellationStage {
         let Some(room) = changed else { return Ok(()) };
         match self.make_output(room) {
             Ok(()) => Ok(()),
-            // What there is still serves; asking again each frame would not help.
+            // The present room stays usable; asking again in each frame would not help.
             Err(Error::OutOfMemory) => {
                 self.room = Room::Exactly(now);
                 Ok(())
@@ -174,7 +174,7 @@ impl TessellationStage {
         }
     }
 
-    /// Replaces the output by one with this room. On an error everything is as it was.
+    /// Replaces the output by one with this room. On an error nothing changes.
     fn make_output(&mut self, room: Capacity) -> Result<(), Error> {
         let words = fit::room_words(&self.device, room)?;
         let stored = Stored::new(&self.device, self.form, room)?;
@@ -188,7 +188,7 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// The number of patches as a word of a buffer, and its offset there.
+    /// The buffer that holds the number of patches, and the number's offset in it.
     fn count_words(&self, patches: PatchCount<'_>) -> Result<(wgpu::Buffer, u64), Error> {
         match patches {
             PatchCount::Host(got) => {

@@ -1,4 +1,4 @@
-//! Workarounds that wgpu leaves to its users on OpenGL.
+//! Workarounds for OpenGL that wgpu leaves to its users.
 
 use super::StageError;
 use crate::error::Error;
@@ -9,9 +9,9 @@ pub(super) fn is_gl(device: &wgpu::Device) -> bool {
 
 /// The attributes of the stage's vertex buffer.
 ///
-/// On OpenGL the locations without an attribute have the buffer too, unread. wgpu leaves locations
-/// enabled that another pipeline used; once their buffer is gone, OpenGL ES refuses indirect draws,
-/// and draws nothing.
+/// On OpenGL the buffer is also bound to every location that has no attribute, although nothing
+/// reads it there. wgpu leaves locations enabled that another pipeline used. Once the buffer of
+/// such a location is gone, OpenGL ES refuses indirect draws, and draws nothing.
 pub(super) fn attributes(
     device: &wgpu::Device,
     own: &[wgpu::VertexAttribute],
@@ -43,7 +43,7 @@ pub(super) fn check_flat_members(device: &wgpu::Device, shader: &str) -> Result<
 #[cfg(not(target_arch = "wasm32"))]
 fn first_vertex_member(shader: &str) -> Option<String> {
     use wgpu::naga::{Binding, Interpolation, Sampling, TypeInner, front::wgsl};
-    // What does not compile is reported by wgpu.
+    // wgpu reports a text that does not compile.
     let module = wgsl::parse_str(shader).ok()?;
     let vertex = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Vertex"))?.1;
     let TypeInner::Struct { members, .. } = &vertex.inner else { return None };
@@ -60,7 +60,7 @@ fn first_vertex_member(shader: &str) -> Option<String> {
     member?.name.clone()
 }
 
-/// A browser's OpenGL has no compute shaders, so nothing comes as far as this.
+/// Never called: a browser's OpenGL has no compute shaders, so no stage is built.
 #[cfg(target_arch = "wasm32")]
 fn first_vertex_member(_: &str) -> Option<String> {
     None

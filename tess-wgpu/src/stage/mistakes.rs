@@ -1,5 +1,5 @@
-//! Mistakes that a compiler or wgpu would report in words of its own, told by the user's names and
-//! lines.
+//! Reports mistakes by the user's names and lines, where a compiler or wgpu would use its own
+//! terms.
 
 use super::wgsl::{self, Declaration};
 use super::{StageError, source};
@@ -34,8 +34,8 @@ pub(super) fn check_hull(declared: &[Declaration<'_>], domain: Domain) -> Result
     }
 }
 
-/// A refusal of a pipeline that names a binding by its numbers, told by the binding's name and
-/// line. `visibility` is that of the shader stage that reads it.
+/// Turns wgpu's refusal of a pipeline, which names a binding by its numbers, into an error with the
+/// binding's name and line. `visibility` is that of the shader stage that reads the binding.
 pub(super) fn explained(error: Error, user: &str, visibility: &str) -> Error {
     let Error::Refused { reason } = &error else { return error };
     let number = |key: &str| {

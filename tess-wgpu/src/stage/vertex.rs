@@ -12,11 +12,11 @@
 //! }                                                 largest alignment, 16
 //! ```
 //!
-//! A member's attribute has the number of its `@location`. The position has the first number that
+//! A member's attribute has the number of its `@location`. The position has the lowest number that
 //! is free.
 //!
-//! The struct is read from the text, not by a compiler, because a browser's says nothing about it.
-//! The test `offsets_are_those_of_the_compiler` compares both.
+//! The layout is computed from the text, because a browser's compiler does not report it. The test
+//! `offsets_are_those_of_the_compiler` compares it with naga's.
 
 use super::StageError;
 use super::wgsl::{self, Declaration};
@@ -28,8 +28,8 @@ use wgpu::VertexFormat as Format;
 pub struct VertexLayout {
     /// Bytes from one vertex to the next.
     pub array_stride: u64,
-    /// Offsets and formats. A member of `Vertex` has the `shader_location` of its `@location`; the
-    /// position has the first one that is free. Packed points are one attribute, at location 0.
+    /// Offsets and formats. The `shader_location` of a member of `Vertex` is its `@location`, and
+    /// that of the position is the lowest free one. Packed points are one attribute, at location 0.
     pub attributes: Vec<wgpu::VertexAttribute>,
     /// The names of the members, in the order of the attributes.
     names: Vec<String>,
@@ -52,7 +52,7 @@ impl VertexLayout {
         self.names.iter().position(|own| own == name).map(|at| &self.attributes[at])
     }
 
-    /// Whether both are the same bytes, whatever the names.
+    /// Whether both describe the same bytes; names may differ.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.array_stride == other.array_stride && self.attributes == other.attributes
     }
@@ -64,7 +64,7 @@ impl VertexLayout {
         Self { array_stride: 8, attributes, names: vec!["packed".to_owned()] }
     }
 
-    /// The layout of the `struct Vertex` that these declarations have.
+    /// The layout of the `struct Vertex` among these declarations.
     ///
     /// # Errors
     /// [`StageError::Wgsl`] if there is none, or if a member cannot be an attribute.
@@ -94,8 +94,8 @@ impl VertexLayout {
         Ok(Self { array_stride: end.next_multiple_of(align_of_all), attributes, names })
     }
 
-    /// The parameters of a vertex shader that loads all members, and the call that puts them
-    /// together.
+    /// The parameters of a vertex shader that loads all members, and the expression that makes a
+    /// `Vertex` of them.
     ///
     /// ```text
     /// @location(1) tess_0: vec4<f32>, @location(0) tess_1: vec2<f32>     Vertex(tess_0, tess_1)
@@ -142,7 +142,7 @@ fn members(text: &str) -> Vec<Member<'_>> {
             }
             "," | "}" | ";" => {}
             name => {
-                // The colon, then the type up to a comma that is in no angle brackets.
+                // The colon, then the type up to a comma outside of angle brackets.
                 let mut depth = 0_i32;
                 let kind = words.by_ref().skip(1).take_while(|&word| {
                     depth += i32::from(word == "<") - i32::from(word == ">");
@@ -156,7 +156,7 @@ fn members(text: &str) -> Vec<Member<'_>> {
     all
 }
 
-/// The words up to the parenthesis that closes.
+/// The words up to the closing parenthesis.
 fn in_parentheses<'a>(words: &mut impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut depth = 1_u32;
     words
@@ -213,10 +213,10 @@ impl Member<'_> {
     }
 }
 
-/// The words of a type, with those of aliases in their place.
+/// The words of a type, with each alias replaced by what it stands for.
 fn resolved<'a>(kind: &[&'a str], declared: &[Declaration<'a>]) -> Vec<&'a str> {
     let mut words = kind.to_vec();
-    // An alias of an alias, and so on; a circle is the compiler's to refuse.
+    // Eight rounds resolve aliases of aliases; the compiler refuses a cycle.
     for _ in 0..8 {
         let meaning = |word: &'a str| {
             let is_alias = |one: &&Declaration<'a>| one.keyword == "alias" && one.name == word;
@@ -236,7 +236,7 @@ fn resolved<'a>(kind: &[&'a str], declared: &[Declaration<'a>]) -> Vec<&'a str> 
     words
 }
 
-/// The scalar of a type, and how many of them it has.
+/// The scalar of a type, and the number of its components.
 fn scalar_and_count<'a>(words: &[&'a str]) -> Option<(&'a str, u64)> {
     let count = |word: &str| word.strip_prefix("vec")?.parse().ok().filter(|n| (2..=4).contains(n));
     match *words {
@@ -259,7 +259,7 @@ fn scalar_and_count<'a>(words: &[&'a str]) -> Option<(&'a str, u64)> {
     }
 }
 
-/// Scalar, how many of them, the attribute's format, and the type in WGSL.
+/// Scalar, number of components, the attribute's format, and the type in WGSL.
 const KINDS: [(&str, u64, Format, &str); 15] = [
     ("f32", 1, Format::Float32, "f32"),
     ("f32", 2, Format::Float32x2, "vec2<f32>"),
