@@ -63,7 +63,7 @@ pub(super) fn explained(error: Error, user: &str, visibility: &str) -> Error {
     StageError::Wgsl {
         line: Some(one.line),
         message: format!(
-            "`{}` does not go with the layout that call {group} of `bind_group`, counted from 0, got: {remedy}",
+            "`{}` does not go with the layout that `bind_group` got for group {group}: {remedy}",
             one.name
         ),
     }

@@ -142,7 +142,7 @@ pub(crate) fn check_names(user: &str, shader: VertexShader<'_>) -> Result<(), St
         Some(wgsl::Declaration { name, line, .. }) => Err(StageError::Wgsl {
             line: Some(line),
             message: format!(
-                "`{name}` is a name of WGSL's own, which the stage's functions use; take another name"
+                "`{name}` is a built-in name of WGSL that the stage's functions use; choose another name"
             ),
         }),
     }

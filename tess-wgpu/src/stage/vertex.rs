@@ -178,7 +178,7 @@ impl Member<'_> {
         match (builtin, self.number("location")?) {
             (Some("position"), _) => Ok(None),
             (Some(other), _) => Err(format!(
-                "`{}` is `@builtin({other})`, which no vertex buffer can hold; take another value \
+                "`{}` is `@builtin({other})`, which no vertex buffer can hold; choose another value \
                  of `points` than `Points::Evaluated`",
                 self.name
             )),
