@@ -22,7 +22,7 @@ impl Buffers {
         let Patches { groups, factors, .. } = patches;
         let tables = pipelines.tables(setup.config.split)?;
         let device = pipelines.device();
-        // Without an output there are no windows over it, so `factors`, its placeholder, is never
+        // An output that is not written has no windows, so its placeholder, `factors`, is never
         // bound.
         let (points, indices) = match outputs {
             Outputs::CountOnly | Outputs::Arguments(_) => (factors, factors),

@@ -1,4 +1,4 @@
-//! The maker of a device's batches.
+//! Makes the batches of one device.
 
 use super::outputs::{Outputs, Patches};
 use crate::Batch;
