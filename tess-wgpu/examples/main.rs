@@ -1,4 +1,5 @@
-//! The examples of `tess-wgpu`: `cargo example NAME`. The folder NAME has it, and a README.
+//! The examples of `tess-wgpu`: `cargo example NAME`. The folder NAME has the example and its
+//! README.
 
 #[path = "shared/app.rs"]
 mod app;
@@ -67,9 +68,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// Runs an example by its options: `--screenshot FILE` draws one frame into a file
-/// (`--width PIXELS`, `--seconds S`), otherwise there is a
-/// window, which closes after `--frames COUNT` frames if that is given.
+/// Runs an example. `--screenshot FILE` draws one frame into a file (`--width PIXELS`,
+/// `--seconds S`). Otherwise there is a window, which `--frames COUNT` closes after that number of
+/// frames.
 fn run<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
     let Some(path) = args.text("screenshot") else { return window::run::<S>(args) };
     let gpu = pollster::block_on(Gpu::open())?;

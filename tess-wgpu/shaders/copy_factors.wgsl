@@ -1,5 +1,5 @@
-// Takes factors that somebody else made, bit by bit; patches beyond the frame's number are culled. The
-// number of factors of a patch is put in for FACTORS.
+// Copies factors from the host or from a buffer of the user, bit for bit. Patches past the frame's number are culled.
+// The number of factors of a patch replaces FACTORS.
 
 @group(0) @binding(0) var<storage, read_write> factors: array<u32>;
 @group(0) @binding(1) var<storage, read> patches: u32;

@@ -1,5 +1,5 @@
-// Runs the user's domain function once for each point of a window: src/stage/evaluation.rs shows the buffers.
-// The bind group's number is put in for GROUP.
+// Runs the user's domain function once for each point of a window; for the buffers, see src/stage/evaluation.rs. The
+// bind group's number replaces GROUP.
 
 // The first words of tess_gpu::layout::Status.
 struct TessStatus {

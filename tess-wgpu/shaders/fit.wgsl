@@ -1,9 +1,9 @@
-// Scales all factors down until the output fits. src/stage/fit.rs shows the buffers, works one frame through and says
-// what must hold.
+// Scales a frame's factors down until the output fits. For the buffers, a worked frame and what must hold, see
+// src/stage/fit.rs.
 //
-// The scales are a ladder: step 0 is 1, each step is a little smaller, and the last one makes every factor 1. A smaller
-// scale never gives more output. So two rounds find the first step that fits: count every 16th step, then the 16
-// steps up to the first of those that fits.
+// The scales are a ladder: step 0 is 1, each step is a little smaller, and the last one leaves no factor above 1. A
+// smaller scale never gives more output. Two rounds therefore find the first step that fits: count every 16th step,
+// then the 16 steps up to the first of those that fits.
 
 const COARSE = 16u; // steps between two that are counted first
 const SLOTS_OF_FIT = 2u * COARSE + 1u;
@@ -18,8 +18,8 @@ struct Fit {
     reserved_0: u32,
     reserved_1: u32,
     reserved_2: u32,
-    // Points and primitives, each in a low and a high word: at step 0, at each 16th step from 16 on, and at
-    // each step between the two of those that enclose the answer.
+    // Points and primitives, each in a low and a high word: at step 0, at steps 16, 32, ... 256, and at the 16 steps up
+    // to the first of those that fits.
     sums: array<atomic<u32>, 4u * SLOTS_OF_FIT>,
 }
 
@@ -39,7 +39,7 @@ struct Terms {
 
 var<workgroup> sums: array<atomic<u32>, 2u * COARSE>;
 
-// A factor at a step. What is at most 1, or no number, stays.
+// A factor at a step. A factor of at most 1, and NaN, stays as it is.
 fn scaled(bits: u32, step: u32) -> u32 {
     if step == 0u || bits <= BITS_OF_1 || bits > BITS_OF_INFINITY {
         return bits;
@@ -64,8 +64,8 @@ fn add(at: u32, amount: u32) {
     }
 }
 
-// Counts one patch at `count` steps, `stride` apart from `first` on, for the slots from `slot` on. Called by
-// all threads of a workgroup.
+// Counts one patch at `count` steps, `first`, `first + stride`, ..., into as many slots, the first of which is `slot`.
+// Called by all threads of a workgroup.
 fn count_steps(number: u32, thread: u32, slot: u32, first: u32, stride: u32, count: u32) {
     if number * FACTORS < arrayLength(&factors) {
         for (var i = 0u; i < count; i++) {
@@ -108,7 +108,7 @@ fn count_whole(
     count_steps(number_of(workgroup, workgroups, thread), thread, 0u, 0u, 0u, 1u);
 }
 
-// The other passes run only if the factors as they are give too much.
+// The other passes run only if the unscaled factors give too much.
 @compute @workgroup_size(1)
 fn decide() {
     arguments[0] = select(terms.workgroups.x, 0u, fits(0u));

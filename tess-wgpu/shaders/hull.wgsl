@@ -1,5 +1,5 @@
-// Runs the user's hull function, one thread per patch. Patches beyond the frame's number are culled.
-// The bind group's number is put in for GROUP.
+// Runs the user's hull function, one thread per patch. Patches past the frame's number are culled. The bind group's
+// number replaces GROUP.
 
 struct TessFrame {
     patches: u32,

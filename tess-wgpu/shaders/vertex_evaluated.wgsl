@@ -1,4 +1,5 @@
-// The vertex shader for vertices that the evaluation has written: LOADED are their members, VERTEX puts them together.
+// The vertex shader for vertices that the evaluation has written. Their members as parameters replace LOADED; the
+// expression that makes a `Vertex` of them replaces VERTEX.
 
 @vertex
 fn tess_vertex(LOADED BUILTINS) -> Vertex {

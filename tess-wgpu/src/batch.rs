@@ -1,4 +1,4 @@
-//! A batch of patches, made once and encoded in each frame.
+//! A batch of patches, which is made once and encoded in each frame.
 
 pub(crate) mod buffers;
 mod dispatches;
@@ -48,7 +48,7 @@ impl Batch {
         self.encode_each(encoder, |_, _| {});
     }
 
-    /// [`Self::encode`], with a call of `after` after each dispatch, to time single stages.
+    /// As [`Self::encode`], but calls `after` after each dispatch, to time single stages.
     pub(crate) fn encode_each(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -78,7 +78,7 @@ impl Batch {
         &self.plan
     }
 
-    /// A [`Status`](tess_gpu::layout::Status) after the batch has run.
+    /// The buffer of a [`Status`](tess_gpu::layout::Status), valid after the batch has run.
     #[must_use]
     pub fn status(&self) -> &wgpu::Buffer {
         self.buffers.of(Resource::Status)
@@ -191,7 +191,7 @@ fn check(plan: &Plan, factors: &wgpu::Buffer, outputs: Outputs<'_>) -> Result<()
 /// The most patches of a batch: a packed point has 30 bits for its patch's number.
 const MAX_PATCHES: u32 = 1 << 30;
 
-/// The room of the outputs.
+/// The points and primitives for which the outputs have room.
 fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
     let elements = |size: u64, each: u32| u32::try_from(size / u64::from(each)).unwrap_or(u32::MAX);
     let (points, indices) = match outputs {

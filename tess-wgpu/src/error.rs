@@ -34,7 +34,7 @@ pub enum Error {
     /// A limit of the device is too low for any batch. Open the device with WebGPU's default limits
     /// or higher ones; WebGL, and OpenGL without compute shaders, cannot tessellate.
     #[error(
-        "the device's limit {limit} is {got}, and {needed} is needed; open it with WebGPU's \
+        "the device's limit {limit} is {got}, but {needed} is needed; open it with WebGPU's \
          default limits or higher ones (WebGL has no compute shaders, so it cannot tessellate)"
     )]
     LimitTooLow {
@@ -48,7 +48,7 @@ pub enum Error {
     /// A buffer would be larger than the device allows. Tessellate fewer patches at a time, or open
     /// the device with higher limits ([`crate::DeviceLimits::Highest`]).
     #[error(
-        "the buffer `{buffer}` needs {needed} bytes, and the device allows {limit}; \
+        "the buffer `{buffer}` needs {needed} bytes, but the device allows only {limit}; \
          tessellate fewer patches at a time"
     )]
     BufferTooLarge {
@@ -60,7 +60,7 @@ pub enum Error {
         limit: u64,
     },
     /// The buffer of factors is too short. Make it longer, or ask for fewer patches.
-    #[error("the patches have {needed} bytes of factors, their buffer {got}")]
+    #[error("the patches have {needed} bytes of factors, but their buffer has only {got}")]
     FactorsTooShort {
         /// Bytes that the patches need.
         needed: u64,
@@ -81,7 +81,7 @@ pub enum Error {
     },
     /// A patch has factors of another domain than the setup. Tessellate the patches of each domain
     /// separately.
-    #[error("patch {patch} has {got:?} factors, and the setup is for the {expected:?} domain")]
+    #[error("patch {patch} has {got:?} factors, but the setup is for the {expected:?} domain")]
     WrongDomain {
         /// Number of the first such patch.
         patch: usize,
@@ -162,7 +162,7 @@ pub enum Error {
     },
 }
 
-/// The remedy if there is no device.
+/// The advice for a system without a device.
 fn remedy() -> &'static str {
     if cfg!(target_arch = "wasm32") {
         "use a browser that has WebGPU, and a page from https or localhost"
@@ -183,7 +183,7 @@ const fn name(buffer: Resource) -> &'static str {
     }
 }
 
-/// Does `work` and returns wgpu's error, which would otherwise end the program.
+/// Does `work` and returns wgpu's error, for which wgpu would otherwise end the program.
 ///
 /// Natively wgpu reports errors at once. A browser reports them later, in its console.
 pub(crate) fn checked<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, Error> {

@@ -1,4 +1,4 @@
-//! The tessellation stage: a hull and a domain function in WGSL, drawn.
+//! The tessellation stage, which draws patches with a hull and a domain function in WGSL.
 
 mod build;
 mod builder;
@@ -43,11 +43,11 @@ use wgpu::BufferUsages as Usage;
 
 /// A tessellation stage for a render pass.
 ///
-/// The user's WGSL declares `struct Vertex`, with `@builtin(position)` and the members that are
-/// interpolated, and two functions. Their parameters may have any names:
+/// The user's WGSL declares `struct Vertex`, with `@builtin(position)` and the interpolated
+/// members, and two functions, whose parameters may have any names:
 ///
 /// ```wgsl
-/// fn hull(number: u32) -> QuadFactors              // or TriFactors, IsolineFactors, as the domain is
+/// fn hull(number: u32) -> QuadFactors              // or TriFactors, IsolineFactors: see the table
 /// fn domain(number: u32, uv: vec2<f32>) -> Vertex  // one vertex of patch `number`
 /// ```
 ///
@@ -60,8 +60,8 @@ use wgpu::BufferUsages as Usage;
 /// An edge factor that is 0, negative or NaN culls the patch. On a triangle the third coordinate is
 /// exactly `1.0 - uv.x - uv.y`.
 ///
-/// Names that begin with `tess_` belong to the stage. Predefined names of WGSL that the stage's
-/// functions use, such as `distance`, cannot be declared.
+/// Names that begin with `tess_` are reserved for the stage. The user's WGSL cannot declare a
+/// built-in name of WGSL that the stage's functions use, such as `distance`.
 #[derive(Debug)]
 pub struct TessellationStage {
     device: wgpu::Device,
@@ -70,14 +70,14 @@ pub struct TessellationStage {
     room: Room,
     lull: Lull,
     groups: Vec<u32>,
-    /// Groups that replace those of the batch; each frame copies them there.
+    /// The first patches of new groups, which each frame copies over those in the batch.
     begins: Option<wgpu::Buffer>,
     bind_groups: Vec<UserGroup>,
-    /// The raw factors of the frame, in the layout that the batch reads.
+    /// The frame's raw factors, as the batch reads them.
     factors: wgpu::Buffer,
     /// The number of patches of the frame.
     count: wgpu::Buffer,
-    /// `None` if the stage draws another's output.
+    /// `None` if the stage draws the output of another.
     factor_pass: Option<FactorPass>,
     fit: Option<Fit>,
     evaluation: Option<Evaluation>,
@@ -85,13 +85,13 @@ pub struct TessellationStage {
     vertices: VertexLayout,
     /// Whether draws read the factors.
     has_factors: bool,
-    /// The number of instances of each draw, if it is not 1.
+    /// The number of instances, once [`Self::set_instances`] has set it.
     instances: Option<wgpu::Buffer>,
     /// `None` if the caller draws with its own pipeline.
     pipeline: Option<Arc<wgpu::RenderPipeline>>,
     /// Shared by the stages that draw it.
     output: Arc<Mutex<StageOutput>>,
-    /// New groups and their output, which the next frame will use.
+    /// New groups and their output, which take effect in the next frame.
     next: Option<(Vec<u32>, StageOutput)>,
     feedback: Arc<Mutex<Feedbacks>>,
     frame: u64,
@@ -104,7 +104,8 @@ impl TessellationStage {
     /// Bytes of a group's arguments in [`Self::group_indirect`].
     pub const GROUP_BYTES: u64 = size_of::<tess_gpu::layout::DrawIndexed>() as u64;
 
-    /// Begins a stage of up to `patches` patches of one domain, with the user's WGSL.
+    /// Returns a builder for a stage that draws up to `patches` patches of one domain with the
+    /// user's WGSL.
     pub const fn builder(
         source: &str,
         domain: Domain,
@@ -114,12 +115,13 @@ impl TessellationStage {
         StageBuilder::new(source, domain, config, patches)
     }
 
-    /// Draws all patches of the last frame that was prepared. If the stage has no pipeline, the
-    /// caller must have set a pipeline and bind groups on the pass.
+    /// Draws all patches of the last prepared frame. If the stage was made without a pipeline, set
+    /// the pass's pipeline and bind groups first.
     ///
-    /// There is no call for render bundles, because a bundle keeps buffers that [`Self::prepare`]
-    /// may replace. To record one, use [`Self::vertices`], [`Self::indices`] and
-    /// [`Self::indirect`], and record it again whenever [`Self::capacity`] changes.
+    /// No method draws in a render bundle, because a bundle would keep buffers that
+    /// [`Self::prepare`] may replace. You can record one yourself from [`Self::vertices`],
+    /// [`Self::indices`] and [`Self::indirect`]. Record it again whenever [`Self::capacity`]
+    /// changes, and in the frame after [`Self::set_groups`].
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.draw_as(pass, None);
     }
@@ -153,54 +155,56 @@ impl TessellationStage {
         output.draw(pass, own, group);
     }
 
-    /// The vertices of the last frame that was prepared, or `None` if the vertex shader computes
-    /// them. [`Self::vertex_layout`] describes them: the user's `Vertex` structs with
-    /// [`Points::Evaluated`], packed points with [`Points::Stored`]. The buffer has the usages
-    /// `VERTEX`, `STORAGE` and `COPY_SRC`; evaluated vertices also have `BLAS_INPUT` if the device
-    /// was opened with `EXPERIMENTAL_RAY_QUERY`.
+    /// The vertex buffer of the last prepared frame, or `None` if the vertex shader computes the
+    /// vertices. It holds the user's `Vertex` structs with [`Points::Evaluated`] and packed points
+    /// with [`Points::Stored`]; [`Self::vertex_layout`] is its layout. Its usages are `VERTEX`,
+    /// `STORAGE` and `COPY_SRC`. Evaluated vertices also have `BLAS_INPUT` if the device was opened
+    /// with `EXPERIMENTAL_RAY_QUERY`.
     ///
     /// - **Your own render pass:** set this vertex buffer and [`Self::indices`], and draw with
     ///   [`Self::indirect`].
     /// - **A compute pass:** declare your `struct Vertex` there and bind the buffer as
     ///   `array<Vertex>`, read-only; the first word of [`Self::status`] is the number of vertices.
     ///   Patches, and the points of a patch, follow each other in the model's order.
-    /// - **Reading back:** copy a part of it. [`Self::feedback`] and [`Self::make_room`] return the
-    ///   number of vertices.
+    /// - **Reading back:** copy part of it; [`Self::feedback`] and [`Self::make_room`] return the
+    ///   number of points.
     /// - **Ray tracing:** a bottom-level structure reads `Float32x3` at the beginning of each
-    ///   vertex, so the position in the world is the struct's first member. The buffers can be
+    ///   vertex, so make the position in the world the struct's first member. The buffers can be
     ///   longer than the frame's output; see the example `rays`.
     ///
-    /// Get the buffers again in each frame: [`Self::prepare`] replaces them when it makes more
-    /// room, which shows in [`Self::capacity`].
+    /// [`Self::prepare`] replaces the buffers when it changes the room, which [`Self::capacity`]
+    /// shows, so fetch them in each frame.
     #[must_use]
     pub fn vertices(&self) -> Option<wgpu::Buffer> {
         self.output().stored.loaded().cloned()
     }
 
-    /// The index buffer with 32 bits per index, or `None` with [`Points::PullWithoutIndices`]. An
-    /// index is the number of a vertex in the frame. The configuration's output determines the
-    /// primitives. The usages are `INDEX` and those of [`Self::vertices`] except `VERTEX`.
+    /// The index buffer, with 32-bit indices, or `None` with [`Points::PullWithoutIndices`]. An
+    /// index is the number of a vertex of the frame. The configuration's output decides whether
+    /// primitives are triangles, lines or points. The usages are `INDEX` and those of
+    /// [`Self::vertices`] except `VERTEX`.
     #[must_use]
     pub fn indices(&self) -> Option<wgpu::Buffer> {
         self.output().stored.indices
     }
 
     /// The arguments of `draw_indexed_indirect` for all patches, at offset 0, with the usages
-    /// `INDIRECT`, `STORAGE` and `COPY_SRC`. Their first word is the number of indices. Without
-    /// indices the first four words are those of `draw_indirect`.
+    /// `INDIRECT`, `STORAGE` and `COPY_SRC`. Their first word is the number of indices. If there is
+    /// no index buffer, the first four words are the arguments of `draw_indirect`.
     #[must_use]
     pub fn indirect(&self) -> wgpu::Buffer {
         self.output().batch.draw_arguments().clone()
     }
 
-    /// The draw arguments of each group, [`Self::GROUP_BYTES`] apart.
+    /// The arguments of each group's draw, as in [`Self::indirect`], [`Self::GROUP_BYTES`] apart.
     #[must_use]
     pub fn group_indirect(&self) -> wgpu::Buffer {
         self.output().batch.group_arguments().clone()
     }
 
-    /// A [`Status`](tess_gpu::layout::Status) after the frame has run: the numbers of points and
-    /// primitives, and whether they fitted. The usages are `STORAGE` and `COPY_SRC`.
+    /// The buffer of a [`Status`](tess_gpu::layout::Status), which holds the numbers of points and
+    /// primitives, and whether they fitted, once the frame has run. Its usages are `STORAGE` and
+    /// `COPY_SRC`.
     #[must_use]
     pub fn status(&self) -> wgpu::Buffer {
         self.output().batch.status().clone()
@@ -212,8 +216,9 @@ impl TessellationStage {
         &self.vertices
     }
 
-    /// Sets the number of instances that each draw has after the next call of [`Self::prepare`]; at
-    /// first it is 1. In the WGSL, `tess_instance()` is the number of the instance.
+    /// Sets the number of instances of every draw, which is 1 at first. It takes effect in the next
+    /// call of [`Self::prepare`]. In WGSL, `tess_instance()` returns the number of the instance
+    /// that is drawn.
     ///
     /// # Errors
     /// [`StageError::DrawsAnother`] for a stage that draws another's output;
@@ -227,13 +232,14 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Replaces the groups of [`StageBuilder::groups`]. The next call of [`Self::prepare`] uses the
-    /// new ones; until then draws use those of the frame that was prepared. Nothing is compiled. If
-    /// the number of groups stays the same, no buffer is made either.
+    /// Replaces the groups that [`StageBuilder::groups`] set. The change takes effect in the next
+    /// call of [`Self::prepare`]; until then, draws use the groups of the prepared frame. Nothing
+    /// is compiled. If the number of groups stays the same, their first patches are copied and no
+    /// buffer is replaced.
     ///
     /// # Errors
     /// [`Error::MisplacedGroup`]; [`StageError::DrawsAnother`] for a stage that draws another's
-    /// output; [`Error::OutOfMemory`]. Then the groups are unchanged.
+    /// output; [`Error::OutOfMemory`]. On an error the groups stay as they were.
     pub fn set_groups(&mut self, first_patches: &[u32]) -> Result<(), Error> {
         if self.factor_pass.is_none() {
             return Err(StageError::DrawsAnother.into());
@@ -251,14 +257,14 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Replaces one of the user's bind groups, given by its number. The next call of `prepare` or
-    /// `draw` uses the new one.
+    /// Replaces one of the user's bind groups, by its number. The next call of `prepare` or `draw`
+    /// uses it.
     ///
-    /// If its layout differs from the one that the builder got, wgpu reports an error, with the
-    /// numbers of group and binding, when the frame's encoder is finished.
+    /// If the group's layout differs from the one that the builder got, wgpu reports an error when
+    /// the frame's encoder is finished. The error names the group's number and the binding.
     ///
     /// # Errors
-    /// [`StageError::NoSuchBindGroup`]. Then the bind groups are unchanged.
+    /// [`StageError::NoSuchBindGroup`]. On an error the bind groups stay as they were.
     pub fn set_bind_group(&mut self, number: u32, group: &wgpu::BindGroup) -> Result<(), Error> {
         self.user_group(number)?.0.clone_from(group);
         Ok(())
@@ -269,7 +275,7 @@ impl TessellationStage {
     /// are too many or too few, wgpu reports an error when the frame's encoder is finished.
     ///
     /// # Errors
-    /// [`StageError::NoSuchBindGroup`]. Then the offsets are unchanged.
+    /// [`StageError::NoSuchBindGroup`]. On an error the offsets stay as they were.
     pub fn set_dynamic_offsets(&mut self, number: u32, offsets: &[u32]) -> Result<(), Error> {
         self.user_group(number)?.1 = offsets.to_vec();
         Ok(())
@@ -281,8 +287,8 @@ impl TessellationStage {
         Ok(own.ok_or(StageError::NoSuchBindGroup { number, groups })?)
     }
 
-    /// Records new factors from the host for the first `patches.len()` patches. A patch without
-    /// factors so far is culled.
+    /// Records a copy of new factors from the host to the first `patches.len()` patches. Patches
+    /// that never had factors are culled.
     ///
     /// # Errors
     /// [`StageError::NotHostFactors`], [`StageError::TooManyPatches`], [`StageError::OtherDevice`],
@@ -310,9 +316,9 @@ impl TessellationStage {
         })
     }
 
-    /// The feedback of the latest frame whose numbers have arrived; `None` at first. Numbers arrive
-    /// one or two frames after the submission. The call polls the device without waiting, and so
-    /// does [`Self::prepare`].
+    /// The needs of the latest frame whose numbers have arrived; `None` at first. Numbers arrive a
+    /// frame or two after the submission. Like [`Self::prepare`], this polls the device and does
+    /// not wait.
     #[must_use]
     pub fn feedback(&self) -> Option<Feedback> {
         let mut feedback = locked(&self.feedback);
@@ -321,15 +327,15 @@ impl TessellationStage {
         feedback.last()
     }
 
-    /// The raw factors of the last frame that was submitted, in the layout of [`factor_words`],
-    /// with the usages `STORAGE` and `COPY_SRC`. If the frame did not fit, they are the scaled
-    /// factors. Patches beyond the frame's number of patches have factors of 0.
+    /// The raw factors of the last frame that was submitted, as [`factor_words`] lays them out,
+    /// with the usages `STORAGE` and `COPY_SRC`. If [`Overflow::Coarser`] scaled them down, they
+    /// are the scaled factors. Patches past the frame's number have factors of 0.
     #[must_use]
     pub const fn factors(&self) -> &wgpu::Buffer {
         &self.factors
     }
 
-    /// The stage's present room for points and primitives.
+    /// The room for points and primitives that the stage has now.
     #[must_use]
     pub fn capacity(&self) -> Capacity {
         self.output().room
@@ -339,8 +345,7 @@ impl TessellationStage {
         locked(&self.output).clone()
     }
 
-    /// The batch that the frames run, and the buffers of its points and indices, where there are
-    /// any.
+    /// The batch that the frames run, and the buffers of its points and indices, if it has them.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn inside(&self) -> (Arc<crate::Batch>, [Option<wgpu::Buffer>; 2]) {
@@ -348,13 +353,13 @@ impl TessellationStage {
         (batch, [stored.points, stored.indices])
     }
 
-    /// Sets the number of frames with little output after which room is given back.
+    /// Sets the number of frames with little output after which the room shrinks.
     #[cfg(feature = "measure")]
     pub const fn shrink_after(&mut self, frames: u64) {
         self.lull.patience = frames;
     }
 
-    /// A user's WGSL, followed by the stage's types and helpers and by `own`.
+    /// A user's WGSL, followed by the stage's types and helpers and then by `own`.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn joined(user: &str, own: &str) -> String {

@@ -1,5 +1,5 @@
-// Bicubic Bezier patches. bezier.rs writes the words: 16 control points a patch, three numbers each, rows along
-// v. Needs tess_gpu::surfaces' BEZIER.
+// Bicubic Bezier patches. bezier.rs writes the words: 16 control points per patch, three numbers each, rows along v.
+// Needs tess_gpu::surfaces' BEZIER.
 
 fn control(at: TessPlace, k: u32) -> vec3<f32> {
     return tess_vec3(at, 3u * (16u * at.patch_number + k));
@@ -13,7 +13,7 @@ fn net_of(at: TessPlace) -> array<vec4<f32>, 16> {
     return net;
 }
 
-// Edges have factors by their ends.
+// An edge's factor depends on its two ends.
 fn hull(number: u32) -> QuadFactors {
     let at = tess_place(number);
     let a = tess_to_world(at, control(at, 0u));

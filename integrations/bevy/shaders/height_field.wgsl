@@ -1,5 +1,5 @@
-// A rectangle of patches over x and z, raised by heights. height_field.rs writes the words, and puts in
-// how many stand in front of the heights (in `texel`).
+// A rectangle of patches over x and z, raised by heights. height_field.rs writes the words, and replaces the number of
+// words before the heights (in `texel`).
 
 struct Ground {
     texels: vec2<i32>,
@@ -48,7 +48,7 @@ fn corner(at: TessPlace, map: Ground, uv: vec2<f32>) -> vec3<f32> {
     return tess_to_world(at, raised(map.size, place, height(at, map.texels, place)));
 }
 
-// Whether the camera sees nothing of the patch and its shadow, however high it is.
+// Whether the camera sees neither the patch nor its shadow, whatever its heights are.
 fn is_unseen(at: TessPlace, map: Ground) -> bool {
     let near = place_of(at, map.patches, vec2<f32>(0.0));
     let far = place_of(at, map.patches, vec2<f32>(1.0));
@@ -77,7 +77,7 @@ fn hull(number: u32) -> QuadFactors {
         tess_edge(at, a, d), tess_edge(at, a, b), tess_edge(at, b, c), tess_edge(at, d, c)));
 }
 
-// The normal, from the heights a texel away on each side.
+// The normal, from the heights one texel away on each side.
 fn slope(at: TessPlace, map: Ground, place: vec2<f32>) -> vec3<f32> {
     let step = 1.0 / vec2<f32>(map.texels);
     let along_x = height(at, map.texels, place + vec2<f32>(step.x, 0.0))

@@ -1,6 +1,6 @@
-// The camera or the light of Bevy's pass: what begins its uniform buffer.
+// The camera or the light of Bevy's pass: the beginning of its uniform buffer.
 @group(0) @binding(0) var<uniform> tess_clip_from_world: mat4x4<f32>;
-// Whether what is in front of the near plane is drawn on it, where the device cannot do so.
+// Whether the shader moves vertices in front of the near plane onto it, because the device cannot draw them.
 override tess_clamps: bool = false;
 
 fn tess_project(world: vec3<f32>) -> vec4<f32> {

@@ -2,16 +2,16 @@
 
 // The instance of each patch.
 @group(TESS_GROUP) @binding(3) var<storage, read> tess_owners: array<u32>;
-// The words of all shapes, one behind another.
+// The words of all shapes, one after another.
 @group(TESS_GROUP) @binding(4) var<storage, read> tess_words: array<u32>;
 
-// The values of all entities, their number in front of each one's.
+// The values of all entities; each entity's values follow their number.
 @group(TESS_GROUP) @binding(5) var<storage, read> tess_values: array<u32>;
 
 // A patch of an entity.
 struct TessPlace {
     instance: u32,
-    // From 0 on in each entity.
+    // Counted from 0 in each entity.
     patch_number: u32,
     first_word: u32,
     first_value: u32,
@@ -52,8 +52,8 @@ fn tess_to_world(at: TessPlace, local: vec3<f32>) -> vec3<f32> {
     return (tess_instances[at.instance].world_from_local * vec4<f32>(local, 1.0)).xyz;
 }
 
-// The factor of an edge between two places in world space, by the entity's level of detail. It is 0 in an entity
-// that the camera does not see.
+// The factor of an edge between two places in world space, by the entity's level of detail. It is 0 if the camera does
+// not see the entity.
 fn tess_edge(at: TessPlace, a: vec3<f32>, b: vec3<f32>) -> f32 {
     let rule = tess_instances[at.instance].rule;
     let pixels = tess_camera.pixels_per_unit;
@@ -76,7 +76,7 @@ fn tess_edge(at: TessPlace, a: vec3<f32>, b: vec3<f32>) -> f32 {
     }
 }
 
-// Whether the camera sees nothing of a ball in world space, nor of a shadow of it.
+// Whether the camera sees neither a ball in world space nor its shadow.
 fn tess_is_unseen(center: vec3<f32>, radius: f32) -> bool {
     for (var i = 0u; i < 6u; i++) {
         if tess_is_behind(tess_camera.planes[i], center, radius) {
@@ -86,7 +86,7 @@ fn tess_is_unseen(center: vec3<f32>, radius: f32) -> bool {
     return false;
 }
 
-// A vertex from what a shape knows, in local space.
+// A vertex, from position and normal in local space.
 fn tess_vertex_of(
     at: TessPlace, local: vec3<f32>, normal: vec3<f32>, uv: vec2<f32>, color: vec4<f32>,
 ) -> Vertex {

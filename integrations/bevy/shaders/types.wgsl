@@ -1,5 +1,5 @@
-// The plugin's bindings and the structure that a domain function returns. The bind group's number is put in for TESS_GROUP.
-// render/layout.rs has the structs TessView and TessInstance too.
+// The plugin's bindings and the structure that a domain function returns. The bind group's number replaces TESS_GROUP.
+// render/layout.rs has the structs TessView and TessInstance in Rust.
 
 struct TessView {
     clip_from_world: mat4x4<f32>,
@@ -10,7 +10,7 @@ struct TessView {
     reserved_0: u32,
     reserved_1: u32,
     reserved_2: u32,
-    // What is behind one of them is neither seen nor casts a shadow that is.
+    // A surface behind one of them is not seen and casts no shadow that is seen.
     planes: array<vec4<f32>, 6>,
 }
 
@@ -18,7 +18,7 @@ struct TessInstance {
     world_from_local: mat4x4<f32>,
     // The inverse transpose; its upper left 3 x 3 part is used.
     normal_from_local: mat4x4<f32>,
-    // To the place of the frame before.
+    // To the place in the previous frame.
     previous_from_world: mat4x4<f32>,
     // The factor rule: its kind and its amount.
     rule: vec4<f32>,

@@ -15,19 +15,19 @@ use tess_wgpu::tess_gpu::surfaces;
 /// The control points of a bicubic patch: rows along v, columns along u.
 pub type Net = [[[f32; 3]; 4]; 4];
 
-/// Bicubic Bezier patches. Their outside is where the derivative by u times that by v points.
+/// Bicubic Bezier patches. The cross product of the derivatives by u and by v points outwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BezierPatches(Vec<Net>);
 
-/// Why there are no such patches.
+/// The reason why patches cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BezierError {
-    /// There are none.
+    /// The list of patches is empty.
     Empty,
     /// A control point is NaN or infinite.
     NotFinite {
-        /// Number of its patch.
+        /// The number of its patch.
         patch: usize,
     },
 }
@@ -46,11 +46,11 @@ impl fmt::Display for BezierError {
 impl std::error::Error for BezierError {}
 
 impl BezierPatches {
-    /// Patches of these control points. Patches that share the control points of an edge have no
-    /// crack there.
+    /// Makes patches of these control points. Patches that share the control points of an edge have
+    /// no crack there.
     ///
     /// # Errors
-    /// [`BezierError`] for what is missing.
+    /// [`BezierError`] if there are no patches or a control point is not finite.
     pub fn new(nets: Vec<Net>) -> Result<Self, BezierError> {
         if nets.is_empty() {
             return Err(BezierError::Empty);
@@ -119,8 +119,8 @@ impl CpuShape for BezierPatches {
     }
 }
 
-/// The factors of a quad by its edges u = 0, v = 0, u = 1, v = 1, as `tess_quad_factors` of the
-/// WGSL.
+/// The factors of a quad from those of its edges u = 0, v = 0, u = 1, v = 1, as `tess_quad_factors`
+/// of the WGSL computes them.
 #[must_use]
 pub fn quad_factors(edges: [f32; 4]) -> QuadFactors {
     let ([u0, v0, u1, v1], [inside_u, inside_v]) = (edges, inside_quad(edges));

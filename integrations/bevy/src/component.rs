@@ -1,4 +1,4 @@
-//! The component, and what the user sets for all of them.
+//! The component, and the settings and statistics of all surfaces.
 
 use crate::detail::LevelOfDetail;
 use crate::shape::Shape;
@@ -13,18 +13,19 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tess_core::{Config, Partitioning};
 
-/// A surface that is tessellated in each frame, by what each camera sees of it. It looks as its
-/// [`MeshMaterial3d`] says; without one it has `StandardMaterial::default()`.
+/// A surface that is tessellated in each frame for each camera. Its look is that of its
+/// [`MeshMaterial3d`]; without one it has `StandardMaterial::default()`.
 #[derive(Clone, Component, Debug)]
-// The mesh is empty; Bevy finds the cameras and lights that see it.
+// The mesh is empty; through it, Bevy finds the cameras and lights that see the surface.
 #[require(Transform, Visibility, Mesh3d, SyncToRenderWorld, NoAutoAabb)]
 #[require(MeshMaterial3d<StandardMaterial> = MeshMaterial3d(PLAIN))]
 pub struct Tessellated {
-    /// Its patches. Share them between entities that look alike in shape: they are then kept once.
+    /// The surface's patches. Entities can share a shape, which is then stored once.
     pub shape: Arc<dyn Shape>,
-    /// How many segments its edges get.
+    /// The rule for the number of segments of its edges.
     pub detail: LevelOfDetail,
-    /// How factors become segments. Fractional ones do not pop as the camera moves.
+    /// The rule by which factors become segments. With fractional ones, segments do not pop as the
+    /// camera moves.
     pub partitioning: Partitioning,
 }
 
@@ -33,17 +34,17 @@ pub(crate) const PLAIN: Handle<StandardMaterial> =
     uuid_handle!("5c1e8a3e-0b0e-4f0b-9d3c-7a5be9a1d2f4");
 
 impl Tessellated {
-    /// A surface of this shape, in segments of 8 pixels.
+    /// A surface of this shape, with segments of 8 pixels.
     pub fn new(shape: impl Shape) -> Self {
         Self::shared(Arc::new(shape))
     }
 
-    /// The same of a shape that other entities have too.
+    /// A surface of a shape that other entities share, with segments of 8 pixels.
     pub fn shared(shape: Arc<dyn Shape>) -> Self {
         Self { shape, detail: LevelOfDetail::default(), partitioning: Partitioning::FractionalEven }
     }
 
-    /// The same surface with this many segments.
+    /// The same surface with this level of detail.
     #[must_use]
     pub const fn with_detail(mut self, detail: LevelOfDetail) -> Self {
         self.detail = detail;
@@ -55,23 +56,24 @@ impl Tessellated {
     }
 }
 
-/// Numbers of an entity that change from frame to frame: the time, joint matrices. The surface
-/// reads them with `tess_value`, its Rust form with [`Eye::value`](crate::Eye::value). Only those
-/// that change are uploaded; keep their number.
+/// Numbers of an entity that change from frame to frame, such as the time or joint matrices. The
+/// WGSL reads them with `tess_value`, a [`CpuShape`](crate::CpuShape) with
+/// [`Eye::value`](crate::Eye::value). Only those that change are uploaded. Keep their number
+/// constant, because a new number moves the entity in the buffers.
 #[derive(Clone, Component, Debug, Default, PartialEq)]
 pub struct TessValues(pub Vec<f32>);
 
-/// How surfaces are tessellated and drawn.
+/// Settings for tessellating and drawing all surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Resource)]
 pub struct TessSettings {
-    /// Who tessellates.
+    /// The processor that tessellates.
     pub backend: TessBackend,
-    /// Whether edges are drawn in place of triangles. On the GPU the device must have the feature
+    /// Whether edges are drawn instead of triangles. On the GPU, the device needs the feature
     /// `POLYGON_MODE_LINE`.
     pub wireframe: bool,
 }
 
-/// Who tessellates.
+/// The processor that tessellates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TessBackend {
     /// The GPU if it has compute shaders, or else the CPU.
@@ -81,8 +83,8 @@ pub enum TessBackend {
     Cpu,
 }
 
-/// How many triangles the surfaces had lately, a frame or two late on the GPU, and what was
-/// uploaded for them.
+/// Statistics of all surfaces: their triangles, a frame or two late on the GPU, and the uploaded
+/// bytes.
 #[derive(Clone, Debug, Default, Resource)]
 pub struct TessStats(Arc<[AtomicU64; 2]>);
 
@@ -93,8 +95,9 @@ impl TessStats {
         self.0[0].load(Ordering::Relaxed)
     }
 
-    /// Bytes of shapes, places, materials and values that the last frame uploaded; 0 on the CPU. It
-    /// uploads the view of each camera too, and 4 bytes an entity if entities came or went.
+    /// Bytes of shapes, places, materials and values that the last frame uploaded; 0 on the CPU.
+    /// The count leaves out the view of each camera, and 4 bytes per entity in frames in which
+    /// entities came or went.
     #[must_use]
     pub fn uploaded(&self) -> u64 {
         self.0[1].load(Ordering::Relaxed)

@@ -1,4 +1,5 @@
-//! The CPU in place of the GPU: surfaces become ordinary meshes, by the same domain points.
+//! Tessellation on the CPU: surfaces become ordinary meshes, with the same domain points as on the
+//! GPU.
 
 use crate::component::{TessSettings, TessStats, TessValues, Tessellated};
 use crate::eye::{Casting, Eye, View};
@@ -18,7 +19,7 @@ use bevy::transform::components::GlobalTransform;
 use tess_core::{Config, PatchFactors};
 use tess_simd::{Numbering, Output, Tessellator};
 
-/// A tessellator for each configuration; they keep tables.
+/// A tessellator for each configuration, kept because it holds tables.
 #[derive(Debug, Default, Resource)]
 pub(crate) struct Tessellators {
     all: HashMap<Config, Tessellator>,
@@ -56,7 +57,7 @@ impl Tessellators {
     }
 }
 
-/// The mesh of a surface: triangles, or a line for each of their edges.
+/// The mesh of a surface: its triangles, or a line for each of their edges.
 pub(crate) fn mesh(of: Tessellation, topology: PrimitiveTopology) -> Mesh {
     let Tessellation { vertices, indices } = of;
     let indices = match topology {
@@ -77,7 +78,7 @@ pub(crate) fn mesh(of: Tessellation, topology: PrimitiveTopology) -> Mesh {
         .with_inserted_indices(Indices::U32(indices))
 }
 
-/// Source of an entity's mesh. When it changes, the mesh is replaced.
+/// An entity's mesh and everything that it was made from. When that changes, the mesh is replaced.
 #[derive(Clone, Component, Debug)]
 pub(crate) struct Fallback {
     eye: Eye<'static>,
@@ -96,7 +97,7 @@ type CpuSurface<'a> = (
     Option<&'a mut Fallback>,
 );
 
-/// Makes the meshes if the CPU is to tessellate, and removes them if not.
+/// Makes the meshes if the CPU tessellates, and removes them otherwise.
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are what it uses")]
 pub(crate) fn tessellate(
     mut commands: Commands,
@@ -168,7 +169,7 @@ pub(crate) fn tessellate(
     stats.set(triangles, 0);
 }
 
-/// As render/pipelines.rs.
+/// Whether a material needs tangents, as in render/pipelines.rs.
 fn wants_tangents(material: &StandardMaterial) -> bool {
     StandardMaterialKey::from(material).intersects(
         StandardMaterialKey::NORMAL_MAP
@@ -177,8 +178,8 @@ fn wants_tangents(material: &StandardMaterial) -> bool {
     )
 }
 
-/// Whether the camera sees nothing of a surface and its shadow; a mesh that it has is then as good
-/// as another.
+/// Whether the camera sees neither a surface nor its shadow; the surface then keeps its mesh, if it
+/// has one.
 fn is_unseen(surface: &Tessellated, eye: &Eye) -> bool {
     let Aabb { center, half_extents } = surface.shape.bounds();
     let corners =

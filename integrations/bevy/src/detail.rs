@@ -1,16 +1,16 @@
-//! How many segments an edge gets.
+//! The rules for the number of segments of an edge.
 
-/// How many segments an edge gets, 1 to 64, by the camera. Both patches of an edge get the same
-/// number.
+/// The rule for the factor of an edge, 1 to 64, which can depend on the camera. Both patches of an
+/// edge get the same factor.
 ///
-/// [`tess_surface::factors`] has the rules.
+/// For the formulas, see [`tess_surface::factors`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LevelOfDetail {
     /// The same factor everywhere.
     Uniform(f32),
     /// Segments of about this many pixels of the camera's picture.
     Pixels(f32),
-    /// This number divided by the distance from the camera to the edge's middle.
+    /// A factor of this number divided by the distance from the camera to the edge's midpoint.
     Distance(f32),
 }
 

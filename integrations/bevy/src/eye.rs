@@ -1,5 +1,4 @@
-//! The view of a surface, and its factors and culling on the CPU: `tess_edge` and `tess_is_unseen`
-//! of the WGSL in Rust.
+//! The view of a surface on the CPU, with the WGSL's `tess_edge` and `tess_is_unseen` in Rust.
 
 use crate::detail::LevelOfDetail;
 use bevy::ecs::prelude::*;
@@ -8,12 +7,12 @@ use bevy::math::{Affine3A, Mat4, Vec3, Vec4, Vec4Swizzles};
 use bevy::transform::components::GlobalTransform;
 use tess_surface::{culling, factors, glam};
 
-/// The lights that cast shadows. What is between them and the picture is not culled.
+/// The lights that cast shadows. Patches between them and the picture are not culled.
 #[derive(Clone, Debug, Default, Resource)]
 pub(crate) struct Casting {
-    /// Directions towards lights that are infinitely far.
+    /// Directions towards the directional lights.
     toward: Vec<Vec3>,
-    /// Whether there are others.
+    /// Whether there are point lights or spot lights.
     is_near: bool,
 }
 
@@ -30,7 +29,7 @@ pub(crate) fn find_casting(
 }
 
 impl Casting {
-    /// The planes of a camera's picture, without those beyond which a caster can be.
+    /// The planes of a camera's picture, without those beyond which a shadow caster can be.
     fn planes(&self, clip_from_world: Mat4) -> [Vec4; 6] {
         let [x, y, z, w] = [0, 1, 2, 3].map(|row| clip_from_world.row(row));
         [w + x, w - x, w + y, w - y, z, w - z].map(|plane| {
@@ -45,10 +44,11 @@ impl Casting {
 pub(crate) struct View {
     pub(crate) clip_from_world: Mat4,
     pub(crate) eye: Vec3,
-    /// Pixels of a length of 1 at distance 1; with an orthographic projection at any distance.
+    /// The size in pixels of a length of 1 at distance 1; with an orthographic projection, at any
+    /// distance.
     pub(crate) pixels_per_unit: f32,
     pub(crate) is_orthographic: bool,
-    /// By [`Casting::planes`].
+    /// The planes of [`Casting::planes`].
     pub(crate) planes: [Vec4; 6],
 }
 
@@ -111,7 +111,7 @@ impl Eye<'_> {
         }
     }
 
-    /// Whether the camera sees nothing of a ball in world space, nor of a shadow of it.
+    /// Whether the camera sees neither a ball in world space nor its shadow.
     #[must_use]
     pub fn is_unseen(&self, center: Vec3, radius: f32) -> bool {
         let plane_of = |plane: Vec4| glam::Vec4::from_array(plane.to_array());
@@ -120,7 +120,7 @@ impl Eye<'_> {
     }
 }
 
-/// The vector in the version of glam that tess-surface has.
+/// The vector in the version of glam that tess-surface uses.
 fn of_surface(v: Vec3) -> glam::Vec3 {
     glam::Vec3::from_array(v.to_array())
 }

@@ -25,7 +25,7 @@ pub struct HeightField {
     patches: UVec2,
     size: Vec3,
     colors: GroundColors,
-    /// And whether the heights are its.
+    /// The image, and whether the heights are already those of it.
     image: Option<(Handle<Image>, bool)>,
 }
 
@@ -33,11 +33,11 @@ pub struct HeightField {
 /// default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundColors {
-    /// Of low ground.
+    /// The colour of low ground.
     pub low: Vec3,
-    /// Of high ground.
+    /// The colour of high ground.
     pub high: Vec3,
-    /// Of steep ground.
+    /// The colour of steep ground.
     pub steep: Vec3,
 }
 
@@ -47,11 +47,11 @@ impl Default for GroundColors {
     }
 }
 
-/// Why there is no such height field.
+/// The reason why a height field cannot be made.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HeightFieldError {
-    /// The heights are no image.
+    /// The heights are not an image.
     Image(HeightError),
     /// A pixel of the image cannot be read.
     Unreadable {
@@ -60,7 +60,7 @@ pub enum HeightFieldError {
     },
     /// A pixel of the image is not grey.
     NotGrey {
-        /// Its place.
+        /// The pixel's place.
         at: UVec2,
     },
     /// There are no patches along a side, or more than [`HeightField::MOST_PATCHES`].
@@ -73,18 +73,18 @@ pub enum HeightFieldError {
 impl fmt::Display for HeightFieldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Image(error) => write!(f, "the heights are no image: {error}"),
+            Self::Image(error) => write!(f, "the heights are not an image: {error}"),
             Self::Unreadable { reason } => write!(
                 f,
                 "the image cannot be read: {reason}; load grey pixels of 8 or 16 bits or floats, in 2D, and keep them in \
                  RenderAssetUsages::MAIN_WORLD"
             ),
             Self::NotGrey { at } => {
-                write!(f, "the image is not grey: its pixel at {at} has unlike channels")
+                write!(f, "the image is not grey: the channels of its pixel at {at} differ")
             }
             Self::WrongPatches { got } => write!(
                 f,
-                "{} x {} patches; each side has 1 to {}; use several entities for more",
+                "{} x {} patches: each side must have 1 to {}; use several entities for more",
                 got.x,
                 got.y,
                 HeightField::MOST_PATCHES
@@ -95,15 +95,15 @@ impl fmt::Display for HeightFieldError {
 
 impl std::error::Error for HeightFieldError {}
 
-/// Words in front of the heights, put into `height_field.wgsl`.
+/// The number of words before the heights. It replaces HEADER in `height_field.wgsl`.
 const HEADER: usize = 20;
 
 impl HeightField {
-    /// The most patches along a side: up to here places in patches are exact.
+    /// The most patches along a side. Up to this number, places in patches are exact.
     pub const MOST_PATCHES: u32 = 256;
 
-    /// A field of `texels` heights, row by row along x, the first row at the least z. It is 1 unit
-    /// wide along x and z, 1 unit high where a height is 1, and has 16 x 16 patches.
+    /// Makes a field of `texels` heights, row by row along x, with the first row at the least z. It
+    /// is 1 unit wide along x and z, and 1 unit high where a height is 1. It has 16 x 16 patches.
     ///
     /// # Errors
     /// [`HeightFieldError::Image`].
@@ -119,9 +119,9 @@ impl HeightField {
         Ok(Self { texels, heights, range, patches, size: Vec3::ONE, colors, image: None })
     }
 
-    /// The same field, with the heights of a grey image once it is loaded, and again whenever it
-    /// changes: its [`AssetEvent`](bevy::asset::AssetEvent)s say so. Black is 0 and white 1,
-    /// whatever the colour space; floats are heights. Until then it has the heights that it has.
+    /// The same field, which takes the heights of a grey image once that is loaded, and again at
+    /// each [`AssetEvent`](bevy::asset::AssetEvent) that reports a change. Black is 0 and white 1,
+    /// in any colour space; floats are used as heights. Until then the field keeps its heights.
     #[must_use]
     pub fn with_image(mut self, image: Handle<Image>) -> Self {
         self.image = Some((image, false));
@@ -160,7 +160,7 @@ impl HeightField {
         self.raised(place, self.height(place))
     }
 
-    // The rest is height_field.wgsl in Rust, function by function.
+    // The other functions are those of height_field.wgsl in Rust, one by one.
 
     fn height(&self, place: Vec2) -> f32 {
         self.heights.height_at(glam::Vec2::from_array(place.to_array()))
@@ -212,7 +212,7 @@ impl HeightField {
     }
 }
 
-/// The function of WGSL.
+/// WGSL's function of this name.
 fn smoothstep(low: f32, high: f32, at: f32) -> f32 {
     let t = ((at - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
@@ -223,7 +223,7 @@ impl Shape for HeightField {
         Domain::Quad
     }
 
-    /// x times z points down.
+    /// The cross product of x and z points down.
     fn winding(&self) -> OutputPrimitive {
         OutputPrimitive::TriangleCcw
     }
@@ -283,7 +283,7 @@ fn heights(image: &Image) -> Result<Vec<f32>, HeightFieldError> {
             Color::Srgba(color) => color.to_f32_array(),
             color => color.to_linear().to_f32_array(),
         };
-        // NaN is not equal to itself, and named as what it is later.
+        // The bits are compared, because NaN is unequal to itself; `HeightMap::new` reports NaN.
         let is_grey = [green, blue].map(f32::to_bits) == [red.to_bits(); 2];
         if is_grey { Ok(red) } else { Err(HeightFieldError::NotGrey { at }) }
     };
@@ -330,7 +330,7 @@ mod tests {
         map.with_patches(UVec2::new(3, 2)).expect("six patches")
     }
 
-    /// The vertices of a patch where one coordinate is fixed.
+    /// The vertices of a patch along a line of its domain.
     fn edge(map: &HeightField, patch: u32, of: impl Fn(f32) -> [f32; 2]) -> Vec<ShapeVertex> {
         let points: Vec<_> = (0..=64_u8).map(|i| of(f32::from(i) / 64.0)).collect();
         let mut vertices = Vec::new();

@@ -1,4 +1,4 @@
-//! Shapes that are made of images: they follow when the image is loaded or changes.
+//! Updates shapes that are made of images, when the image is loaded or changes.
 
 use crate::component::Tessellated;
 use crate::shape::Shape;
@@ -9,7 +9,7 @@ use bevy::log::error;
 use bevy::platform::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// Gives entities the next shape of their image. Those that shared a shape share the next.
+/// Gives entities the new shape of their image. Entities that shared a shape share the new one.
 pub(crate) fn follow(
     images: Res<Assets<Image>>,
     mut events: MessageReader<AssetEvent<Image>>,

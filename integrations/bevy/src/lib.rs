@@ -73,7 +73,7 @@ impl Plugin for TessPlugin {
     }
 }
 
-/// Gives new surfaces the boxes that Bevy culls them by.
+/// Gives new surfaces the boxes by which Bevy culls them.
 fn set_bounds(mut commands: Commands, new: Query<(Entity, &Tessellated), Changed<Tessellated>>) {
     for (entity, tessellated) in &new {
         let bounds: Aabb = tessellated.shape.bounds();
@@ -81,7 +81,8 @@ fn set_bounds(mut commands: Commands, new: Query<(Entity, &Tessellated), Changed
     }
 }
 
-/// Whether the CPU tessellates: the user wants it, or the device lacks what compute needs.
+/// Whether the CPU tessellates, because the user wants it or the device cannot run the compute
+/// shaders.
 pub(crate) fn is_on_cpu(settings: &TessSettings, device: Option<&RenderDevice>) -> bool {
     let Some(device) = device else { return true };
     let limits = device.limits();

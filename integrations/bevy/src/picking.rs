@@ -1,4 +1,5 @@
-//! Bevy's picking: rays hit what the CPU makes of a shape's functions.
+//! Bevy's picking: rays are tested against triangles that the CPU makes with a shape's Rust
+//! functions.
 
 use crate::component::{TessValues, Tessellated};
 use crate::cpu::Tessellators;
@@ -22,7 +23,7 @@ use bevy::transform::components::GlobalTransform;
 use std::sync::Arc;
 use tess_core::{Config, Partitioning, PatchFactors};
 
-/// The factor of the triangles that rays are tried with.
+/// The factor of the triangles against which rays are tested.
 const FACTOR: f32 = 16.0;
 
 /// Domain points and triangles of a patch.
@@ -32,7 +33,8 @@ struct Grid {
     indices: Vec<u32>,
 }
 
-/// The boxes of an entity's patches, in local space. They hold the triangles of its [`Grid`]s.
+/// The boxes of an entity's patches, in local space. A box encloses the triangles of the patch's
+/// [`Grid`].
 #[derive(Debug)]
 pub(crate) struct Boxes {
     shape: Arc<dyn Shape>,
@@ -49,7 +51,7 @@ type PickedSurface<'a> = (
     Option<&'a Pickable>,
 );
 
-/// Tells Bevy which surfaces are under the pointers.
+/// Reports to Bevy the surfaces under the pointers.
 pub(crate) fn pick(
     rays: Res<RayMap>,
     cameras: Query<(&Camera, &GlobalTransform, Option<&RenderLayers>)>,
@@ -98,7 +100,7 @@ pub(crate) fn pick(
     }
 }
 
-/// Every patch of a surface as triangles of equal size.
+/// The grid that all patches of a surface share.
 fn grid(surface: &Tessellated, tessellators: &mut Tessellators) -> Grid {
     let config = Config::new(Partitioning::Integer, surface.shape.winding());
     let factors = [PatchFactors::uniform(surface.shape.domain(), FACTOR)];
@@ -128,8 +130,9 @@ fn boxes(surface: &Tessellated, shape: &dyn CpuShape, eye: &Eye<'_>, grid: &Grid
     (0..surface.shape.patches()).map(of).collect()
 }
 
-/// The nearest place that a ray hits in front of a surface, and the normal there, in world space.
-/// The place is on the surface, at the domain point where the ray hits a triangle of the grid.
+/// The nearest place at which a ray hits the front of a surface, and the normal there, in world
+/// space. The place is on the surface itself, at the domain point where the ray hits a triangle of
+/// the grid.
 fn hit(
     shape: &dyn CpuShape,
     eye: &Eye<'_>,

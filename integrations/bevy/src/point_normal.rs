@@ -1,4 +1,4 @@
-//! Meshes of triangles with normals, rounded.
+//! Meshes of triangles with normals, which are drawn rounded.
 
 use crate::eye::Eye;
 use crate::shape::{CpuShape, Shape, ShapeVertex};
@@ -20,24 +20,24 @@ pub struct PointNormalMesh {
     triangles: Vec<[u32; 3]>,
 }
 
-/// Why there is no such mesh.
+/// The reason why a mesh cannot be made.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PointNormalError {
-    /// There is not one normal for each position.
+    /// The numbers of positions and normals differ.
     WrongNormals {
-        /// Positions that there are.
+        /// The number of positions.
         positions: usize,
-        /// Normals that there are.
+        /// The number of normals.
         normals: usize,
     },
-    /// A triangle has a corner that is not there.
+    /// A triangle uses a corner that does not exist.
     NoSuchCorner {
         /// Number of the triangle.
         triangle: usize,
         /// Number of the corner.
         corner: u32,
-        /// Corners that there are.
+        /// The number of corners.
         corners: usize,
     },
     /// A position or a normal is NaN or infinite.
@@ -55,12 +55,12 @@ impl fmt::Display for PointNormalError {
             Self::WrongNormals { positions, normals } => {
                 write!(
                     f,
-                    "there are {positions} positions and {normals} normals; give as many of both"
+                    "there are {positions} positions, but {normals} normals; give one normal for each position"
                 )
             }
             Self::NoSuchCorner { triangle, corner, corners } => write!(
                 f,
-                "triangle {triangle} has corner {corner}, and there are {corners}, numbered from 0"
+                "triangle {triangle} uses corner {corner}, but there are {corners}, numbered from 0"
             ),
             Self::NotFinite { corner } => {
                 write!(f, "corner {corner} is not finite; replace NaN and infinities")
@@ -81,11 +81,11 @@ impl PointNormalMesh {
         [surfaces::BEZIER, surfaces::POINT_NORMAL, surfaces::PN_TRIANGLE, own].join("\n")
     }
 
-    /// A mesh of corners with unit normals, and triangles that are counter-clockwise as seen from
-    /// outside.
+    /// Makes a mesh of corners with unit normals, and of triangles that are counter-clockwise as
+    /// seen from outside.
     ///
     /// # Errors
-    /// [`PointNormalError`] for what is missing.
+    /// [`PointNormalError`] if the corners, normals and triangles are not a mesh.
     pub fn new(
         positions: &[[f32; 3]],
         normals: &[[f32; 3]],
@@ -117,7 +117,7 @@ impl PointNormalMesh {
         PnCorner { position: position.into(), normal: normal.into() }
     }
 
-    /// The factors of a triangle by the entity's rule, as `pn_factors` of the WGSL.
+    /// The factors of a triangle by the entity's rule, as `pn_factors` of the WGSL computes them.
     #[must_use]
     pub fn factors_of(&self, patch: u32, eye: &Eye) -> TriangleFactors {
         let [a, b, c] = [0, 1, 2].map(|k| {
@@ -129,7 +129,8 @@ impl PointNormalMesh {
         TriangleFactors { u0, v0, w0, inside: inside_triangle(edges) }
     }
 
-    /// Positions and normals at domain points of a triangle, as `pn_point` of the WGSL.
+    /// Positions and normals at domain points of a triangle, as `pn_point` of the WGSL computes
+    /// them.
     #[must_use]
     pub fn points_of(&self, patch: u32, points: &[[f32; 2]]) -> Vec<[Vec3; 2]> {
         let corners = [0, 1, 2].map(|k| self.corner(patch, k));

@@ -1,4 +1,4 @@
-//! Programs: what entities must have in common to be tessellated in one call, and their shaders.
+//! Programs: the shaders of all entities that are tessellated in one call.
 
 use crate::component::Tessellated;
 use bevy::asset::{AssetServer, Assets, Handle};
@@ -14,12 +14,12 @@ const TYPES: &str = include_str!("../shaders/types.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
 const PROJECT: &str = include_str!("../shaders/project.wgsl");
 const PREPASS: &str = include_str!("../shaders/prepass.wesl");
-/// [`PROJECT`] where there is no pass of Bevy's.
+/// [`PROJECT`] for the compute pass, which is not a pass of Bevy's.
 const PROJECT_OF_HULL: &str = "fn tess_project(world: vec3<f32>) -> vec4<f32> {
     return tess_camera.clip_from_world * vec4<f32>(world, 1.0);
 }";
 const FRAGMENT: &str = include_str!("../shaders/fragment.wesl");
-/// Bevy's items that fragment.wesl uses, in one line in front of the shape's first.
+/// Bevy's items that fragment.wesl uses, in one line before the shape's first line.
 const IMPORTS: &str = "import bevy_pbr::render::pbr_types as tess_pbr_types; \
                        import bevy_pbr::render::pbr_functions as tess_pbr_functions; \
                        import bevy_pbr::render::pbr_fragment as tess_pbr_fragment; \
@@ -29,10 +29,10 @@ const IMPORTS: &str = "import bevy_pbr::render::pbr_types as tess_pbr_types; \
 
 /// The plugin's bind group in the stage's compute pass.
 const HULL_GROUP: &str = "0";
-/// The plugin's bind group in the render pass, in the place of Bevy's group for meshes.
+/// The plugin's bind group in the render pass, in place of Bevy's group for meshes.
 pub(crate) const DRAW_GROUP: usize = 2;
 
-/// Properties that the entities of one call share.
+/// The properties that all entities of one call share.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Key {
     pub(crate) domain: Domain,
@@ -58,7 +58,7 @@ impl Key {
         format!("{}\n{own}", self.surface)
     }
 
-    /// Source of the stage's hull pass.
+    /// The source of the stage's hull pass.
     pub(crate) fn hull_source(&self) -> String {
         self.joined(PROJECT_OF_HULL, HULL_GROUP)
     }
@@ -71,7 +71,7 @@ impl Key {
     }
 }
 
-/// The text comes before the plugin's, with imports in front.
+/// The fragment shader of a text: the imports, the text, and then the plugin's WESL.
 fn fragment_shader(text: &str, name: &str) -> Shader {
     let own = [TYPES, FRAGMENT].join("\n").replace("TESS_GROUP", &DRAW_GROUP.to_string());
     Shader::from_wesl(format!("{IMPORTS}{text}\n{own}"), format!("bevy_tess/{name}.wesl"))
@@ -118,9 +118,9 @@ impl FromWorld for Programs {
 }
 
 impl Programs {
-    /// Whether all of Bevy's modules are loaded that the shaders import, and those that these
-    /// modules import. Bevy loads some modules later than others, and warns of a shader that is
-    /// compiled before.
+    /// Whether all of Bevy's modules are loaded that the shaders import, directly or through other
+    /// modules. Bevy loads some modules later than others, and warns of a shader that is compiled
+    /// too early.
     pub(crate) fn are_ready(&self, server: &AssetServer, shaders: &Assets<Shader>) -> bool {
         let own = self.all.values().map(|program| &program.fragment).chain([&self.prepass]);
         let mut imports: Vec<&ShaderImport> = Vec::new();
@@ -132,7 +132,8 @@ impl Programs {
         while let Some(import) = imports.pop() {
             for module in modules_of(import).filter(|module| seen.insert(*module)) {
                 let file = format!("embedded://{}.wesl", module.replace("::", "/"));
-                // Nobody loads a module of a feature that is off, nor an item.
+                // Bevy does not load a module of a feature that is off, and an item is not a
+                // module.
                 let Some(handle) = server.get_handle::<Shader>(file) else { continue };
                 let Some(shader) = shaders.get(&handle) else { return false };
                 imports.extend(&shader.imports);
@@ -146,7 +147,7 @@ impl Programs {
     }
 }
 
-/// Finds the program of entities that are new or changed, and makes its shaders if it is new too.
+/// Finds the program of each new or changed entity, and makes the shaders of a program that is new.
 pub(crate) fn register(
     mut programs: ResMut<Programs>,
     mut shaders: ResMut<Assets<Shader>>,

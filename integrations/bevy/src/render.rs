@@ -1,4 +1,4 @@
-//! The render world: extraction, one stage for each camera and program, draws.
+//! The plugin's part in the render world: extraction, one stage for each camera and program, draws.
 
 mod content;
 mod draw;

@@ -1,4 +1,4 @@
-//! Shapes: their patches, their WGSL, and the Rust form of it.
+//! Shapes: their patches, their WGSL, and its Rust form.
 
 use crate::eye::Eye;
 use bevy::asset::Handle;
@@ -13,15 +13,16 @@ use tess_core::{Domain, OutputPrimitive, PatchFactors};
 /// The default fragment shader: Bevy's lighting of the entity's material.
 pub const DEFAULT_FRAGMENT: &str = include_str!("../shaders/default_fragment.wesl");
 
-/// Patches and the functions that make a surface of them.
+/// Patches, and the functions that make them a surface.
 ///
 /// Entities whose shapes have the same texts, domain and winding are tessellated in one call.
 pub trait Shape: Debug + Send + Sync + 'static {
     /// The domain of the patches: [`Domain::Quad`] or [`Domain::Triangle`].
     fn domain(&self) -> Domain;
 
-    /// Which triangles face outwards: [`OutputPrimitive::TriangleCw`] if the derivative by u times
-    /// that by v does, [`OutputPrimitive::TriangleCcw`] if it points inwards.
+    /// The winding of triangles that face outwards: [`OutputPrimitive::TriangleCw`] if the cross
+    /// product of the derivatives by u and by v points outwards, [`OutputPrimitive::TriangleCcw`]
+    /// if it points inwards.
     fn winding(&self) -> OutputPrimitive {
         OutputPrimitive::TriangleCw
     }
@@ -33,8 +34,8 @@ pub trait Shape: Debug + Send + Sync + 'static {
     fn bounds(&self) -> Aabb;
 
     /// WGSL with `fn hull(number: u32) -> QuadFactors` (or `TriFactors`) and
-    /// `fn domain(number: u32, uv: vec2<f32>) -> Vertex`. It may call what the README lists, and
-    /// declares no name that begins with `tess_`.
+    /// `fn domain(number: u32, uv: vec2<f32>) -> Vertex`. It may call the functions in [the crate's
+    /// table](crate#functions-of-your-own), and must not declare names that begin with `tess_`.
     fn surface(&self) -> Cow<'static, str>;
 
     /// WESL with one `@fragment` function of a `Vertex`; it may import from Bevy.
@@ -42,26 +43,26 @@ pub trait Shape: Debug + Send + Sync + 'static {
         Cow::Borrowed(DEFAULT_FRAGMENT)
     }
 
-    /// The words that `surface` reads with `tess_uint` and `tess_float`. They are uploaded once; a
-    /// shape that changes is another shape, or has [`TessValues`](crate::TessValues).
+    /// The words that `surface` reads with `tess_uint` and `tess_float`. They are uploaded once. To
+    /// change a surface, give the entity another shape, or use [`TessValues`](crate::TessValues).
     fn words(&self) -> Vec<u32>;
 
-    /// The image that it is made of, and whether it has been. [`Self::of_image`] is called when the
-    /// image is loaded and whenever it changes.
+    /// The image that the shape is made of, and whether the shape already has its contents.
+    /// [`Self::of_image`] is called when the image is loaded and whenever it changes.
     fn image(&self) -> Option<(&Handle<Image>, bool)> {
         None
     }
 
-    /// The same shape of its image as that is now.
+    /// The same shape with the present contents of its image.
     ///
     /// # Errors
-    /// The fault of the image; the shape then stays as it is.
+    /// The reason why the image cannot be used; the entity then keeps its shape.
     fn of_image(&self, _: &Image) -> Result<Arc<dyn Shape>, BevyError> {
         Err("the shape is not made of an image".into())
     }
 
-    /// The Rust form of `hull` and `domain`, for devices without compute. Without it the shape is
-    /// not drawn there, and the log says so.
+    /// The Rust form of `hull` and `domain`, for picking and for devices without compute shaders.
+    /// If there is none, the shape is not drawn on such a device, and the log says so.
     fn on_cpu(&self) -> Option<&dyn CpuShape> {
         None
     }
@@ -86,6 +87,6 @@ pub struct ShapeVertex {
     pub normal: [f32; 3],
     /// Its texture coordinates.
     pub uv: [f32; 2],
-    /// A linear colour, which multiplies the material's.
+    /// A linear colour, by which the material's is multiplied.
     pub color: [f32; 4],
 }

@@ -39,7 +39,7 @@ impl Show for Batch {
             source: DRAW,
             read: None,
             meshes: &[],
-            // The underside is not drawn, so a crack shows the background through it.
+            // The underside is not drawn, so the background shows through a crack.
             cull: Some(wgpu::Face::Back),
         };
         let wrong = args.number("wrong", u32::MAX)?;
@@ -83,7 +83,7 @@ struct Compute {
 }
 
 impl Compute {
-    /// One of `threads` threads in workgroups of 64, over `buffers` as bindings 0, 1, ... of
+    /// A pass of `threads` threads in workgroups of 64, with `buffers` as bindings 0, 1, ... of
     /// group 0.
     fn new(
         gpu: &Gpu,

@@ -1,4 +1,4 @@
-// Packed domain points to displaced, shaded terrain.
+// Draws packed domain points as a displaced, shaded terrain.
 
 const GRID = 32u;
 const CAMERA = vec3<f32>(16.0, 7.0, 4.0);

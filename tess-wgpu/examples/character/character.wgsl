@@ -21,7 +21,7 @@ fn corner(number: u32, k: u32) -> PnCorner {
     return corners[triangles[number][k]];
 }
 
-// Fine enough for the curve, and for pixels.
+// The greater of the factors by curvature and by size on the screen.
 fn edge(a: PnCorner, b: PnCorner) -> f32 {
     let curved = tess_edge_by_curvature(a.position, a.normal, b.position, b.normal, 0.002);
     let size = tess_edge_by_screen_size(a.position, b.position, frame.eye, frame.pixels_per_unit, 5.0);
@@ -39,7 +39,7 @@ fn rounded(number: u32, uv: vec2f) -> PnPoint {
     return pn_triangle_point(corner(number, 0u), corner(number, 1u), corner(number, 2u), uv);
 }
 
-// How far a place is displaced: wool. It depends on the place alone, so that edges stay closed.
+// The displacement of a place, which looks like wool. It depends only on the place, so that edges stay closed.
 fn height(at: vec3f) -> f32 {
     let p = 27.0 * at;
     return 0.014 * (sin(p.x) * sin(p.y + 0.7 * sin(p.z)) + 0.6 * sin(1.7 * p.z + p.x) * cos(1.9 * p.y));

@@ -1,4 +1,4 @@
-//! The model: a toy animal, made as a glTF file in memory and read from it.
+//! The model: a toy animal, which is written as a glTF file in memory and read back.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -115,7 +115,7 @@ fn smooth(mesh: &mut Mesh) {
     }
 }
 
-/// The mean normal of the triangles around each corner, larger ones counting for more.
+/// The mean normal of the triangles around each corner, weighted by area.
 fn normals(mesh: &Mesh) -> Vec<[f32; 3]> {
     let mut sums = vec![Vec3::ZERO; mesh.positions.len()];
     for &triangle in &mesh.triangles {
@@ -162,8 +162,8 @@ pub(crate) fn write(mesh: &Mesh) -> String {
     file.to_string()
 }
 
-/// The first mesh of a glTF file as [`write`] writes it: one buffer inside, positions, normals and
-/// 32-bit indices.
+/// The first mesh of a glTF file of the form that [`write`] writes: with one embedded buffer,
+/// positions, normals and 32-bit indices.
 pub(crate) fn read(text: &str) -> Result<Mesh, Box<dyn Error>> {
     let file: Value = serde_json::from_str(text)?;
     let uri = file["buffers"][0]["uri"].as_str().ok_or("the file has no buffer inside")?;

@@ -25,7 +25,7 @@ impl Show for Character {
             None => gltf::write(&gltf::animal()),
         };
         let mesh = gltf::read(&text)?;
-        // Position and normal of each corner, with a word to spare behind each.
+        // Position and normal of each corner, each followed by an unused word.
         let corner =
             |(p, n): (&[f32; 3], &[f32; 3])| [p[0], p[1], p[2], 0.0, n[0], n[1], n[2], 0.0];
         let corners: Vec<_> = mesh.positions.iter().zip(&mesh.normals).map(corner).collect();

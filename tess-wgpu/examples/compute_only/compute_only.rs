@@ -1,4 +1,4 @@
-//! Patches in, points and indices out: see README.md beside this file.
+//! Patches in, points and indices out: see README.md in this folder.
 
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, TriangleFactors};

@@ -1,4 +1,4 @@
-// The colour of the mesh that is drawn.
+// The colour of the drawn mesh.
 
 @group(1) @binding(0) var<uniform> colour: vec4f;
 

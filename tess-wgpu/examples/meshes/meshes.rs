@@ -1,4 +1,4 @@
-//! The patches of all meshes in one buffer, one batch in groups, one draw for each group.
+//! One buffer with the patches of all meshes, one batch in groups, and one draw for each group.
 
 use crate::app::{Args, Frame, Show};
 use crate::scene::{Drawn, Mesh, Scene};
@@ -9,13 +9,13 @@ use tess_gpu::surfaces;
 use tess_wgpu::Gpu;
 use wgpu::BufferUsages as Usage;
 
-/// Where each teapot stands, and its colour.
+/// The place and the colour of each teapot.
 const TEAPOTS: [([f32; 3], [f32; 4]); 3] = [
     ([-1.9, -0.6, 0.2], [0.80, 0.15, 0.10, 1.0]),
     ([0.3, 1.4, 0.9], [0.10, 0.60, 0.15, 1.0]),
     ([2.3, -0.4, 0.2], [0.10, 0.20, 0.80, 1.0]),
 ];
-/// How large a teapot is, 1 in the example `teapot`.
+/// The size of a teapot, which is 1 in the example `teapot`.
 const SCALE: f32 = 0.45;
 
 /// The control nets of all teapots, one after another.
@@ -56,7 +56,7 @@ impl Show for Meshes {
             source: &source.join("\n"),
             read: Some(&nets),
             meshes: &meshes,
-            // One sees into the spouts.
+            // Both sides are drawn, because the inside of the spouts is visible.
             cull: None,
         };
         Ok(Self(Drawn::new(gpu, format, &scene)?))

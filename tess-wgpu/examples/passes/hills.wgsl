@@ -1,7 +1,7 @@
 // 8 x 8 patches of hills, each 1 wide, for two cameras and the sun.
 
 struct Frame {
-    // The left camera, the right one, the sun.
+    // For the left camera, the right one, and the sun.
     clip_from_world: array<mat4x4f, 3>,
     toward_sun: vec4f,
 }
@@ -24,7 +24,7 @@ fn height(at: vec2f) -> f32 {
 
 fn hull(number: u32) -> QuadFactors {
     let middle = vec3f(f32(number % 8u) + 0.5, f32(number / 8u) + 0.5, 1.0);
-    // Culled if nobody sees it. What one camera does not see can cast a shadow that it sees.
+    // Culled only if no camera and no shadow map sees it: a patch outside a picture can cast a shadow into it.
     if tess_is_outside(frame.clip_from_world[0], middle, 1.8)
         && tess_is_outside(frame.clip_from_world[1], middle, 1.8)
         && tess_is_outside(frame.clip_from_world[2], middle, 1.8) {
@@ -39,7 +39,7 @@ fn domain(number: u32, uv: vec2f) -> Vertex {
     return Vertex(vec4f(world, 1.0), world);
 }
 
-// Who looks: each pass calls one of these for every vertex.
+// The cameras and the sun: each pass calls one of these functions for every vertex.
 
 fn left(vertex: Vertex) -> Vertex {
     return Vertex(frame.clip_from_world[0] * vertex.position, vertex.world);
@@ -65,7 +65,7 @@ fn shade(vertex: Vertex) -> @location(0) vec4f {
     return vec4f(vec3f(0.55, 0.62, 0.40) * (0.3 + 0.7 * toward * lit), 1.0);
 }
 
-// Only depth, in a pass that has a colour target.
+// Draws only depth, in a pass that has a colour target.
 @fragment
 fn nothing() -> @location(0) vec4f {
     return vec4f();

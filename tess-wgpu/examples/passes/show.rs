@@ -12,7 +12,7 @@ use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::{BufferUsages as Usage, CompareFunction as Compare};
 
 const PATCHES: u32 = 8 * 8;
-/// Pixels across and down the shadow map.
+/// The width and height of the shadow map in pixels.
 const SHADOWS: u32 = 2048;
 
 /// The direction of the sun.
@@ -20,14 +20,14 @@ pub(crate) fn toward_sun() -> Vec3 {
     Vec3::new(0.62, -0.45, 0.35).normalize()
 }
 
-/// The cameras, for pictures of this width over height.
+/// The cameras, for pictures of this aspect ratio (width over height).
 pub(crate) fn cameras(aspect: f32) -> [Mat4; 2] {
     let target = Vec3::new(4.0, 4.0, 0.2);
     [Vec3::new(4.0, -6.0, 5.0), Vec3::new(-4.5, 1.0, 4.0)]
         .map(|eye| Camera { eye, target, up: Vec3::Z, zoom: 1.7 }.clip_from_world(aspect))
 }
 
-/// The sun's, which sees all of the hills.
+/// The sun's camera, which sees all of the hills.
 fn sun() -> Mat4 {
     let away = -toward_sun();
     let right = away.cross(Vec3::Z).normalize();
@@ -40,7 +40,7 @@ fn sun() -> Mat4 {
 /// The stages: the first is prepared, and the others draw its output.
 pub(crate) struct Passes {
     into_shadows: TessellationStage,
-    /// For the left and the right camera: depth alone, unless `--prepass off`, then colour.
+    /// For the left and the right camera: first only depth, unless `--prepass off`, then colour.
     cameras: [Vec<TessellationStage>; 2],
     frame: wgpu::Buffer,
     shadows: wgpu::TextureView,
@@ -48,8 +48,8 @@ pub(crate) struct Passes {
 }
 
 impl Show for Passes {
-    /// `--prepass off` leaves out the passes of depth alone; `--points stored` calls `domain` in
-    /// each pass.
+    /// `--prepass off` leaves out the depth-only passes; `--points stored` calls `domain` in each
+    /// pass.
     fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>> {
         let frame = gpu.buffer("frame", 208, Usage::UNIFORM | Usage::COPY_DST)?;
         let (layout, group) = bind(gpu, &[Bound::Uniform(&frame)]);
@@ -93,7 +93,7 @@ impl Show for Passes {
             [left, right, sun()].iter().flat_map(Mat4::to_cols_array).collect();
         words.extend(toward_sun().extend(0.0).to_array());
         frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        // Once, for all passes that follow.
+        // Once for all later passes.
         self.into_shadows.prepare(frame.encoder, PATCHES)?;
         let depth_ops =
             wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store };

@@ -1,4 +1,4 @@
-// 8 x 8 patches of hills, each 1 wide, and a red ring around the place that was picked.
+// 8 x 8 patches of hills, each 1 wide, and a red ring around the picked place.
 
 struct Vertex {
     // In the world after `domain`, in clip space after `seen`.
@@ -10,7 +10,7 @@ struct Vertex {
 struct Frame {
     clip_from_world: mat4x4f,
     eye: vec4f,
-    // From the eye through the pixel that is picked.
+    // From the eye through the picked pixel.
     direction: vec4f,
 }
 

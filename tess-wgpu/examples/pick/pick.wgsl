@@ -1,4 +1,4 @@
-// Finds the nearest triangle on a ray: a thread for each triangle of the stage's vertices and indices. The structs
+// Finds the nearest triangle on a ray, with a thread for each triangle of the stage's vertices and indices. The structs
 // `Vertex` and `Frame` of hills.wgsl come before this text.
 
 struct Nearest {
@@ -24,7 +24,7 @@ struct Draw {
 
 const NOTHING = 0xffffffffu;
 
-// The bits of the distance at which the ray hits a triangle. Bits of positive floats are ordered as the floats are.
+// The bits of the distance at which the ray hits a triangle. The bits of positive floats have the order of the floats.
 fn hit(triangle: u32) -> u32 {
     if 3u * triangle >= draw.indices {
         return NOTHING;
@@ -55,7 +55,7 @@ fn find(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) workg
     }
 }
 
-// Of the triangles at that distance, the one of the least number.
+// The least number of a triangle at that distance.
 @compute @workgroup_size(64)
 fn take(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) workgroups: vec3u) {
     let triangle = number_of(id, workgroups);
@@ -65,7 +65,7 @@ fn take(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) workg
     }
 }
 
-// Its corners, with all that `domain` returned for them.
+// The triangle's corners, as `domain` returned them.
 @compute @workgroup_size(3)
 fn copy_corners(@builtin(local_invocation_index) corner: u32) {
     let triangle = atomicLoad(&nearest.triangle);

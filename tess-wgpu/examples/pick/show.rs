@@ -1,4 +1,4 @@
-//! Hills, and the place of them that a pixel shows, found on the device and read back.
+//! Hills, and the place of them that a pixel shows, which is found on the device and read back.
 
 use crate::app::{self, Args, Frame, Show};
 use crate::bindings::{Bound, bind};
@@ -12,7 +12,7 @@ use wgpu::BufferUsages as Usage;
 
 const PATCHES: u32 = 8 * 8;
 const WGSL: &str = include_str!("hills.wgsl");
-/// Triangles of the hills: 64 patches of factor 16.
+/// The number of triangles of the hills: 64 patches of factor 16.
 const TRIANGLES: u32 = 64 * 512;
 
 /// As `Picked` of hills.wgsl.
@@ -43,8 +43,8 @@ pub(crate) fn camera() -> Camera {
     Camera { eye, target, up: Vec3::Z, zoom: 2.2 }
 }
 
-/// The direction from the eye through a place of the picture, from (0, 0) at its left and upper end
-/// to (1, 1).
+/// The direction from the eye through a place of the picture. Places run from (0, 0) at the upper
+/// left to (1, 1).
 pub(crate) fn direction(camera: &Camera, at: Vec2, aspect: f32) -> Vec3 {
     let forward = (camera.target - camera.eye).normalize_or(Vec3::Z);
     let right = forward.cross(camera.up).normalize_or(Vec3::X);
@@ -89,7 +89,7 @@ impl Show for Pick {
         words.extend(camera.eye.extend(1.0).to_array());
         words.extend(direction(&camera, self.at, aspect).extend(0.0).to_array());
         frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        // Nothing is hit so far.
+        // Nothing has been hit yet.
         frame.gpu.queue.write_buffer(&self.picked, 0, &[0xff; 8]);
         self.stage.prepare(frame.encoder, PATCHES)?;
         self.find(frame.gpu, frame.encoder)
@@ -116,8 +116,8 @@ impl Show for Pick {
 }
 
 impl Pick {
-    /// Records the passes over the stage's vertices and indices. A later frame may have other
-    /// buffers.
+    /// Records the passes over the stage's vertices and indices. They are bound in each frame,
+    /// because a later frame may have other buffers.
     fn find(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Result<(), Box<dyn Error>> {
         let vertices = self.stage.vertices().ok_or("vertices are stored")?;
         let indices = self.stage.indices().ok_or("indices are stored")?;
@@ -134,7 +134,7 @@ impl Pick {
         Ok(())
     }
 
-    /// The triangle that was found, after the frame has run.
+    /// The found triangle, after the frame has run.
     pub(crate) fn picked(&self, gpu: &Gpu) -> Result<Option<Picked>, tess_wgpu::Error> {
         let bytes = gpu.read(&self.picked, PICKED_BYTES)?;
         let picked: Picked = bytemuck::pod_read_unaligned(&bytes);

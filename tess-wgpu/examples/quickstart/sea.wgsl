@@ -4,7 +4,7 @@ struct Frame {
     clip_from_world: mat4x4f,
     eye: vec3f,
     seconds: f32,
-    // Pixels that a length of 1 has at distance 1.
+    // The size in pixels of a length of 1 at distance 1.
     pixels_per_unit: f32,
 }
 
@@ -15,7 +15,7 @@ struct Vertex {
     @location(0) world: vec3f,
 }
 
-// A point of the sea, the same whichever patch asks.
+// A point of the sea, which is the same for both patches of an edge.
 fn wave(at: vec2f) -> vec3f {
     let t = 1.3 * frame.seconds;
     let height = 0.16 * sin(1.7 * at.x + 0.6 * at.y + t) + 0.09 * sin(2.9 * at.y - 1.3 * at.x + 1.6 * t)

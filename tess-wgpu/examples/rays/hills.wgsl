@@ -1,4 +1,4 @@
-// The stage's functions; shading.wgsl comes before this text.
+// The functions of the stage. shading.wgsl comes before this text.
 
 fn hull(number: u32) -> QuadFactors {
     return tess_quad_factors(vec4f(16.0));

@@ -1,9 +1,9 @@
 enable wgpu_ray_query;
 
-// Hills in the sun. Whether a place is in shadow is asked of the traced scene.
+// Hills in the sun. A ray through the traced scene decides whether a place is in shadow.
 
 struct Vertex {
-    // In the world after `domain`: where a structure to trace looks for it. In clip space after `seen`.
+    // In the world after `domain`, where the acceleration structure reads it; in clip space after `seen`.
     @builtin(position) position: vec4f,
     @location(0) world: vec3f,
 }
@@ -29,7 +29,7 @@ fn height(at: vec2f) -> f32 {
 fn is_lit(world: vec3f, normal: vec3f) -> bool {
     var ray: ray_query;
     let origin = world + 0.01 * normal;
-    // Flag 4: any hit will do.
+    // Flag 4: the query ends at the first hit.
     rayQueryInitialize(&ray, scene, RayDesc(4u, 0xffu, 0.0, 100.0, origin, frame.toward_sun.xyz));
     rayQueryProceed(&ray);
     return rayQueryGetCommittedIntersection(&ray).kind == RAY_QUERY_INTERSECTION_NONE;

@@ -1,4 +1,4 @@
-//! Hills whose shadows are traced through the triangles that are drawn.
+//! Hills whose shadows are traced through the drawn triangles.
 
 use crate::app::{self, Args, DEPTH, Frame, Show};
 use crate::bindings::{Bound, bind, group, layout};
@@ -14,11 +14,11 @@ use wgpu::{BindingResource, BindingType, BufferUsages as Usage, ShaderStages};
 const PATCHES: u32 = 8 * 8;
 const SHADING: &str = include_str!("shading.wgsl");
 
-/// Channels of a pixel may differ by this: a ray meets a triangle where the rasteriser
-/// interpolates, up to rounding.
+/// The most by which channels of a pixel may differ. A ray meets a triangle where the rasteriser
+/// interpolates, except for rounding.
 const CHANNEL: i16 = 12;
 
-/// Draws into the file of `--screenshot`, and prints how the picture by primary rays differs.
+/// Draws into the file of `--screenshot`, and prints how much the picture by primary rays differs.
 pub(crate) fn run(args: &Args) -> Result<(), Box<dyn Error>> {
     let path = args.text("screenshot").ok_or("rays draws into a file: --screenshot FILE")?;
     let gpu = pollster::block_on(open())?;
@@ -46,7 +46,7 @@ async fn open() -> Result<Gpu, Box<dyn Error>> {
     }
     let descriptor = wgpu::DeviceDescriptor {
         required_features: rays,
-        // The default limits have no structures at all.
+        // The default limits allow no acceleration structures.
         required_limits: adapter.limits(),
         experimental_features: experimental(),
         ..Default::default()
@@ -58,12 +58,12 @@ async fn open() -> Result<Gpu, Box<dyn Error>> {
 /// wgpu's token for features that may have bugs.
 #[expect(unsafe_code, reason = "wgpu asks for it where a feature is experimental")]
 fn experimental() -> wgpu::ExperimentalFeatures {
-    // SAFETY: wgpu's demand is that whoever calls this accepts that ray queries may have bugs. They
-    // are the subject here, and the example uses them as wgpu's documentation shows.
+    // SAFETY: wgpu demands that the caller accepts bugs in ray queries. This example needs them,
+    // and uses them as wgpu's documentation shows.
     unsafe { wgpu::ExperimentalFeatures::enabled() }
 }
 
-/// The stage, the structure to trace, and the pipeline of primary rays.
+/// The stage, the acceleration structure, and the pipeline of primary rays.
 pub(crate) struct Rays {
     stage: TessellationStage,
     frame: wgpu::Buffer,
@@ -131,8 +131,7 @@ impl Show for Rays {
             words.extend(vector.extend(0.0).to_array());
         }
         frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        // The hills stand still: they were prepared once, and the structure is that of their
-        // triangles.
+        // The hills do not move: they are prepared once, and the structure holds their triangles.
         Ok(())
     }
 
@@ -159,7 +158,7 @@ fn build(
     stage: &mut TessellationStage,
     mut tlas: wgpu::Tlas,
 ) -> Result<(wgpu::Blas, wgpu::Tlas), Box<dyn Error>> {
-    // The stage's passes bind the scene too, so an empty one is built first.
+    // The stage's passes bind the scene too, so an empty structure is built first.
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.build_acceleration_structures([], [&tlas]);
     gpu.run(encoder)?;
@@ -205,7 +204,7 @@ fn build(
     Ok((blas, tlas))
 }
 
-/// The pipeline of a ray for each pixel.
+/// The pipeline that traces a ray for each pixel.
 fn primary(
     device: &wgpu::Device,
     format: wgpu::TextureFormat,

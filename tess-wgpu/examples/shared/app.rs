@@ -1,4 +1,4 @@
-//! What an example is, its options and its picture.
+//! The trait of examples, their options and their pictures.
 
 #[path = "target.rs"]
 mod target;
@@ -9,10 +9,10 @@ use tess_wgpu::Gpu;
 
 /// An example's content.
 pub(crate) trait Show: Sized {
-    /// The colour behind everything.
+    /// The background colour.
     const BACKGROUND: wgpu::Color = BACKGROUND;
 
-    /// Makes everything, for a picture of this format.
+    /// Makes the example's objects, for a picture of this format.
     fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>>;
 
     /// Records the compute passes of a frame.
@@ -21,7 +21,7 @@ pub(crate) trait Show: Sized {
     /// Draws the frame.
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>);
 
-    /// Whether a frame that was drawn is whole. It may wait for the device.
+    /// Whether a drawn frame is complete. It may wait for the device.
     fn check(&self, _gpu: &Gpu) -> Result<(), Box<dyn Error>> {
         Ok(())
     }
@@ -35,13 +35,13 @@ pub(crate) trait Show: Sized {
     fn title(&self) -> String;
 }
 
-/// A frame, and what records it.
+/// A frame, and the encoder that records it.
 pub(crate) struct Frame<'a> {
     pub(crate) gpu: &'a Gpu,
     pub(crate) encoder: &'a mut wgpu::CommandEncoder,
-    /// Since the first frame.
+    /// The time since the first frame.
     pub(crate) seconds: f32,
-    /// Pixels across and down.
+    /// The width and height in pixels.
     pub(crate) size: [u32; 2],
 }
 
@@ -62,7 +62,7 @@ impl Args {
         Ok(Self(pairs))
     }
 
-    /// The same options with this one, in place of its own value if there is one.
+    /// The same options with this one, which replaces an earlier value.
     pub(crate) fn with(&self, name: &str, value: &str) -> Self {
         let mut pairs = self.0.clone();
         pairs.insert(0, (name.to_owned(), value.to_owned()));
@@ -79,14 +79,15 @@ impl Args {
         self.0.iter().find(|(own, _)| own == name).map(|(_, value)| value.as_str())
     }
 
-    /// The value of an option, or what stands for it.
+    /// The value of an option, or the default.
     pub(crate) fn number<T: std::str::FromStr>(&self, name: &str, or: T) -> Result<T, String> {
         let Some(text) = self.text(name) else { return Ok(or) };
         text.parse().map_err(|_| format!("--{name} {text} is no such number"))
     }
 }
 
-/// A frame of an example, its third one, so that room that it asked for is there: RGBA, row by row.
+/// The third frame of an example, so that the stage has made the room that it needs: RGBA, row by
+/// row.
 pub(crate) fn picture<S: Show>(
     gpu: &Gpu,
     args: &Args,
@@ -111,7 +112,7 @@ pub(crate) fn picture<S: Show>(
     Ok(gpu.read(&pixels, pixels.size())?)
 }
 
-/// The colour behind most examples.
+/// The background colour of most examples.
 pub(crate) const BACKGROUND: wgpu::Color = wgpu::Color { r: 0.93, g: 0.94, b: 0.96, a: 1.0 };
 
 /// Records the render pass of a frame into a colour and a depth target.

@@ -1,4 +1,4 @@
-//! Bind groups of what shaders read.
+//! Bind groups of resources that shaders read.
 
 #![allow(dead_code, reason = "each user has its part")]
 
@@ -10,13 +10,13 @@ use wgpu::{BindGroup, BindGroupLayout, BindingResource, BindingType, ShaderStage
 pub(crate) enum Bound<'a> {
     Uniform(&'a wgpu::Buffer),
     Read(&'a wgpu::Buffer),
-    /// A texture that is loaded from, not sampled.
+    /// A texture whose texels are loaded, not sampled.
     Texture(&'a wgpu::TextureView),
     Depth(&'a wgpu::TextureView),
     Comparison(&'a wgpu::Sampler),
 }
 
-/// The layout and the bind group of these, bindings 0, 1, ..., for all stages.
+/// The layout and the bind group of these resources, as bindings 0, 1, ..., for all shader stages.
 pub(crate) fn bind<'a>(gpu: &Gpu, all: &[Bound<'a>]) -> (BindGroupLayout, BindGroup) {
     let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     let texture = |sample_type| BindingType::Texture {

@@ -2,12 +2,12 @@
 
 use glam::{Mat4, Vec3};
 
-/// Where somebody looks, and how wide.
+/// The place, the direction and the width of a view.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Camera {
     pub(crate) eye: Vec3,
     pub(crate) target: Vec3,
-    /// Which way is up in the world.
+    /// The upward direction in the world.
     pub(crate) up: Vec3,
     /// 1 / tan(half of the vertical field of view).
     pub(crate) zoom: f32,
@@ -17,7 +17,8 @@ const NEAR: f32 = 0.05;
 const FAR: f32 = 500.0;
 
 impl Camera {
-    /// World to clip space, for a picture of this width over height; z is 0 near and w far.
+    /// The matrix from world to clip space, for a picture of this aspect ratio (width over height);
+    /// z is 0 at the near plane and w at the far plane.
     pub(crate) fn clip_from_world(&self, aspect: f32) -> Mat4 {
         let forward = (self.target - self.eye).normalize_or(Vec3::Z);
         let right = forward.cross(self.up).normalize_or(Vec3::X);

@@ -1,6 +1,6 @@
 //! Hills: eight octaves of value noise.
 
-/// Heights from 0 to 1 of so many texels along each side, row by row.
+/// Heights from 0 to 1, row by row, with this many texels along each side.
 pub(crate) fn heights(texels: u32) -> Vec<f32> {
     let mut heights = Vec::new();
     for y in 0..texels {
@@ -15,7 +15,8 @@ pub(crate) fn heights(texels: u32) -> Vec<f32> {
     heights
 }
 
-/// Random numbers on a lattice of so many texels, smooth in between; 0 to 1.
+/// Random numbers from 0 to 1 on a lattice with this many texels between its points, smooth in
+/// between.
 fn noise(at: [u32; 2], cell: u32) -> f32 {
     let cell = cell.max(1);
     let lattice = |x: u32, y: u32| {

@@ -1,4 +1,4 @@
-//! A batch whose host records each step itself: what it draws, from one command buffer.
+//! A scene drawn from a batch, every step of which is recorded into one command buffer.
 
 use crate::app::depth;
 use crate::bindings::{group, whole};
@@ -8,7 +8,7 @@ use tess_gpu::layout::{DrawIndexed, Status};
 use tess_wgpu::{Batch, Gpu, Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
 
-/// A batch's patches, and how they are drawn.
+/// The patches of a batch, and their shaders.
 #[derive(Debug)]
 pub(crate) struct Scene<'a> {
     /// The tessellation, with packed points.
@@ -25,7 +25,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) read: Option<&'a wgpu::Buffer>,
     /// The meshes that the patches belong to; if there are none, all patches are drawn at once.
     pub(crate) meshes: &'a [Mesh<'a>],
-    /// Triangles that are not drawn; the front is counter-clockwise.
+    /// The face that is not drawn; the front is counter-clockwise.
     pub(crate) cull: Option<wgpu::Face>,
 }
 
@@ -44,14 +44,14 @@ pub(crate) struct Drawn {
     points: wgpu::Buffer,
     indices: wgpu::Buffer,
     pipeline: wgpu::RenderPipeline,
-    /// What group 0 binds.
+    /// The bind group 0.
     read: Option<wgpu::BindGroup>,
-    /// What group 1 binds for each mesh.
+    /// The bind group 1 of each mesh.
     materials: Vec<wgpu::BindGroup>,
 }
 
 impl Drawn {
-    /// Makes them, for a picture of this format.
+    /// Makes a scene's objects, for a picture of this format.
     pub(crate) fn new(
         gpu: &Gpu,
         format: wgpu::TextureFormat,

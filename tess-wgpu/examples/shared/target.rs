@@ -1,5 +1,4 @@
-//! Textures: those that are drawn into, their render pass and their pixels, and images that shaders
-//! read.
+//! Textures: render targets, their render pass and their pixels, and images that shaders read.
 
 #![allow(dead_code, reason = "each user has its part")]
 
@@ -9,7 +8,7 @@ use wgpu::TextureUsages as Usage;
 /// Format of the depth buffer.
 pub(crate) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Depth as all examples test it.
+/// The depth test of all examples.
 pub(crate) fn depth() -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
         format: DEPTH,
@@ -26,7 +25,7 @@ pub(crate) fn texture(gpu: &Gpu, format: wgpu::TextureFormat, size: [u32; 2]) ->
     plain(gpu, format, size, usage)
 }
 
-/// A texture of one level and layer.
+/// A texture with one mip level and one layer.
 pub(crate) fn plain(
     gpu: &Gpu,
     format: wgpu::TextureFormat,

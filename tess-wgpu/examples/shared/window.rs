@@ -11,7 +11,7 @@ use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
 
-/// Opens a window and stays until it is closed.
+/// Opens a window and returns when it is closed.
 pub(crate) fn run<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
     let frames = args.number("frames", u64::MAX)?;
     let mut app = App::<S> { args, frames, open: None, failure: None };
@@ -21,7 +21,7 @@ pub(crate) fn run<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
 
 struct App<S> {
     args: Args,
-    /// How many frames are left.
+    /// The number of frames that are left.
     frames: u64,
     open: Option<Open<S>>,
     failure: Option<Box<dyn Error>>,

@@ -1,4 +1,4 @@
-// Packed domain points to the shaded teapot. Needs bezier.wgsl and the function `material`.
+// Draws packed domain points as the shaded teapot. Needs bezier.wgsl and the function `material`.
 
 const EYE = vec3f(3.2, -7.6, 5.0);
 const TARGET = vec3f(0.3, 0.0, 1.45);
@@ -7,7 +7,7 @@ const ASPECT = 1.333333;
 const NEAR = 0.5;
 const FAR = 100.0;
 
-// Of each patch 16 control points (w x, w y, w z, w), rows along v.
+// For each patch, 16 control points (w x, w y, w z, w), in rows along v.
 @group(0) @binding(0) var<storage, read> nets: array<array<vec4f, 16>>;
 
 struct PatchPoint {
@@ -36,7 +36,7 @@ fn teapot_normal(at: PatchPoint) -> vec3f {
     return bezier_patch_normal(nets[at.patch_index], at.u, at.v);
 }
 
-// World to clip space, z up in the world.
+// From world to clip space; z points up in the world.
 fn project(world: vec3f) -> vec4f {
     let forward = normalize(TARGET - EYE);
     let right = normalize(cross(forward, vec3f(0.0, 0.0, 1.0)));

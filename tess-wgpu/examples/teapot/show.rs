@@ -8,7 +8,7 @@ use tess_gpu::surfaces;
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
-/// The user's WGSL: the formulas of a surface, and what calls them.
+/// The user's WGSL: the formulas of a surface, and the functions that call them.
 fn wgsl() -> String {
     let stage = include_str!("stage.wgsl");
     [surfaces::BEZIER, surfaces::BEZIER_FACTORS, &teapot::source()[surfaces::BEZIER.len()..], stage]

@@ -1,6 +1,6 @@
 // The teapot's hull and domain functions. Needs bezier.wgsl, bezier_factors.wgsl and draw.wgsl.
 
-// The factor of the edge between two corners of a net, over its control points; the same from both sides.
+// The factor of an edge of a net, by its control points; the same from both sides.
 fn edge_factor(net: array<vec4f, 16>, first: u32, step: u32) -> f32 {
     var all = net;
     var edge: array<vec4f, 4>;

@@ -7,16 +7,16 @@ use tess_surface::{FactorRule, MeshError, Model, teapot};
 
 /// The number of patches.
 pub(crate) const PATCHES: u32 = 32;
-/// The eye, as draw.wgsl has it.
+/// The eye, which is also in draw.wgsl.
 const EYE: Vec3 = Vec3::new(3.2, -7.6, 5.0);
 
-/// How the teapot is tessellated.
+/// The teapot's tessellation.
 pub(crate) fn setup() -> Setup {
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     Setup::new(Domain::Quad, config)
 }
 
-/// The factors of its patches: by distance to the eye.
+/// The factors of its patches, by distance to the eye.
 pub(crate) fn factors() -> Result<Vec<PatchFactors>, MeshError> {
     let model = Model::bezier(teapot::patches())?;
     let rule = FactorRule::Distance { eye: EYE, scale: 140.0 };

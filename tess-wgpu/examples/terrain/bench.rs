@@ -1,4 +1,5 @@
-//! How long `prepare` and `draw` take for a number of triangles, by the device's timestamps.
+//! Measures the times of `prepare` and `draw` for a number of triangles, by the device's
+//! timestamps.
 
 use crate::app::{self, Args, Frame, Show};
 use crate::terrain::Terrain;
@@ -6,11 +7,11 @@ use std::error::Error;
 use std::time::Instant;
 use tess_wgpu::{DeviceLimits, Gpu, Stopwatch};
 
-/// Pixels across and down.
+/// The picture's width and height in pixels.
 const SIZE: [u32; 2] = [960, 720];
 
-/// `--bench FRAMES`, with `--triangles N,N,...`, `--points stored,pull,none` and `--grid N`: the
-/// median of so many frames of each.
+/// Runs `--bench FRAMES`, with `--triangles N,N,...`, `--points stored,pull,none` and `--grid N`:
+/// prints the median of that number of frames for each combination.
 pub(crate) fn run(args: &Args) -> Result<(), Box<dyn Error>> {
     let frames: usize = args.number("bench", 20)?;
     let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))?;
@@ -54,8 +55,8 @@ impl<'a> Bench<'a> {
         Ok(Self { gpu, watch, terrain, color, depth })
     }
 
-    /// Changes the size of segments until so many triangles are drawn, within two percent or as
-    /// near as the grid can come.
+    /// Changes the size of segments until this many triangles are drawn, within two percent or as
+    /// near as the grid allows.
     fn reach(&mut self, goal: f32) -> Result<u64, Box<dyn Error>> {
         let mut drawn = 0;
         for _ in 0..60 {
@@ -87,7 +88,7 @@ impl<'a> Bench<'a> {
         }))
     }
 
-    /// A frame: the nanoseconds of its two halves.
+    /// Draws a frame: the nanoseconds of its two halves.
     fn frame(&mut self) -> Result<[u64; 2], Box<dyn Error>> {
         let Self { gpu, watch, terrain, color, depth } = self;
         let mut outcome = Ok(());
@@ -101,7 +102,8 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// The nanoseconds of what `work` records: on the device if it can say, or else until it is done.
+/// The nanoseconds of the commands that `work` records: by the device's timestamps if it has them,
+/// or else until they are done.
 fn timed(
     gpu: &Gpu,
     watch: Option<&Stopwatch>,

@@ -1,4 +1,4 @@
-//! A terrain that factors by size on the screen tessellate.
+//! A terrain, tessellated with factors by size on the screen.
 
 #[path = "../shared/hills.rs"]
 mod hills;
@@ -13,8 +13,8 @@ use tess_wgpu::stage::{Points, Room};
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
-/// The terrain. Keys: `w` wireframe, `+` and `-` the pixels of a segment, `p` where points come
-/// from.
+/// The terrain. Keys: `w` for a wireframe, `+` and `-` for the pixels of a segment, `p` for the
+/// source of points.
 pub(crate) struct Terrain {
     stage: TessellationStage,
     frame: wgpu::Buffer,
@@ -25,7 +25,7 @@ pub(crate) struct Terrain {
     most_bytes: u64,
     points: Points,
     wireframe: bool,
-    /// Pixels that a segment should have.
+    /// The wanted length of a segment in pixels.
     pub(crate) segment: f32,
 }
 
@@ -100,7 +100,7 @@ impl Terrain {
     }
 }
 
-/// The way to draw that a word names.
+/// The source of points that a word names.
 pub(crate) fn points(word: &str) -> Result<Points, String> {
     match word {
         "stored" => Ok(Points::Stored),
@@ -139,7 +139,7 @@ fn stage(
         .build(&gpu.device)
 }
 
-/// Where the camera is after so many seconds: on a circle over the terrain.
+/// The camera's place after a number of seconds, on a circle over the terrain.
 fn flight(seconds: f32) -> Camera {
     let angle = 0.12 * seconds - 2.0;
     let at = |angle: f32, radius: f32, height| {

@@ -3,9 +3,9 @@
 struct Frame {
     clip_from_world: mat4x4f,
     eye: vec3f,
-    // Pixels that a length of 1 has at distance 1.
+    // The size in pixels of a length of 1 at distance 1.
     pixels_per_unit: f32,
-    // Pixels that a segment should have.
+    // The wanted length of a segment in pixels.
     segment: f32,
     grid: u32,
 }
@@ -26,8 +26,8 @@ fn ground(place: vec2f) -> vec3f {
     return vec3f(WIDTH * place, HEIGHT * tess_sample(heights, place));
 }
 
-// A place in a patch. Whole numbers and 1/65536ths add up exactly, so that both patches of an edge
-// find the same.
+// The place of a point of a patch. Whole numbers and 1/65536ths add up exactly, so both patches of an edge find the
+// same place.
 fn place(number: u32, uv: vec2f) -> vec2f {
     let cell = vec2f(f32(number % frame.grid), f32(number / frame.grid));
     return (cell + uv) / f32(frame.grid);

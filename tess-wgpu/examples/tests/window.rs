@@ -3,14 +3,14 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Output, Stdio};
 
-/// An X server, which ends with this.
+/// An X server, which ends when this is dropped.
 struct Server {
     process: Child,
     display: String,
 }
 
 impl Server {
-    /// None is a failure, not a reason to skip: `cargo xtask setup` installs it.
+    /// If there is none, the test fails, and is not skipped: `cargo xtask setup` installs it.
     fn start() -> Self {
         let mut process = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "1280x900x24", "-nolisten", "tcp"])
@@ -28,7 +28,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // It may have ended by itself.
+        // The server may have ended by itself.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }

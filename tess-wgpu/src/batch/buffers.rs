@@ -22,7 +22,7 @@ impl Buffers {
         let Patches { groups, factors, .. } = patches;
         let tables = pipelines.tables(setup.config.split)?;
         let device = pipelines.device();
-        // Without outputs there are no windows, so the buffers that stand in for them are not
+        // An output that is not written has no windows, so its placeholder, `factors`, is never
         // bound.
         let (points, indices) = match outputs {
             Outputs::CountOnly | Outputs::Arguments(_) => (factors, factors),
@@ -41,7 +41,7 @@ impl Buffers {
             Resource::Indices => Ok(indices.clone()),
             _ => {
                 let is_read = matches!(resource, Resource::Arguments | Resource::Draws);
-                // `COPY_DST`: a stage copies the number of instances into them.
+                // `COPY_DST`: a tessellation stage copies the number of instances into them.
                 let more = if is_read { Usage::INDIRECT | Usage::COPY_DST } else { Usage::empty() };
                 let usage = Usage::STORAGE | Usage::COPY_SRC | more;
                 gpu::empty(device, &format!("{resource:?}"), plan.buffer_size(resource), usage)

@@ -5,7 +5,7 @@ use tess_gpu::Capacity;
 /// The place where a batch writes its output.
 #[derive(Clone, Copy, Debug)]
 pub enum Outputs<'a> {
-    /// Nowhere: the batch is only counted.
+    /// Nowhere: the batch only counts its output.
     CountOnly,
     /// Into these buffers, beginning at their first byte. If anything does not fit, nothing is
     /// written.

@@ -22,8 +22,8 @@ pub struct ReadBack {
 }
 
 impl Tessellator {
-    /// Tessellates these patches and reads everything back. The model ([`tess_core`]) counts the
-    /// sizes of the buffers.
+    /// Tessellates these patches and reads everything back. The sizes of the buffers come from the
+    /// counts of the model ([`tess_core`]).
     ///
     /// # Errors
     /// [`Error::WrongDomain`] for patches of another domain than the setup's; an error of size if
@@ -37,7 +37,7 @@ impl Tessellator {
         gpu.finish(self.tessellate_async(gpu, setup, patches))
     }
 
-    /// [`Self::tessellate`] without blocking: see [`Gpu::read_async`].
+    /// Does the same as [`Self::tessellate`] without blocking: see [`Gpu::read_async`].
     ///
     /// # Errors
     /// Those of [`Tessellator::tessellate`].
@@ -55,7 +55,8 @@ impl Tessellator {
             .map_err(|_| Error::TooManyPatches { got: patches.len() })?;
         let room = model_counts(setup, patches);
         let mut run = Run::new(self, gpu, setup, (count, &factors), room).await?;
-        // Only wrong shaders count differently from the model. Their output is read back too.
+        // The shaders' counts differ from the model's only if the shaders are wrong. Their output
+        // is read back too.
         if !run.status.fits() && counts(&run.status) != room {
             run = Run::new(self, gpu, setup, (count, &factors), counts(&run.status)).await?;
         }
@@ -130,7 +131,8 @@ impl Run {
     }
 }
 
-/// Refuses patches of another domain: their factors would be read as those of other patches.
+/// Refuses patches of another domain, because the shaders would read their factors as those of
+/// other patches.
 pub(crate) fn check_domains(setup: Setup, patches: &[PatchFactors]) -> Result<(), Error> {
     let expected = setup.domain;
     match patches.iter().position(|factors| factors.domain() != expected) {

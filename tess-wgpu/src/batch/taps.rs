@@ -1,4 +1,4 @@
-//! Stage taps: values of a single stage of the shaders, for comparison with the golden model's.
+//! Stage taps: the values of a single stage of the shaders, to compare with the golden model's.
 
 use crate::device::pipeline::group;
 use crate::error::Error;

@@ -1,4 +1,4 @@
-//! Making batches for one device.
+//! Makes the batches of one device.
 
 use super::outputs::{Outputs, Patches};
 use crate::Batch;
@@ -40,8 +40,8 @@ impl Tessellator {
         Self { device: device.clone(), shared, limits }
     }
 
-    /// This tessellator with a pipeline cache of wgpu's, which a program can keep in a file.
-    /// Pipelines that are made from now on use it, also those of clones and stages.
+    /// This tessellator with a pipeline cache of wgpu's, which a program can keep in a file. All
+    /// pipelines that are made later use it, including those of clones and stages.
     #[must_use]
     pub fn with_pipeline_cache(self, cache: &wgpu::PipelineCache) -> Self {
         self.pipelines().cache = Some(cache.clone());
@@ -68,7 +68,7 @@ impl Tessellator {
         self.limits
     }
 
-    /// [`Self::new`], with every shader edited before it is compiled: for tests that plant faults,
+    /// As [`Self::new`], but edits every shader before it is compiled: for tests that plant faults,
     /// and for experiments.
     #[cfg(feature = "measure")]
     #[must_use]
@@ -79,7 +79,7 @@ impl Tessellator {
         Self::of(device, Some(Box::new(edit)))
     }
 
-    /// This tessellator, limited to these limits instead of the device's, which must not be lower.
+    /// This tessellator with these limits instead of the device's, which must not be lower.
     #[must_use]
     pub const fn limited(mut self, limits: Limits) -> Self {
         self.limits = limits;

@@ -93,11 +93,11 @@ impl Gpu {
         self.finish(self.read_async(buffer, size))
     }
 
-    /// [`Self::read`] without blocking: for browsers, and for programs that do other work
-    /// meanwhile.
+    /// Does the same as [`Self::read`] without blocking: for browsers, and for programs that do
+    /// other work meanwhile.
     ///
-    /// Natively the device must be polled until it is done. The future polls it whenever the future
-    /// is polled, and asks to be polled again at once. In a browser the device notifies the future.
+    /// Natively, the device must be polled until it is done. The future does that whenever it is
+    /// polled, and asks to be polled again at once. In a browser the device notifies the future.
     ///
     /// # Errors
     /// Those of [`Gpu::read`].
@@ -130,7 +130,7 @@ impl Gpu {
         Ok(view.to_vec())
     }
 
-    /// Polls a future that waits only for this device until it is done.
+    /// Polls a future until it is done, for work that waits only for this device.
     pub(crate) fn finish<T>(
         &self,
         work: impl Future<Output = Result<T, Error>>,
@@ -210,8 +210,8 @@ pub(crate) fn poll(device: &wgpu::Device, kind: wgpu::PollType) -> Result<(), Er
 }
 
 /// Records commands. wgpu panics if the encoder belongs to another instance, which does not know
-/// the buffers; here that becomes an error. An encoder of another device of the same instance is an
-/// error of wgpu's when it is finished.
+/// the buffers; here that becomes an error. If the encoder belongs to another device of the same
+/// instance, wgpu reports that when the encoder is finished.
 pub(crate) fn recorded(device: &wgpu::Device, record: impl FnOnce()) -> Result<(), Error> {
     if catch_unwind(AssertUnwindSafe(record)).is_ok() {
         return Ok(());
@@ -230,7 +230,7 @@ fn lost(error: &dyn fmt::Display) -> Error {
     Error::DeviceLost { reason: error.to_string() }
 }
 
-/// Refuses a buffer that is too large, which wgpu would report only in its own words.
+/// Refuses a buffer that is too large, before wgpu reports it in its own words.
 fn check_size(device: &wgpu::Device, label: &str, needed: u64) -> Result<(), Error> {
     let limit = device.limits().max_buffer_size;
     if needed <= limit {

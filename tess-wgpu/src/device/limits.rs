@@ -1,4 +1,4 @@
-//! The lowest limits of a device that suffice. A batch adapts to higher ones.
+//! The lowest limits with which a device can run batches. A batch adapts to higher ones.
 
 use crate::error::Error;
 

@@ -47,9 +47,10 @@ async fn of(
 ) -> Result<Gpu, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
-    // WGPU_DEBUG=0 leaves debug information out of shaders, which takes drivers long to read.
+    // WGPU_DEBUG=0 leaves debug information out of shaders, which drivers take long to read.
     descriptor.flags = descriptor.flags.with_env();
-    // The shaders write no dispatch sizes beyond the limits, and checking takes more dispatches.
+    // The shaders never write dispatch sizes beyond the limits, and wgpu's check would add
+    // dispatches.
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     let instance = wgpu::Instance::new(descriptor);
     let options = wgpu::RequestAdapterOptions {
@@ -61,9 +62,7 @@ async fn of(
     let has = adapter.get_downlevel_capabilities().flags;
     if !has.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS) {
         let name = name(&info);
-        return Err(format!(
-            "{name} lacks compute shaders, which OpenGL has from 4.3 or ES 3.1 on"
-        ));
+        return Err(format!("{name} lacks compute shaders, which need OpenGL 4.3 or ES 3.1"));
     }
     let required_limits = match wanted {
         DeviceLimits::Default => wgpu::Limits::default(),

@@ -40,7 +40,7 @@ pub(crate) fn layout(
     })
 }
 
-/// Makes a module of WGSL without text of the user's.
+/// Makes a module of WGSL that contains no text of the user.
 pub(crate) fn module(
     device: &wgpu::Device,
     label: &str,

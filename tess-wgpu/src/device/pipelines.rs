@@ -1,4 +1,4 @@
-//! Pipelines and tables of one device, each made when it is first needed.
+//! The pipelines and tables of one device, each made when it is first needed.
 
 use super::{gpu, limits, pipeline};
 use crate::error::{Error, checked};
@@ -17,7 +17,7 @@ pub(crate) type Edit = Box<dyn Fn(Stage, String) -> String + Send + Sync>;
 /// tables by split order; and the pipelines and layouts that tessellation stages share.
 pub(crate) struct Pipelines {
     device: wgpu::Device,
-    /// wgpu's cache, for pipelines that are made from now on.
+    /// wgpu's cache, which all later pipelines use.
     pub(crate) cache: Option<wgpu::PipelineCache>,
     edit: Option<Edit>,
     pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
@@ -29,7 +29,7 @@ pub(crate) struct Pipelines {
     pub(crate) draws: Shared<wgpu::RenderPipeline>,
 }
 
-/// Everything that a pipeline of tessellation stages depends on.
+/// The key of a tessellation stage's pipeline: everything that determines it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct PipelineKey {
     /// The WGSL that the entry points reach and, for a render pipeline, the render state.
@@ -40,7 +40,7 @@ pub(crate) struct PipelineKey {
     pub(crate) constants: Vec<(String, u64)>,
 }
 
-/// Pipelines that are kept as long as a stage uses them.
+/// Pipelines that live as long as a stage uses them.
 pub(crate) struct Shared<P>(HashMap<PipelineKey, Weak<P>>);
 
 impl<P> Shared<P> {
@@ -127,7 +127,7 @@ impl Pipelines {
         let layouts = [self.layout(entry_point, (0..).zip(bindings).map(entry).collect())?];
         let module = pipeline::module(&self.device, entry_point, source)?;
         let options = wgpu::PipelineCompilationOptions {
-            // The shaders write every word of it before they read it.
+            // The shaders write every word of workgroup memory before they read it.
             zero_initialize_workgroup_memory: false,
             ..Default::default()
         };

@@ -1,4 +1,4 @@
-//! Times measured by the device's timestamps.
+//! Measures times with the device's timestamps.
 
 use crate::{Batch, Error, Gpu};
 use tess_gpu::Stage;
@@ -57,7 +57,7 @@ impl Stopwatch {
         Ok(self.nanoseconds(gpu, stamps[0], stamps[1]))
     }
 
-    /// Runs a batch, and returns the nanoseconds of each dispatch, up to 4095 dispatches.
+    /// Runs a batch, and returns the nanoseconds of each of its dispatches, at most 4095.
     ///
     /// # Errors
     /// [`Error::DeviceLost`].

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum StageError {
     /// There are more patches than the stage was made for. Ask for more when you make it.
-    #[error("{got} patches, and the stage was made for {most} at most")]
+    #[error("{got} patches are too many; the stage was made for at most {most}")]
     TooManyPatches {
         /// Patches of the frame.
         got: u32,
@@ -14,7 +14,7 @@ pub enum StageError {
     },
     /// The factors exceed one binding. Make several stages.
     #[error(
-        "the factors take {needed} bytes, and one binding holds {limit}; \
+        "the factors take {needed} bytes, but one binding holds only {limit}; \
          make several stages"
     )]
     TooManyFactors {
@@ -26,7 +26,7 @@ pub enum StageError {
     /// There are more bind groups than the device allows in addition to the stage's own. Put the
     /// bindings into fewer groups.
     #[error(
-        "{got} bind groups, and the device has {most} beside what the stage binds; put the bindings \
+        "{got} bind groups are too many; the device allows {most} besides the stage's own; put the bindings \
          into fewer groups"
     )]
     TooManyBindGroups {
@@ -99,7 +99,7 @@ pub enum StageError {
         usage: wgpu::BufferUsages,
     },
     /// The stage has no group of this number.
-    #[error("the stage has {groups} groups, numbered from 0, and none is {group}")]
+    #[error("there is no group {group}; the stage has {groups} groups, numbered from 0")]
     NoSuchGroup {
         /// Number of the group.
         group: u32,
@@ -107,7 +107,7 @@ pub enum StageError {
         groups: usize,
     },
     /// The stage was made without a bind group of this number.
-    #[error("the stage was made with {groups} bind groups, numbered from 0, and none is {number}")]
+    #[error("there is no bind group {number}; the stage was made with {groups}, numbered from 0")]
     NoSuchBindGroup {
         /// Number of the bind group.
         number: u32,
@@ -128,8 +128,8 @@ pub enum StageError {
     /// [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) has a different domain or
     /// configuration from the other stage or, if points are evaluated, a different `struct Vertex`.
     #[error(
-        "a stage draws another's output if both have one domain and configuration and, where points \
-         are evaluated, a `struct Vertex` with the same types and locations"
+        "a stage can draw another's output only if both have the same domain and configuration and, \
+         if points are evaluated, a `struct Vertex` with the same types and locations"
     )]
     OtherOutput,
     /// A stage that was made with
@@ -137,7 +137,8 @@ pub enum StageError {
     /// changed. Prepare the other stage, once for all stages that draw its output.
     #[error("this stage draws the output of another; prepare and change that one")]
     DrawsAnother,
-    /// Drawing without the stage's pipeline needs stored points and indices. Leave out `points`.
+    /// Drawing without the stage's pipeline needs stored points and indices. Leave out `points`, or
+    /// choose `Points::Evaluated`.
     #[error(
         "to draw without the stage's pipeline, points and indices have to be stored; leave out `points`"
     )]
@@ -145,7 +146,7 @@ pub enum StageError {
 }
 
 impl StageError {
-    /// The demands on the user's WGSL.
+    /// What the stage demands of the user's WGSL.
     pub(crate) const NEEDED: &'static str = "it declares `struct Vertex`, `fn domain(number: u32, uv: vec2<f32>) -> Vertex` without derivatives, \
          unless factors are given also `fn hull(number: u32) -> QuadFactors` (`TriFactors`, \
          `IsolineFactors`), and no name that begins with `tess_`; its bindings are in the groups that the builder got";

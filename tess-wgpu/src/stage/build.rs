@@ -1,4 +1,4 @@
-//! Making a stage: checks, modules, pipelines.
+//! Builds a stage: checks what the builder got, then makes modules, pipelines and buffers.
 
 use super::builder::{Render, StageBuilder};
 use super::choices::{Factors, Overflow, Points, Room};
@@ -22,7 +22,7 @@ use tess_gpu::Setup;
 use wgpu::BufferUsages as Usage;
 
 impl StageBuilder<'_> {
-    /// Compiles all pipelines and makes all buffers of the stage.
+    /// Compiles everything and makes every buffer.
     ///
     /// # Errors
     /// - For the user's WGSL: [`StageError::Wgsl`], [`StageError::UnclearFragment`], and on OpenGL
@@ -34,7 +34,7 @@ impl StageBuilder<'_> {
     /// - If the device does not allow this many patches: [`Error::TooManyPatches`],
     ///   [`StageError::TooManyFactors`], [`Error::TooManyToPull`], [`Error::BufferTooLarge`],
     ///   [`Error::OutOfMemory`].
-    /// - If the device allows no stage at all: [`Error::LimitTooLow`].
+    /// - If the device cannot run any stage: [`Error::LimitTooLow`].
     /// - For a buffer of factors: [`Error::FactorsTooShort`], [`Error::NotStorage`].
     /// - For groups of patches: [`Error::MisplacedGroup`].
     /// - Without a pipeline, unless points are stored: [`StageError::NothingStored`].
@@ -43,8 +43,8 @@ impl StageBuilder<'_> {
         now(stage(self, device))
     }
 
-    /// Like [`StageBuilder::build`], for a browser: there the compiler answers later, and the
-    /// calling thread must not wait.
+    /// Does the same as [`StageBuilder::build`] without blocking. A browser needs it, because its
+    /// shader compiler answers later.
     ///
     /// # Errors
     /// As [`StageBuilder::build`].
@@ -53,7 +53,7 @@ impl StageBuilder<'_> {
     }
 }
 
-/// The result of `work`, which is ready at its first poll on native platforms.
+/// The result of `work`, which must be ready at once; otherwise [`Error::Refused`].
 fn now<T>(work: impl Future<Output = Result<T, Error>>) -> Result<T, Error> {
     match pin!(work).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(done) => done,
@@ -128,7 +128,7 @@ async fn stage(
 /// The tessellator that the stage shares, or one of its own.
 ///
 /// # Errors
-/// The shared one is of another device.
+/// [`StageError::OtherDevice`] if the shared one belongs to another device.
 fn tessellator_of(
     builder: &StageBuilder<'_>,
     device: &wgpu::Device,
@@ -140,7 +140,7 @@ fn tessellator_of(
     }
 }
 
-/// A stage that draws the output of another stage.
+/// Builds a stage that draws the output of another.
 async fn drawing_stage(
     mut builder: StageBuilder<'_>,
     other: &TessellationStage,
@@ -194,7 +194,8 @@ fn without_offsets(groups: Vec<wgpu::BindGroup>) -> Vec<UserGroup> {
     groups.into_iter().map(|group| (group, Vec::new())).collect()
 }
 
-/// The render pipeline, if the stage makes it. Asks for the bind group that its draws need.
+/// The render pipeline, or `None` if the caller makes it. Adds to `own` the layout of the bind
+/// group that its draws need.
 async fn pipeline_of(
     builder: &StageBuilder<'_>,
     (tessellator, form, vertices): (&Tessellator, Form, &VertexLayout),
@@ -207,7 +208,7 @@ async fn pipeline_of(
     render_pipeline(builder, tessellator, (vertices, own.as_ref())).await.map(Some)
 }
 
-/// Refuses choices that the device or the stage does not support.
+/// Refuses what the device or the stage cannot do.
 fn check(
     builder: &StageBuilder<'_>,
     device: &wgpu::Device,
@@ -247,7 +248,7 @@ fn check(
     check_constants(&declared, builder.constants)
 }
 
-/// The functions of the WGSL that the stage's shaders call.
+/// The names of the user's functions that the stage's shaders call.
 fn entries<'a>(
     builder: &StageBuilder<'a>,
     declared: &[Declaration<'a>],
@@ -283,8 +284,8 @@ fn check_vertices(vertices: &VertexLayout, limits: &wgpu::Limits) -> Result<(), 
     limits::at_least("max_vertex_buffer_array_stride", vertices.array_stride, got)
 }
 
-/// Refuses parameters that only a draw has (instance, view) in `hull`, and in `domain` if it runs
-/// once for all draws.
+/// Refuses a `hull` that asks for a value of the draw, such as `tess_instance()`, because it runs
+/// before the draws; and a `domain` likewise if points are evaluated.
 fn check_draws(builder: &StageBuilder<'_>, declared: &[Declaration<'_>]) -> Result<(), Error> {
     let in_draws = ["tess_instance", "tess_view"];
     let in_hull: &[&str] = &["tess_factors", "tess_instance", "tess_view"];
@@ -305,9 +306,9 @@ fn check_draws(builder: &StageBuilder<'_>, declared: &[Declaration<'_>]) -> Resu
     Ok(())
 }
 
-/// Refuses a binding in a group for which the builder has no bind group.
+/// Refuses a binding in a group that the builder did not get.
 fn check_groups(reached: &[Declaration<'_>], groups: u32) -> Result<(), Error> {
-    // A group that is not written as a number is left to wgpu.
+    // wgpu checks a group that is not written as a plain number.
     let is_there = |one: &Declaration<'_>| {
         let group = one
             .attribute("group")
@@ -328,7 +329,8 @@ fn check_groups(reached: &[Declaration<'_>], groups: u32) -> Result<(), Error> {
     }
 }
 
-/// Refuses a value for a pipeline constant that the WGSL lacks, and a constant without a value.
+/// Refuses a value for an `override` that the WGSL does not declare, and an `override` without a
+/// value.
 fn check_constants(declared: &[Declaration<'_>], given: &[(&str, f64)]) -> Result<(), Error> {
     let overrides: Vec<_> = declared.iter().filter(|one| one.keyword == "override").collect();
     let is_given = |name: &str| given.iter().any(|one| one.0 == name);
@@ -348,8 +350,8 @@ fn check_constants(declared: &[Declaration<'_>], given: &[(&str, f64)]) -> Resul
     }
 }
 
-/// The fragment shader, if there are targets. Refuses a name that the WGSL lacks, and several
-/// fragment shaders of which none is named.
+/// The fragment shader's name, or `None` if there are no targets. Refuses a name that the WGSL
+/// lacks, and several fragment shaders if none is named.
 fn check_fragment<'a>(
     builder: &StageBuilder<'_>,
     declared: &[Declaration<'a>],
@@ -371,7 +373,7 @@ fn check_fragment<'a>(
     Err(StageError::UnclearFragment { asked: fragment.map(str::to_owned), found }.into())
 }
 
-/// The render pipeline, which stages of the same text and state share.
+/// The render pipeline. Stages of one tessellator with the same text and state share it.
 async fn render_pipeline(
     builder: &StageBuilder<'_>,
     tessellator: &Tessellator,

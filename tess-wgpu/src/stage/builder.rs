@@ -1,4 +1,4 @@
-//! The builder of a stage: its choices and their defaults.
+//! The builder of a stage, with a method for each choice.
 
 use super::choices::{Factors, Overflow, Points, Room};
 use super::room::Form;
@@ -31,7 +31,7 @@ pub struct StageBuilder<'a> {
     pub(super) overflow: Overflow,
     pub(super) groups: Vec<u32>,
     pub(super) render: Render<'a>,
-    /// Whether the stage makes the render pipeline. If not, the caller makes it.
+    /// Whether the stage makes the render pipeline; if not, the caller does.
     pub(super) makes_pipeline: bool,
     pub(super) constants: &'a [(&'a str, f64)],
     pub(super) tessellator: Option<&'a Tessellator>,
@@ -39,7 +39,7 @@ pub struct StageBuilder<'a> {
     pub(super) output_of: Option<&'a TessellationStage>,
 }
 
-/// The part of the render pipeline's state that the user chooses.
+/// The part of the render pipeline's state that the user sets.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Render<'a> {
     pub(super) project: Option<&'a str>,
@@ -51,7 +51,7 @@ pub(super) struct Render<'a> {
     pub(super) views: Option<NonZeroU32>,
 }
 
-/// Enough for 16 million small triangles.
+/// The default budget of [`Room::Automatic`], enough for 16 million small triangles.
 const MOST_BYTES: u64 = 256 << 20;
 
 impl<'a> StageBuilder<'a> {
@@ -98,12 +98,12 @@ impl<'a> StageBuilder<'a> {
         }
     }
 
-    /// Adds a bind group of the user: the first call is `@group(0)`, the second `@group(1)`, and so
-    /// on. Devices allow 4 groups by default, and the stage takes one of them.
+    /// Adds the user's next bind group: the first call adds `@group(0)`, the second `@group(1)`,
+    /// and so on. A device allows 4 by default, of which the stage takes one.
     ///
-    /// The layout must be visible to the shader stages that use it: `COMPUTE` for `hull`, `VERTEX`
-    /// for `domain` and the function of [`Self::project`], `COMPUTE` for `domain` with
-    /// [`Points::Evaluated`]. To set dynamic offsets, call
+    /// The entries of the layout need the visibility `COMPUTE` for `hull`, `VERTEX` for `domain`
+    /// and the function of [`Self::project`], and `COMPUTE` for `domain` with
+    /// [`Points::Evaluated`]. Set dynamic offsets with
     /// [`set_dynamic_offsets`](super::TessellationStage::set_dynamic_offsets). wgpu checks the
     /// group when a frame's encoder is finished: see
     /// [`set_bind_group`](super::TessellationStage::set_bind_group).
@@ -113,151 +113,151 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// Shares pipelines with the other stages that are made with this tessellator or a clone of it.
+    /// Shares pipelines with the stages that were made with the same tessellator or a clone of it.
+    /// The tessellation's pipelines depend on the domain, configuration and order; the pipeline of
+    /// `hull` on the part of the WGSL that it reaches; the render pipeline on all of the WGSL and
+    /// the render state. A stage for another material therefore makes only one pipeline.
+    /// [`Tessellator::with_pipeline_cache`] adds a pipeline cache of wgpu's.
     ///
-    /// The pipelines of the tessellation depend on domain, configuration and order; that of `hull`
-    /// on the WGSL that it reaches; the render pipeline on all of the WGSL and on the render state.
-    /// A stage for another material therefore makes one pipeline.
-    /// [`Tessellator::with_pipeline_cache`] gives them a cache of wgpu's.
-    ///
-    /// wgpu cannot make a pipeline without waiting for it. If a frame must not wait, build stages
-    /// on another thread: a stage, its builder and a tessellator are `Send`.
+    /// wgpu cannot make pipelines in the background. If a frame must not wait, build stages on
+    /// another thread: a stage, its builder and a tessellator are `Send`.
     pub const fn tessellator(mut self, shared: &'a Tessellator) -> Self {
         self.tessellator = Some(shared);
         self
     }
 
-    /// Draws the output of another stage with this stage's WGSL and state: for a second material, a
-    /// shadow map or a prepass. Only the other stage is prepared, once for all stages that draw its
-    /// output. This stage has no compute passes and needs no `hull`. Unless points are evaluated,
-    /// its draws call its own `domain`.
+    /// Draws the output of another stage with this stage's WGSL and state: a further material, a
+    /// shadow map, a prepass. Prepare the other stage once for all that draw its output. This one
+    /// has no compute passes and needs no `hull`. Unless points are evaluated, its draws call its
+    /// own `domain`.
     ///
-    /// Both stages need the same domain and configuration and, if points are evaluated, the same
-    /// `struct Vertex` except for names. Factors, points, order, room, groups and the most patches
-    /// are those of the other stage; this builder's are ignored.
+    /// Both stages must have the same domain, the same configuration and, if points are evaluated,
+    /// the same `struct Vertex` except for names. Factors, points, order, room, groups and the most
+    /// patches are those of the other stage; what this builder got for them is ignored.
     pub const fn output_of(mut self, other: &'a TessellationStage) -> Self {
         self.output_of = Some(other);
         self
     }
 
-    /// Names a function of the WGSL, `fn name(vertex: Vertex) -> Vertex`, that every draw applies
-    /// to the vertices that `domain` returned. By default there is none. It does the work that
-    /// differs from pass to pass, such as applying the camera.
+    /// Sets a function of the WGSL, `fn name(vertex: Vertex) -> Vertex`, that every draw calls for
+    /// each vertex that `domain` returned. Put there what differs from pass to pass, such as the
+    /// camera.
     ///
-    /// With [`Points::Evaluated`], `domain` runs once and this function in each pass. With other
-    /// points, the vertex shader calls both.
+    /// With [`Points::Evaluated`], `domain` runs once for each point, and the draws call only this
+    /// function. Otherwise the vertex shader calls it after `domain`.
     pub const fn project(mut self, function: &'a str) -> Self {
         self.render.project = Some(function);
         self
     }
 
-    /// Draws all layers of the targets whose bits are set, with wgpu's feature `MULTIVIEW`. In the
-    /// WGSL, `tess_view()` is the number of the layer.
+    /// Draws into all layers of the targets whose bits are set in `mask`, at once. It needs wgpu's
+    /// feature `MULTIVIEW`. In WGSL, `tess_view()` returns the layer's number.
     pub const fn views(mut self, mask: NonZeroU32) -> Self {
         self.render.views = Some(mask);
         self
     }
 
-    /// Values of constants that the WGSL declares with `override`, by name.
+    /// Sets the values of constants that the WGSL declares with `override`, by name.
     pub const fn constants(mut self, values: &'a [(&'a str, f64)]) -> Self {
         self.constants = values;
         self
     }
 
-    /// The source of the factors; [`Factors::Hull`] by default.
+    /// Sets the source of the factors; the default is [`Factors::Hull`].
     pub const fn factors(mut self, factors: Factors<'a>) -> Self {
         self.factors = factors;
         self
     }
 
-    /// The source of points; [`Points::Stored`] by default.
+    /// Sets the source of the points; the default is [`Points::Stored`].
     pub const fn points(mut self, points: Points) -> Self {
         self.points = points;
         self
     }
 
-    /// The order in which the triangles of a patch are drawn. The default is [`Order::VertexCache`]
-    /// with an index buffer, and otherwise [`Order::Specification`], which takes less time: without
-    /// indices no vertex cache is used.
+    /// Sets the order in which the triangles of a patch are drawn. The default is
+    /// [`Order::VertexCache`] if there is an index buffer. Otherwise no vertex cache is used, and
+    /// the default is [`Order::Specification`], which takes less time.
     pub const fn order(mut self, order: Order) -> Self {
         self.order = Some(order);
         self
     }
 
-    /// The room for points and indices; [`Room::Automatic`] up to 256 MiB by default.
+    /// Sets the room for points and indices; the default is [`Room::Automatic`] up to 256 MiB.
     pub const fn room(mut self, room: Room) -> Self {
         self.room = room;
         self
     }
 
-    /// The least room with which [`Room::Automatic`] begins, for example the
+    /// Sets the least room that [`Room::Automatic`] begins with, for example the
     /// [`capacity`](super::TessellationStage::capacity) of a smaller stage that this one replaces.
     pub const fn first_room(mut self, room: Capacity) -> Self {
         self.first_room = room;
         self
     }
 
-    /// The fate of a frame that does not fit; [`Overflow::Coarser`] by default.
+    /// Sets the fate of a frame that does not fit; the default is [`Overflow::Coarser`].
     pub const fn overflow(mut self, overflow: Overflow) -> Self {
         self.overflow = overflow;
         self
     }
 
-    /// Groups of patches, each drawn by a call of its own. A group is given by the number of its
-    /// first patch; the numbers ascend ([`crate::Tessellator::batch_in_groups`]).
+    /// Divides the patches into groups that can be drawn one by one. A group is given by the number
+    /// of its first patch; the numbers ascend ([`crate::Tessellator::batch_in_groups`]).
     pub fn groups(mut self, first_patches: &[u32]) -> Self {
         self.groups = first_patches.to_vec();
         self
     }
 
-    /// Adds a colour target of the render passes that draw the stage. Without targets there is no
-    /// fragment shader.
+    /// Adds the next colour target of the render passes that draw the stage. A stage without
+    /// targets has no fragment shader.
     pub fn target(mut self, target: impl Into<wgpu::ColorTargetState>) -> Self {
         self.render.targets.push(Some(target.into()));
         self
     }
 
-    /// The fragment shader's entry point, needed if the user's WGSL has several.
+    /// Chooses the fragment shader by name, which is needed if the user's WGSL has several.
     pub const fn fragment(mut self, entry_point: &'a str) -> Self {
         self.render.fragment = Some(entry_point);
         self
     }
 
-    /// Depth and stencil; none by default.
+    /// Sets depth and stencil; by default there are none.
     pub fn depth(mut self, depth: wgpu::DepthStencilState) -> Self {
         self.render.depth = Some(depth);
         self
     }
 
-    /// Multisampling; one sample by default.
+    /// Sets multisampling; the default is one sample.
     pub const fn multisample(mut self, multisample: wgpu::MultisampleState) -> Self {
         self.render.multisample = multisample;
         self
     }
 
-    /// Culling, front face and polygon mode. The topology is ignored, because the configuration's
-    /// output primitive determines it.
+    /// Sets culling, front face and polygon mode. The topology is ignored: the configuration's
+    /// output decides it.
     pub const fn primitive(mut self, primitive: wgpu::PrimitiveState) -> Self {
         self.render.primitive = primitive;
         self
     }
 
-    /// Leaves the render pipelines to an engine that makes them from [`Self::vertex_shader`] and
-    /// its own fragment shaders.
+    /// Leaves the render pipelines to an engine that makes its own from [`Self::vertex_shader`] and
+    /// its own fragment shaders: for a shadow map, a depth prepass, several cameras. The engine
+    /// draws with [`TessellationStage::draw`](super::TessellationStage::draw) or
+    /// [`TessellationStage::indirect`](super::TessellationStage::indirect).
     ///
-    /// Only `hull` uses the bind groups then, and the render state is ignored. The engine draws
-    /// with [`TessellationStage::draw`](super::TessellationStage::draw) or
-    /// [`TessellationStage::indirect`](super::TessellationStage::indirect). Points must be
-    /// [`Points::Stored`].
+    /// The stage then ignores the render state, and only its compute passes use the bind groups.
+    /// Points must be [`Points::Stored`] or [`Points::Evaluated`].
     pub const fn without_pipeline(mut self) -> Self {
         self.makes_pipeline = false;
         self
     }
 
-    /// The WGSL of the vertex shader, for an engine that makes the render pipeline: the lines of
-    /// the user's text, followed by those of the stage. The entry point is `tess_vertex`; it takes
-    /// one vertex buffer of [`Self::vertex_layout`]. If points are pulled, or the WGSL calls
-    /// `tess_factors`, the shader also reads buffers that only the stage can bind.
+    /// The WGSL of the vertex shader, for an engine that makes the render pipeline: the user's
+    /// text, unchanged, and then the stage's. The entry point is `tess_vertex`. It takes one vertex
+    /// buffer of [`Self::vertex_layout`]. If points are pulled, or if the WGSL calls
+    /// `tess_factors`, only the stage can use the text, because it does not expose the buffers that
+    /// the text binds.
     ///
     /// # Errors
     /// [`StageError::Wgsl`] if points are evaluated and a member of `Vertex` cannot be an
@@ -266,7 +266,8 @@ impl<'a> StageBuilder<'a> {
         Ok(self.shader(&self.vertex_layout()?).with(self.source))
     }
 
-    /// The layout of the vertex buffer: packed points, or `Vertex` if points are evaluated.
+    /// The layout of the vertex buffer, which holds packed points, or `Vertex` if points are
+    /// evaluated.
     ///
     /// # Errors
     /// [`StageError::Wgsl`] if points are evaluated and a member of `Vertex` cannot be an
@@ -283,7 +284,7 @@ impl<'a> StageBuilder<'a> {
         VertexShader { setup: self.setup(), points, group: self.own_group(), project, vertices }
     }
 
-    /// The properties on which the sizes of the stage's buffers depend.
+    /// The parameters that determine the sizes of the stage's buffers.
     pub(super) fn form(&self, device: &wgpu::Device, vertices: &VertexLayout) -> Form {
         let Self { points, patches, .. } = *self;
         let is_evaluated = points == Points::Evaluated;
@@ -304,7 +305,8 @@ impl<'a> StageBuilder<'a> {
         Setup { order: self.order.unwrap_or(default), ..Setup::new(self.domain, self.config) }
     }
 
-    /// The pipeline constants. The key of a constant with the attribute `@id` is its number.
+    /// The pipeline constants, keyed by name or, if the constant has the attribute `@id`, by
+    /// number.
     pub(super) fn constants_of(&self, declared: &[Declaration<'_>]) -> Vec<(String, u64)> {
         let key = |name: &str| {
             let declared = declared.iter().find(|one| one.name == name);
@@ -313,7 +315,7 @@ impl<'a> StageBuilder<'a> {
         self.constants.iter().map(|&(name, value)| (key(name), value.to_bits())).collect()
     }
 
-    /// Whether the WGSL reads the factors that are drawn.
+    /// Whether the WGSL reads the frame's factors.
     pub(super) fn has_factors(&self) -> bool {
         source::uses(self.source, "tess_factors")
     }

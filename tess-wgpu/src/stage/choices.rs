@@ -1,8 +1,8 @@
-//! The choices that a stage offers.
+//! The types of the choices that a stage's builder offers.
 
 use tess_gpu::Capacity;
 
-/// The source of a stage's factors.
+/// Where the factors come from.
 #[derive(Clone, Copy, Debug, Default)]
 pub enum Factors<'a> {
     /// From the user's function `hull`.
@@ -12,36 +12,37 @@ pub enum Factors<'a> {
     /// Until then all patches are culled.
     Host,
     /// From this buffer, laid out as by [`tess_gpu::layout::factor_words`]. It needs the usage
-    /// `STORAGE`, and each frame reads it.
+    /// `STORAGE` and is read in each frame.
     Buffer(&'a wgpu::Buffer),
 }
 
-/// The source of the vertex shader's points. All variants give the same points and triangles.
+/// The source of the vertex shader's points.
 ///
-/// Their order is the same too if [`StageBuilder::order`](super::StageBuilder::order) sets it; the
-/// default order without indices differs from that of the other variants. The order shows only
-/// where triangles of one patch overlap and no depth test decides between them.
+/// Every choice gives the same points and triangles. If
+/// [`StageBuilder::order`](super::StageBuilder::order) sets their order, that is the same too, and
+/// so is the picture. The default order is different without an index buffer, which can be seen
+/// where triangles of a patch overlap and no depth test decides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Points {
-    /// From a vertex buffer, 8 bytes each, with an index buffer.
+    /// From a vertex buffer with 8 bytes per point, and an index buffer.
     #[default]
     Stored,
-    /// Computed from the vertex's index, with an index buffer. The vertex stage binds five storage
-    /// buffers and one uniform buffer in addition to yours.
+    /// Computed from the index of the vertex; there is an index buffer. The vertex shader binds
+    /// five storage buffers and one uniform buffer in addition to yours.
     Pull,
-    /// Computed for each corner of each primitive, without buffers of points and indices. The
-    /// vertex stage binds the same buffers as for [`Points::Pull`].
+    /// Computed for each corner of each primitive; there are no buffers of points and indices. The
+    /// vertex shader binds the same buffers as with [`Points::Pull`].
     PullWithoutIndices,
     /// From a vertex buffer of the user's `Vertex` structs, with an index buffer. After the
-    /// tessellation a compute pass calls `domain` once for each point, and draws load its results.
-    /// This is for a long `domain`, especially in a frame of several passes, and for tracing,
-    /// picking or exporting the surface: see
+    /// tessellation, a compute pass calls `domain` once for each point, and draws load the results.
+    /// Choose it for a long `domain`, above all if a frame has several passes, and to trace, pick
+    /// or export the surface: see
     /// [`TessellationStage::vertices`](super::TessellationStage::vertices).
     ///
-    /// Work that differs from draw to draw, such as applying the camera, belongs in a function of
-    /// its own: [`StageBuilder::project`](super::StageBuilder::project). The bindings that `domain`
-    /// reads must be visible to `COMPUTE`. The pass binds four storage buffers in addition to
-    /// yours. A point takes the bytes of a `Vertex`, plus 8.
+    /// What differs from draw to draw, such as the camera, then belongs in the function of
+    /// [`StageBuilder::project`](super::StageBuilder::project). The bindings that `domain` reads
+    /// must be visible to `COMPUTE`. The pass binds four storage buffers in addition to yours. A
+    /// point takes 8 bytes more than a `Vertex`.
     Evaluated,
 }
 
@@ -61,28 +62,29 @@ impl Points {
         [Self::Stored, Self::Pull, Self::PullWithoutIndices, Self::Evaluated];
 }
 
-/// The size of a stage's buffers of points and indices.
+/// The room that a stage has for points and indices.
 ///
-/// A stage that stores neither ([`Points::PullWithoutIndices`]) can take [`Room::WorstCase`]
-/// cheaply: 4 bytes for every 2048 points and for every 2048 primitives.
+/// If a stage stores neither ([`Points::PullWithoutIndices`]), [`Room::WorstCase`] costs little: 4
+/// bytes for each 2048 points and for each 2048 primitives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Room {
-    /// Room for all patches at factor 64, so that every frame fits.
+    /// Enough for all patches at factor 64: everything always fits.
     WorstCase,
-    /// This number of bytes, points and indices together. All patches fit at factor 1 if the bytes
-    /// suffice for that; the rest is divided in the proportion of patches with factor 8.
+    /// As much as fits in this number of bytes, points and indices together. All patches fit at
+    /// factor 1 if the bytes suffice for that; the rest is divided in the proportion of patches of
+    /// factor 8.
     Bytes(u64),
-    /// Exactly this number of points and primitives.
+    /// Exactly this capacity.
     Exactly(Capacity),
-    /// At first, room for all patches at factor 4. When a frame needs more than 7/8 of it, the
-    /// stage makes larger buffers within the budget, at least twice as large, without waiting for
-    /// the device; a later frame uses them. Output that rises by up to 4 % per frame therefore
-    /// always fits. If 1024 frames use at most a fifth of the room, it shrinks. All pipelines are
-    /// made when the stage is built, none by a frame.
+    /// Enough for all patches at factor 4 at first. When a frame needs more than 7/8 of it, a later
+    /// one has twice as much or more: the stage learns what was needed without waiting and makes
+    /// larger buffers, within the budget. Output that rises by up to 4 % per frame therefore always
+    /// fits. After 1024 frames that used a fifth of the room or less, it shrinks. The pipelines for
+    /// any room are made when the stage is built, so no frame waits for a compiler.
     ///
-    /// The first frames can be coarser than requested, or empty, depending on [`Overflow`]. For a
-    /// picture that is drawn once, call
-    /// [`TessellationStage::make_room`](super::TessellationStage::make_room) first, or use
+    /// The first frames can therefore be coarser than asked for, or empty, depending on
+    /// [`Overflow`]. For a picture that is drawn once, call
+    /// [`TessellationStage::make_room`](super::TessellationStage::make_room) first, or choose
     /// [`Room::WorstCase`].
     Automatic {
         /// The most bytes of points and indices together.
@@ -93,8 +95,9 @@ pub enum Room {
 /// The fate of a frame whose output does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Overflow {
-    /// The device multiplies all factors above 1 by one scale, so that everything fits, but leaves
-    /// them at least 1. Edges stay closed. If even factors of 1 give too much, nothing is drawn.
+    /// The device multiplies all factors above 1 by one scale, so that everything fits. Factors
+    /// above 64 count as 64, and no factor falls below 1. Edges stay closed. If even factors of 1
+    /// give too much, nothing is drawn.
     #[default]
     Coarser,
     /// Nothing is drawn.
@@ -106,8 +109,8 @@ pub enum Overflow {
 pub enum PatchCount<'a> {
     /// This number.
     Host(u32),
-    /// The number at this offset, a multiple of 4, of a buffer with the usage `COPY_SRC`. A larger
-    /// number than the stage was made for counts as that number.
+    /// The number at this offset, a multiple of 4, of a buffer with the usage `COPY_SRC`. If the
+    /// number exceeds the most patches that the stage was made for, all of these are drawn.
     Device(&'a wgpu::Buffer, u64),
 }
 

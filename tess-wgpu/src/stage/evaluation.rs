@@ -1,8 +1,8 @@
 //! The pass that runs the user's function `domain` once for each point ([`Points::Evaluated`]).
 //!
-//! The batch writes packed points. This pass reads each one and writes the user's `Vertex`; draws
-//! then load vertices instead of calling `domain`. One binding holds 128 MiB under WebGPU's default
-//! limits, which is 4 million vertices of 32 bytes, so the buffers are bound in windows:
+//! The batch writes packed points. This pass reads each one and writes the user's `Vertex`, and
+//! draws load vertices instead of calling `domain`. Under WebGPU's default limits, one binding
+//! holds 128 MiB, or 4 million vertices of 32 bytes. The buffers are therefore bound in windows:
 //!
 //! ```text
 //! points    | window 0                | window 1                | window 2      |   8 bytes each
@@ -10,12 +10,13 @@
 //! windows   | first, count | ...      | first, count | ...      | first, count |   256 bytes apart
 //! ```
 //!
-//! - A window is a multiple of 64 points, so that it begins at a multiple of 256 bytes in both
-//!   buffers.
-//! - At most [`MOST_WORKGROUPS`] workgroups share a window. Each thread starts at the point of its
-//!   number and advances by the number of threads. The size of the dispatch therefore does not
-//!   depend on the number of points, and a large room with few points costs little.
-//! - If a frame does not fit, the pass writes no vertex.
+//! - A window begins at a multiple of 64 points, so that its offset is a multiple of 256 bytes in
+//!   both buffers.
+//! - A window's dispatch has a fixed size, one thread for each point of room but at most
+//!   [`MOST_WORKGROUPS`] workgroups. Thread `i` of `n` evaluates the points `i`, `i + n`, `i + 2n`,
+//!   ... of the window, as far as the frame has points. The host can therefore record it without
+//!   the number of points, and a large room with few points costs little.
+//! - If a frame does not fit, no vertex is written.
 
 use super::builder::StageBuilder;
 use super::choices::Points;
@@ -29,9 +30,9 @@ use std::sync::Arc;
 use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{Access, Resource};
 
-/// Enough to fill a large device.
+/// The most workgroups of a window: enough to occupy a large device.
 const MOST_WORKGROUPS: u32 = 4096;
-/// Points of a window are a multiple of this.
+/// A window begins at a multiple of this many points.
 const WHOLE: u64 = 64;
 
 /// The pass's pipeline.
@@ -44,7 +45,7 @@ pub(super) struct Evaluation {
     stride: u64,
 }
 
-/// A part of the points, and its workgroups.
+/// The bindings of one window, and the workgroups of its dispatch.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
     group: wgpu::BindGroup,
@@ -91,7 +92,7 @@ impl Evaluation {
         Ok(Some(Self { pipeline, layout, own_group, has_factors, stride }))
     }
 
-    /// The windows of these buffers, which have room for `room` points.
+    /// The windows over these buffers, which have room for `room` points.
     pub(super) fn windows(
         &self,
         tessellator: &Tessellator,

@@ -1,4 +1,5 @@
-//! The pass that writes the factors of a frame.
+//! The pass that writes a frame's raw factors: it runs the user's `hull`, or copies factors of the
+//! host or of a buffer.
 
 use super::builder::StageBuilder;
 use super::choices::Factors;
@@ -13,19 +14,19 @@ use std::sync::Arc;
 use tess_gpu::{Access, Resource, Setup};
 use wgpu::BufferUsages as Usage;
 
-/// The pass that writes the raw factors of a frame.
+/// The pass's pipeline and its bindings.
 #[derive(Debug)]
 pub(super) struct FactorPass {
     pipeline: Arc<wgpu::ComputePipeline>,
-    /// Its own bindings and their group.
+    /// The bind group of the stage's own buffers.
     own: wgpu::BindGroup,
     own_group: u32,
     workgroups: [u32; 2],
-    /// The buffer of factors from the host, if the host gives them.
+    /// The factors from the host, with [`Factors::Host`].
     pub(super) host: Option<wgpu::Buffer>,
 }
 
-/// Refuses a buffer that does not hold the factors.
+/// Refuses a buffer that cannot hold the factors.
 pub(super) fn check(given: &wgpu::Buffer, needed: u64) -> Result<(), Error> {
     if given.size() < needed {
         return Err(Error::FactorsTooShort { needed, got: given.size() });
@@ -89,8 +90,8 @@ impl FactorPass {
     }
 }
 
-/// The pipeline of the user's function `hull`. Two stages share it if their WGSL is equal in
-/// everything that the function reaches.
+/// The pipeline of the user's function `hull`. Stages of one tessellator share it if their texts
+/// differ only in parts that the function does not reach.
 async fn hull(
     builder: &StageBuilder<'_>,
     setup: Setup,

@@ -1,4 +1,4 @@
-//! Read-back of the output that each frame needed, some frames later and without waiting.
+//! Reads back what frames needed, some frames later and without waiting.
 
 use super::fit::{Fit, Found};
 use crate::device::gpu;
@@ -9,33 +9,32 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use tess_gpu::layout::Status;
 use wgpu::BufferUsages as Usage;
 
-/// The output that a frame needed, and the output that it drew.
+/// The output that a frame needed, and what it drew.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Feedback {
     /// Number of the frame: the first call of `prepare` is frame 0.
     pub frame: u64,
-    /// The number of points that the factors give.
+    /// Points that the unscaled factors give.
     pub points: u64,
-    /// The number of primitives that the factors give.
+    /// Primitives that the unscaled factors give.
     pub primitives: u64,
-    /// The number of primitives that were drawn, which is less if the output did not fit.
+    /// Primitives that were drawn: fewer if they did not fit.
     pub drawn: u64,
-    /// The scale of the factors that made the output fit; 1 if it fitted at once, or if the stage
-    /// draws nothing in that case.
+    /// The scale of the factors that made the output fit; 1 if it fitted, and always with
+    /// [`Overflow::DrawNothing`](super::Overflow::DrawNothing).
     pub scale: f32,
 }
 
-/// The most read-backs that are pending. A further frame is not read back.
+/// The most read-backs that are under way at once. Frames that exceed it are not read back.
 const MOST: usize = 4;
-/// The number of frames after which a read-back is abandoned, because its encoder is still held and
-/// was never submitted.
+/// The frames after which a read-back is given up if its encoder is kept and was never submitted.
 const PATIENCE: u64 = 64;
 
 const WAITING: u8 = 0;
 const DONE: u8 = 1;
 const FAILED: u8 = 2;
 
-/// A pending read-back of one frame.
+/// A frame's numbers on their way to the host.
 #[derive(Debug)]
 struct UnderWay {
     frame: u64,
@@ -43,7 +42,7 @@ struct UnderWay {
     state: Arc<AtomicU8>,
 }
 
-/// Reads back what frames needed.
+/// The read-backs under way, and the latest result.
 #[derive(Debug, Default)]
 pub(crate) struct Feedbacks {
     under_way: Vec<UnderWay>,
@@ -57,17 +56,18 @@ impl Feedbacks {
         self.last
     }
 
-    /// Takes the read-backs that have arrived.
+    /// Takes what has arrived.
     pub(crate) fn take(&mut self, device: &wgpu::Device, frame: u64) -> Result<(), Error> {
         gpu::poll(device, wgpu::PollType::Poll)?;
         for mut one in std::mem::take(&mut self.under_way) {
-            // The encoder holds the other half until the answer is there; it goes with an encoder
-            // that is dropped.
+            // The encoder owns the other reference until the answer arrives, or until it is
+            // dropped.
             let has_encoder = Arc::get_mut(&mut one.state).is_none();
             match one.state.load(Ordering::Acquire) {
                 DONE => {
                     self.arrived(read(&one.staging, one.frame));
-                    // A lost device has unmapped it already, which wgpu would end the program for.
+                    // A lost device has unmapped the buffer already, and wgpu ends the program if
+                    // it is unmapped again.
                     if checked(device, || one.staging.unmap()).is_ok() {
                         self.idle.push(one.staging);
                     }
@@ -80,13 +80,14 @@ impl Feedbacks {
         Ok(())
     }
 
-    /// Keeps the numbers if their frame is the latest. Frames arrive in the order of submission.
+    /// Keeps the numbers of the latest frame. Frames arrive in the order in which they were
+    /// submitted.
     pub(crate) fn arrived(&mut self, new: Option<Feedback>) {
         let latest = self.last.map_or(0, |last| last.frame);
         self.last = new.filter(|new| new.frame >= latest).or(self.last);
     }
 
-    /// Makes the buffer that [`Self::record`] needs, unless there is one.
+    /// Makes the buffer that [`Self::record`] needs, unless one is idle.
     pub(crate) fn reserve(&mut self, device: &wgpu::Device) -> Result<(), Error> {
         if self.under_way.len() < MOST && self.idle.is_empty() {
             let usage = Usage::MAP_READ | Usage::COPY_DST;
@@ -95,8 +96,8 @@ impl Feedbacks {
         Ok(())
     }
 
-    /// Records the copies of a frame's numbers if a buffer was reserved. They arrive after
-    /// `encoder` is submitted.
+    /// Records the copies of a frame's numbers, if a buffer was reserved. They arrive after
+    /// `encoder` was submitted.
     pub(crate) fn record(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -134,7 +135,7 @@ fn read(staging: &wgpu::Buffer, frame: u64) -> Option<Feedback> {
     Some(of_frame(frame, status, found))
 }
 
-/// Reads the numbers of a frame that was submitted.
+/// Waits for the numbers of a submitted frame.
 pub(crate) async fn wait(
     gpu: &Gpu,
     (batch, fit): (&Batch, Option<&Fit>),
@@ -152,7 +153,7 @@ pub(crate) async fn wait(
 fn of_frame(frame: u64, status: &[u8], found: &[u8]) -> Feedback {
     let status: Status = bytemuck::pod_read_unaligned(status);
     let found: Found = bytemuck::pod_read_unaligned(found);
-    // Without the passes of `fit` these are 0, and the status of the batch has the needs.
+    // Without the passes of `fit` these are zero, and the batch's own numbers are the needs.
     let needed = match found.needed() {
         [0, 0] => [status.points(), status.primitives()],
         needed => needed,

@@ -1,64 +1,85 @@
-//! Scales a frame's factors down, on the device, until their output fits.
+//! Scales a frame's factors down, on the device, until its output fits the room.
 //!
-//! The factors of a frame may give more points or primitives than there is room for. These passes
-//! find the greatest scale of a fixed ladder at which everything fits, and apply it to the factors
-//! above 1; the host does not wait. `TessellationStage::prepare` records them between the pass that
-//! writes the factors and the batch that tessellates.
+//! A frame's factors may give more points or primitives than the stage's buffers hold, and the host
+//! does not know the factors. These passes find the greatest of 257 scales at which everything fits
+//! and write the scaled factors back. With [`Overflow::Coarser`](super::Overflow::Coarser),
+//! `TessellationStage::prepare` records them after the pass that writes the factors and before the
+//! batch that reads them.
+//!
+//! # The scales
+//!
+//! Step 0 leaves the factors alone. Each further step has a scale that is smaller by 2^(-6/256),
+//! down to 1/64 at step 256. The scales are called the ladder. A step `s > 0` changes one raw
+//! factor `f` like this (`scaled` in fit.wgsl):
+//!
+//! ```text
+//! f <= 1, negative or NaN     stays f
+//! 1 < f <= 64                 max(1, f * ladder[s])
+//! f > 64 or infinity          max(1, 64 * ladder[s])
+//! ```
 //!
 //! # The data
 //!
 //! ```text
 //! terms: the host writes, the passes read            fit: the passes write, feedback reads words 0 to 7
-//! word 0       room for points                       word 0         the step that the factors were scaled by
-//!      1       room for primitives                        1 .. 3    reserved
+//! word 0       points that there is room for         word 0         the step that the factors were scaled by
+//!      1       primitives                                 1 .. 3    reserved
 //!      2, 3    workgroups of a pass, along x and y        4 .. 135  33 sums: points low, high; primitives low, high
 //!      4 ..    the ladder: scale of step 0 to 256
-//!                                                    sum   0        the factors as they are (step 0)
+//!                                                    sum   0        the unscaled factors (step 0)
 //! arguments: `decide` writes, dispatches read              1 .. 16  steps 16, 32, ... 256
-//! word 0 .. 2  workgroups; 0 if step 0 fits               17 .. 32  the 16 steps that end with the first of those that fits
+//! word 0 .. 2  workgroups; none if step 0 fits            17 .. 32  16 steps, up to the first coarse one that fits
 //! ```
 //!
 //! # The passes
 //!
 //! 1. `count_whole` counts every patch at step 0.
-//! 2. `decide` leaves the arguments of the next three at 0 workgroups if that fits. Most frames end
-//!    here.
+//! 2. `decide` sets the arguments of the next three passes. If step 0 fits, they get 0 workgroups;
+//!    most frames end here.
 //! 3. `count_coarse` counts every patch at each 16th step.
 //! 4. `count_fine` counts every patch at the 16 steps up to the first coarse step that fits.
-//! 5. `scale_factors` replaces a factor f above 1 by min(f, 64) times the scale of the first fine
-//!    step that fits, or by 1 if that is less; other factors stay. It also writes the step.
+//! 5. `scale_factors` scales every factor by the first fine step that fits, and writes the step.
 //!
 //! # One frame
 //!
-//! One quad patch with all factors 8 (integer partitioning) gives 81 points and 128 triangles;
-//! there is room for 50 and 72. Step 0 does not fit. Step 16 scales by 0.771 and gives 64 points,
-//! step 32 by 0.595 and 36 points, so the second coarse sum is the first that fits. Of steps 17 to
-//! 32, step 17 gives factors of 6.07, which round to 7; step 18 gives 5.97: 49 points and 72
-//! triangles, which fit. The test `the_frame_of_the_head_comment` computes this.
+//! One quad patch with all factors 8 (integer partitioning) gives 81 points and 128 triangles, but
+//! there is room for only 50 points and 72 triangles:
+//!
+//! ```text
+//! sum    step   scale   factor   points   triangles
+//!  0       0    1       8          81       128      too much, so the passes go on
+//!  1      16    0.771   6.17       64        98      too much
+//!  2      32    0.595   4.76       36        50      the first coarse step that fits
+//! 17      17    0.759   6.07       64        98      too much: 6.07 rounds up to 7
+//! 18      18    0.747   5.97       49        72      fits: this step is taken
+//! ```
+//!
+//! The test `the_frame_of_the_head_comment` computes these numbers.
 //!
 //! # What must hold
 //!
-//! - A smaller scale never gives more output. Otherwise the first step that fits would not be the
+//! - A smaller scale never gives more output. Otherwise the first step that fits would not have the
 //!   greatest scale that fits.
-//! - The new factor depends only on the old one and on the step, which all patches share. Two
-//!   patches whose bits agree along an edge still agree, so no crack opens.
-//! - Factors of at most 1, and NaN, stay as they are, and no other factor falls below 1. A culled
-//!   patch stays culled, and a drawn one stays drawn.
-//! - A factor above 64 is taken as 64, as the tessellator clamps it. Otherwise infinity would stay
-//!   infinite at every scale.
-//! - A workgroup's sum is below 2^32 (64 patches of at most 8192 primitives), so only the sum over
-//!   all workgroups needs two words.
-//! - The room is copied into `terms` in each frame. If it were copied only in the frame after a
-//!   change, an encoder that is dropped would lose the change.
-//! - If not even step 256 fits, at which every factor is at most 1, that step is taken, and the
-//!   batch draws nothing.
+//! - One step applies to the factors of all patches. Two patches whose factors agree along an edge
+//!   then still agree, so no crack opens.
+//! - A factor stays on its side of 0, and one above 1 stays at least 1. A culled patch stays culled
+//!   and a drawn one stays drawn.
+//! - Factors above 64 count as 64 before they are scaled, because the tessellator clamps them to
+//!   64. Otherwise infinity would never become smaller.
+//! - A workgroup's sum stays below 2^32 (64 patches of at most 8192 primitives), so only the totals
+//!   need two words.
+//! - Every frame copies the room into `terms` again. A single copy would be lost with an encoder
+//!   that is dropped.
+//! - If not even step 256 fits, where no factor is above 1, it is still taken; the batch then draws
+//!   nothing.
 //!
 //! # Simpler forms
 //!
-//! Counting all 257 steps in one pass would count each patch 257 times; the two levels count it 33
-//! times. Bisection would count it 9 times, but needs 9 pairs of dependent dispatches instead of 5
-//! dispatches, in every frame that might not fit. Reading the counts back would make the host wait,
-//! or apply this frame's scale to the next frame.
+//! - One pass over all 257 steps counts each patch 257 times; the two levels count it 33 times.
+//! - Bisection counts each patch 9 times, but needs 9 pairs of dependent dispatches in every frame
+//!   instead of 5 dispatches.
+//! - Reading the counts back would make the host wait, or scale each frame by the needs of an
+//!   earlier one.
 
 use super::passes;
 use crate::Tessellator;
@@ -69,11 +90,12 @@ use std::sync::Arc;
 use tess_gpu::{Access, Capacity, Counting, Setup};
 use wgpu::BufferUsages as Usage;
 
-/// The last step of the ladder, which starts with scale 1 at step 0. `LAST_STEP` of fit.wgsl.
+/// The last step of the ladder, which begins with the scale 1 of step 0. It is `LAST_STEP` of
+/// fit.wgsl.
 const STEPS: u16 = 256;
 /// 2^(-6/256): after 256 steps a factor of 64 is 1.
 const STEP: f64 = 0.983_885_611_616_587_9;
-/// Bytes of the struct `Fit` of fit.wgsl: the step, three reserved words, 33 sums of four words.
+/// Bytes of the struct `Fit` of fit.wgsl: the step, then 33 sums of four words.
 const STATE_BYTES: u64 = 4 * (4 + 4 * 33);
 
 /// The scale at each step, from 1 down to 1/64.
@@ -157,12 +179,13 @@ impl Fit {
         })
     }
 
-    /// Replaces the room, beginning with the next frame that is recorded.
+    /// Sets the room, as [`room_words`] makes it. It takes effect in the next frame.
     pub(crate) fn set_room(&mut self, room: wgpu::Buffer) {
         self.room = room;
     }
 
-    /// Records the passes. After them the output of the factors fits, if any scale makes it fit.
+    /// Records the passes. After them the factors' output fits, unless even the last step gives too
+    /// much.
     pub(crate) fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.copy_buffer_to_buffer(&self.room, 0, &self.terms, 0, ROOM_BYTES);
         encoder.clear_buffer(&self.state, 0, None);
@@ -184,7 +207,7 @@ impl Fit {
         }
     }
 
-    /// The buffer that begins with a [`Found`].
+    /// The buffer that the passes write; it begins with a [`Found`].
     pub(crate) const fn state(&self) -> &wgpu::Buffer {
         &self.state
     }
@@ -222,14 +245,14 @@ fn pipelines(
 /// Bytes of the room in `Terms` of fit.wgsl.
 const ROOM_BYTES: u64 = 8;
 
-/// The buffer that [`Fit::set_room`] takes.
+/// A room as [`Fit::set_room`] takes it.
 pub(crate) fn room_words(device: &wgpu::Device, room: Capacity) -> Result<wgpu::Buffer, Error> {
     let words = [room.points, room.primitives];
     gpu::filled(device, "room", bytemuck::bytes_of(&words), Usage::COPY_SRC)
 }
 
-/// The first words of the struct `Fit` of fit.wgsl: the step, three reserved, and the sums of the
-/// factors as they were.
+/// The first words of the struct `Fit` of fit.wgsl: the step, three reserved words, and the output
+/// of the unscaled factors.
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(crate) struct Found {
@@ -240,12 +263,12 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// The scale of the factors.
+    /// The scale by which the factors were multiplied.
     pub(crate) fn scale(&self) -> f32 {
         ladder().get(self.step as usize).copied().unwrap_or(1.0)
     }
 
-    /// The numbers of points and primitives that the factors would have given without a scale.
+    /// The points and primitives that the unscaled factors give.
     pub(crate) fn needed(&self) -> [u64; 2] {
         [self.points, self.primitives].map(|[low, high]| u64::from(low) | u64::from(high) << 32)
     }

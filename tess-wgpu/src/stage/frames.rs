@@ -1,4 +1,4 @@
-//! Recording of frames, and changes of room between them.
+//! Records frames, and changes the room between them.
 
 use super::feedback::{self, Feedback};
 use super::output::{StageOutput, Stored};
@@ -15,19 +15,19 @@ const INSTANCES_AT: u64 = 4;
 impl TessellationStage {
     /// Records the compute passes of a frame: factors, tessellation and, with
     /// [`Points::Evaluated`](super::Points), the vertices. Call it before the render pass that
-    /// draws the stage, with the same encoder or with one that is submitted earlier. The time of
-    /// the passes depends on the output and, slightly, on the most patches that the stage was made
+    /// draws the stage, with the same encoder or with one that is submitted earlier. The passes'
+    /// time depends on what is drawn and, a little, on the most patches that the stage was made
     /// for.
     ///
     /// The encoder may be dropped instead of submitted; later frames do not depend on it. It must
-    /// belong to the stage's device. An encoder of another instance is refused here; one of another
-    /// device of the same instance is refused when it is finished.
+    /// belong to the stage's device. An encoder of another device is refused here if it also
+    /// belongs to another instance, and otherwise when it is finished.
     ///
     /// # Errors
     /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
     /// [`StageError::OtherDevice`]; [`StageError::DrawsAnother`] for a stage that draws another's
-    /// output; [`Error::OutOfMemory`] or [`Error::DeviceLost`]. Then nothing is recorded, and the
-    /// output that was prepared last can still be drawn.
+    /// output; [`Error::OutOfMemory`] or [`Error::DeviceLost`]. On an error nothing is recorded,
+    /// and the last prepared frame can still be drawn.
     pub fn prepare<'a>(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -61,7 +61,7 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Records a frame's passes, for the number of patches in its buffer.
+    /// Records a frame's passes, for the number of patches in `self.count`.
     fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(pass) = &self.factor_pass {
             pass.encode(encoder, &self.bind_groups);
@@ -90,12 +90,12 @@ impl TessellationStage {
         locked(&self.feedback).record(encoder, of, self.frame);
     }
 
-    /// Makes room for a frame before it is drawn: runs the frame's compute passes, waits for their
-    /// result, and grows by the rules of [`Room::Automatic`]. A frame with the same factors is then
-    /// drawn with these factors if the budget allows. Frames with other factors may need more room.
+    /// Makes the room that a frame needs before it is drawn. This runs a frame's compute passes,
+    /// waits for their counts, and grows the buffers of [`Room::Automatic`]. A frame with the same
+    /// factors is then exact, if the budget allows. Frames with other factors may need more.
     ///
-    /// The call takes one round trip to the device. Call it once after the stage is built, or for a
-    /// picture that is drawn once, when everything that the hull function reads has been written.
+    /// It takes one round trip to the device. Call it once after the stage is built, or before a
+    /// picture that is drawn once, when everything that `hull` reads has been written.
     ///
     /// # Errors
     /// As [`Self::prepare`]; and [`Error::Refused`] in a browser, where only
@@ -109,7 +109,7 @@ impl TessellationStage {
         gpu.finish(self.run_once(&gpu, patches.into()))
     }
 
-    /// Like [`Self::make_room`], without blocking: see [`Gpu::read_async`].
+    /// Does the same as [`Self::make_room`] without blocking: see [`Gpu::read_async`].
     ///
     /// # Errors
     /// As [`Self::prepare`].
@@ -140,7 +140,7 @@ impl TessellationStage {
         Ok(found)
     }
 
-    /// A batch of these groups that writes these buffers.
+    /// An output whose batch has these groups and writes these buffers.
     pub(super) fn new_output(
         &mut self,
         room: Capacity,
@@ -153,8 +153,8 @@ impl TessellationStage {
         StageOutput::new(&mut self.tessellator, self.form, (room, stored), of_batch, more)
     }
 
-    /// Makes more room if a frame needed nearly all of it, or less if many frames needed little of
-    /// it, if the stage may choose.
+    /// Grows the room if the latest frame needed nearly all of it and the budget allows, or shrinks
+    /// it after a lull.
     fn adapt(&mut self) -> Result<(), Error> {
         let last = locked(&self.feedback).last();
         let Some(Feedback { frame, points, primitives, .. }) = last else { return Ok(()) };
@@ -165,7 +165,7 @@ impl TessellationStage {
         let Some(room) = changed else { return Ok(()) };
         match self.make_output(room) {
             Ok(()) => Ok(()),
-            // The present room still serves, and asking again in each frame would not help.
+            // The present room stays usable; asking again in each frame would not help.
             Err(Error::OutOfMemory) => {
                 self.room = Room::Exactly(now);
                 Ok(())
@@ -174,7 +174,7 @@ impl TessellationStage {
         }
     }
 
-    /// Replaces the output by one with this room. After an error, the stage is unchanged.
+    /// Replaces the output by one with this room. On an error nothing changes.
     fn make_output(&mut self, room: Capacity) -> Result<(), Error> {
         let words = fit::room_words(&self.device, room)?;
         let stored = Stored::new(&self.device, self.form, room)?;
@@ -188,7 +188,7 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// The number of patches as a word of a buffer, and its offset there.
+    /// The buffer that holds the number of patches, and the number's offset in it.
     fn count_words(&self, patches: PatchCount<'_>) -> Result<(wgpu::Buffer, u64), Error> {
         match patches {
             PatchCount::Host(got) => {

@@ -1,4 +1,4 @@
-//! Workarounds that wgpu leaves to its users on OpenGL.
+//! Workarounds for OpenGL that wgpu leaves to its users.
 
 use super::StageError;
 use crate::error::Error;
@@ -9,9 +9,9 @@ pub(super) fn is_gl(device: &wgpu::Device) -> bool {
 
 /// The attributes of the stage's vertex buffer.
 ///
-/// On OpenGL, locations without an attribute are bound to the buffer too, unread. wgpu leaves
-/// locations enabled that another pipeline used. Once their buffer is gone, OpenGL ES refuses
-/// indirect draws, and nothing is drawn.
+/// On OpenGL the buffer is also bound to every location that has no attribute, although nothing
+/// reads it there. wgpu leaves locations enabled that another pipeline used. Once the buffer of
+/// such a location is gone, OpenGL ES refuses indirect draws, and draws nothing.
 pub(super) fn attributes(
     device: &wgpu::Device,
     own: &[wgpu::VertexAttribute],
@@ -27,8 +27,8 @@ pub(super) fn attributes(
     own.iter().copied().chain(unread).collect()
 }
 
-/// Refuses a struct `Vertex` with a member that takes the value of a primitive's first vertex,
-/// because OpenGL takes that of the last vertex.
+/// Refuses a vertex shader whose struct `Vertex` has a member that takes the value of a primitive's
+/// first vertex, since OpenGL takes the last vertex's.
 pub(super) fn check_flat_members(device: &wgpu::Device, shader: &str) -> Result<(), Error> {
     if !is_gl(device) {
         return Ok(());
@@ -43,7 +43,7 @@ pub(super) fn check_flat_members(device: &wgpu::Device, shader: &str) -> Result<
 #[cfg(not(target_arch = "wasm32"))]
 fn first_vertex_member(shader: &str) -> Option<String> {
     use wgpu::naga::{Binding, Interpolation, Sampling, TypeInner, front::wgsl};
-    // wgpu reports a module that does not compile.
+    // wgpu reports a text that does not compile.
     let module = wgsl::parse_str(shader).ok()?;
     let vertex = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Vertex"))?.1;
     let TypeInner::Struct { members, .. } = &vertex.inner else { return None };
@@ -60,7 +60,7 @@ fn first_vertex_member(shader: &str) -> Option<String> {
     member?.name.clone()
 }
 
-/// Always `None`: OpenGL in a browser has no compute shaders, so no stage is built there.
+/// Never called: a browser's OpenGL has no compute shaders, so no stage is built.
 #[cfg(target_arch = "wasm32")]
 fn first_vertex_member(_: &str) -> Option<String> {
     None

@@ -1,5 +1,5 @@
-//! Mistakes that the compiler or wgpu would report in its own terms, reported by the names and
-//! lines of the user's WGSL.
+//! Reports mistakes by the user's names and lines, where a compiler or wgpu would use its own
+//! terms.
 
 use super::wgsl::{self, Declaration};
 use super::{StageError, source};
@@ -34,8 +34,8 @@ pub(super) fn check_hull(declared: &[Declaration<'_>], domain: Domain) -> Result
     }
 }
 
-/// The refusal of a pipeline that names a binding by its numbers, with the binding's name and line
-/// instead. `visibility` is that of the shader stage that reads the binding.
+/// Turns wgpu's refusal of a pipeline, which names a binding by its numbers, into an error with the
+/// binding's name and line. `visibility` is that of the shader stage that reads the binding.
 pub(super) fn explained(error: Error, user: &str, visibility: &str) -> Error {
     let Error::Refused { reason } = &error else { return error };
     let number = |key: &str| {
@@ -63,7 +63,7 @@ pub(super) fn explained(error: Error, user: &str, visibility: &str) -> Error {
     StageError::Wgsl {
         line: Some(one.line),
         message: format!(
-            "`{}` does not go with the layout that call {group} of `bind_group`, counted from 0, got: {remedy}",
+            "`{}` does not go with the layout that `bind_group` got for group {group}: {remedy}",
             one.name
         ),
     }

@@ -1,4 +1,4 @@
-//! Shader modules that begin with the user's WGSL, and the errors in them.
+//! Compiles modules that begin with the user's WGSL, and reports the errors in it.
 
 use super::{StageError, source, wgsl};
 use crate::error::{Error, checked};
@@ -36,8 +36,9 @@ pub(super) async fn user_module(
     Ok(module)
 }
 
-/// An error in a line of the joined text. If the line is after the user's text, a call of the stage
-/// does not match the user's declaration: the one that the message names, or else `function`.
+/// The error for a line of the joined text. A line after the user's text belongs to the stage:
+/// there, the stage's call does not match a declaration of the user. That is a declaration that the
+/// message names, or else `function`.
 fn wrong_wgsl(user: &str, function: &str, line: Option<u32>, message: String) -> StageError {
     let line = line.filter(|&line| (1..=source::lines(user)).contains(&line));
     if line.is_some() {
@@ -72,8 +73,8 @@ fn headline(report: &str) -> String {
     all.join(": ")
 }
 
-/// The last line and text that a report of naga's validator marks. The report begins with the
-/// function, so the last mark is the innermost.
+/// The last line and text that the report of naga's validator marks. They are the innermost,
+/// because the report begins with the function.
 ///
 /// ```text
 /// 26 | |     let at = place(number) + number;
@@ -96,7 +97,8 @@ fn marked(report: &str) -> Option<(u32, String)> {
     found
 }
 
-/// The innermost reason of such a report, with the types of WGSL and without naga's own numbers.
+/// The innermost reason of such a report, with WGSL's names for types and without naga's internal
+/// numbers.
 fn reason(report: &str) -> String {
     let last = report.lines().filter_map(|line| line.trim().strip_prefix("= ")).next_back();
     let mut text = last.map_or_else(|| headline(report), str::to_owned);

@@ -1,4 +1,4 @@
-//! The parts that depend on the room: the batch, and the buffers that it writes.
+//! The parts of a stage that depend on the room: the batch, and the buffers that it writes.
 
 use super::TessellationStage;
 use super::evaluation::{Evaluation, Window};
@@ -12,8 +12,7 @@ use std::sync::Arc;
 use tess_gpu::Capacity;
 use wgpu::BufferUsages as Usage;
 
-/// A batch with the buffers of its output. A clone is another handle to the same batch; stages that
-/// draw one output share it.
+/// A batch with room for its output. All stages that draw it share it; a clone is another handle.
 #[derive(Clone, Debug)]
 pub(super) struct StageOutput {
     pub(super) room: Capacity,
@@ -24,13 +23,14 @@ pub(super) struct StageOutput {
     pub(super) own: OwnGroups,
 }
 
-/// The buffers that a batch writes and a draw reads; `None` where the stage needs none.
+/// The buffers that a batch writes and a draw reads; `None` where a stage has none.
 #[derive(Clone, Debug)]
 pub(super) struct Stored {
     pub(super) points: Option<wgpu::Buffer>,
     pub(super) vertices: Option<wgpu::Buffer>,
     pub(super) indices: Option<wgpu::Buffer>,
-    /// A buffer that nothing reads, for [`gl::attributes`] of a stage without stored points.
+    /// A vertex buffer that nothing reads, where there are no points and [`gl::attributes`] need
+    /// one.
     unread: Option<wgpu::Buffer>,
 }
 
@@ -96,7 +96,8 @@ impl StageOutput {
     }
 
     /// Draws with the arguments of the whole batch or of one of its groups. The caller has set the
-    /// pipeline and the user's bind groups; `own` is the stage's bind group and its number.
+    /// pipeline and the user's bind groups; `own` is the number of the stage's bind group, and the
+    /// group.
     pub(super) fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,

@@ -1,8 +1,8 @@
-//! The stage's own bind group of a draw, after the user's: the buffers that points are pulled from,
-//! and the factors that `tess_factors` reads.
+//! The stage's own bind group of a draw, which follows the user's: the buffers that points are
+//! pulled from, and the factors that `tess_factors` reads.
 //!
-//! There are up to two groups, because a stage that draws another's output may read factors where
-//! the other does not. They are made anew when the room changes, because the batch is.
+//! A stage and those that draw its output may differ in whether they read factors, so there are up
+//! to two groups. They are made again with the batch whenever the room changes.
 
 use super::choices::Points;
 use super::room::Form;
@@ -13,8 +13,7 @@ use crate::{Batch, Tessellator};
 use tess_gpu::layout::Job;
 use tess_gpu::{Access, Binding, Pull, Resource, Span};
 
-/// The bind groups without and with the factors, each made if a stage asked for it
-/// ([`OwnGroups::ask`]).
+/// The bind groups without and with the factors, if a stage asked for them ([`OwnGroups::ask`]).
 #[derive(Clone, Debug, Default)]
 pub(super) struct OwnGroups {
     layouts: [Option<wgpu::BindGroupLayout>; 2],
@@ -48,7 +47,7 @@ impl OwnGroups {
         Ok(Some(layout))
     }
 
-    /// The same layouts with groups of this batch.
+    /// The same layouts, with bind groups for this batch.
     pub(super) fn with(
         &self,
         tessellator: &Tessellator,
@@ -85,7 +84,7 @@ const fn pull() -> Pull {
     Pull { group: 0, first_binding: 0 }
 }
 
-/// Whether draws bind buffers of the stage.
+/// Whether draws need the stage's own bind group.
 pub(super) const fn is_needed(points: Points, has_factors: bool) -> bool {
     !points.are_written() || has_factors
 }

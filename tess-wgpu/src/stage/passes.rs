@@ -1,4 +1,4 @@
-//! Compute pipelines of the stage, and the layout of their threads.
+//! The stage's compute pipelines, their bind groups and their workgroups.
 
 use crate::Tessellator;
 use crate::device::pipeline;
@@ -7,7 +7,7 @@ use crate::error::Error;
 use std::sync::Arc;
 use tess_gpu::{Access, Resource};
 
-/// The threads of a workgroup of the stage's own passes.
+/// The threads of a workgroup in the stage's own passes.
 pub(crate) const WORKGROUP: u32 = 64;
 
 /// The workgroups for a number of threads, in rows that the device allows.
@@ -34,7 +34,7 @@ pub(crate) fn layout(
     tessellator.pipelines().layout(label, entries)
 }
 
-/// The layout and the bind group of these buffers, bindings 0, 1, ...
+/// The layout and the bind group of these buffers, which get the bindings 0, 1, ...
 pub(crate) fn bind(
     tessellator: &Tessellator,
     label: &str,
@@ -46,7 +46,7 @@ pub(crate) fn bind(
     Ok((layout, group))
 }
 
-/// The compute pipeline of a key; if it does not exist yet, it is made from `module`.
+/// The compute pipeline of a key. If the tessellator has none yet, it is made from `module`.
 pub(crate) fn pipeline(
     tessellator: &Tessellator,
     key: PipelineKey,
@@ -63,7 +63,7 @@ pub(crate) fn pipeline(
     Ok(pipelines.passes.keep(key, made))
 }
 
-/// The pipeline constants of a key, in wgpu's form.
+/// The pipeline constants of a key, as wgpu takes them.
 pub(crate) fn constants(key: &PipelineKey) -> Vec<(&str, f64)> {
     key.constants.iter().map(|(name, bits)| (name.as_str(), f64::from_bits(*bits))).collect()
 }

@@ -1,55 +1,68 @@
-//! The sizes of a stage's output buffers.
+//! Decides how much room a stage has for points and primitives.
 //!
-//! A stage makes its buffers of points and indices before it knows how much output its frames will
-//! give. This file chooses their sizes when the stage is made ([`Form::initial`]). For
-//! [`Room::Automatic`] it chooses again when a frame needed more than 7/8 of the room
-//! ([`Form::grown`]), or when no frame of the last 1024 needed more than 1/5 ([`Lull::shrunk`]).
-//! The stage's feedback reports how much each frame needed.
+//! A stage's buffers are made before anybody knows how much output its frames have. This file
+//! chooses their sizes when the stage is built ([`Form::initial`], [`Form::first`]). With
+//! [`Room::Automatic`], `TessellationStage::prepare` asks it again in each frame, with the latest
+//! feedback: for more room when a frame needed nearly all of it ([`Form::grown`]), and for less
+//! when many frames needed little ([`Lull::shrunk`]).
 //!
 //! # The data
 //!
 //! ```text
 //! budget in bytes (Room::Bytes, Room::Automatic)
-//! |<------------- least ------------->|<--------- beyond --------->| rest: less than a point and a primitive
+//! |<------------- least ------------->|<--------- beyond --------->| rest, less than one of each
 //! | points x 8 B | primitives x 12 B  | points x 8 B | primitives  |
 //!
 //! initial:  least = all patches at factor 1     beyond = up to factor 4 (Automatic), in the proportion of 8 (Bytes)
-//! grown:    least = the room that there is      beyond = up to 5/2 of what a frame needed
-//! shrunk:   least = the first room              beyond = up to 5/2 of what 1024 frames needed
+//! grown:    least = the present room            beyond = up to 5/2 of what a frame needed
+//! shrunk:   least = the initial room            beyond = up to 5/2 of the most that 1024 frames needed
 //!
-//! room, as a frame uses it:    0 ... 1/5 shrinks after 1024 frames ... 2/5 after a change ... 7/8 grows at once ... 1
+//! share of the room that a frame needs:   up to 1/5   1024 such frames in a row shrink the room
+//!                                         2/5         the share right after the room has changed
+//!                                         over 7/8    the room grows before the next frame
 //! ```
 //!
-//! A point takes 8 bytes, plus a vertex if points are evaluated; it takes none if the vertex shader
-//! computes it. A primitive takes 4 bytes for each of its corners, or none without an index buffer.
+//! A point takes 8 bytes, plus those of a vertex if points are evaluated; it takes none if the
+//! vertex shader computes it. A primitive takes 4 bytes for each of its corners, or none without an
+//! index buffer.
 //!
 //! # One stage
 //!
-//! Ten quads, `Automatic` with a budget of 100 000 bytes. At factor 4 they give 250 points and 320
-//! triangles, which take 5840 bytes: the first room. A frame needs 219 points and 280 triangles.
-//! 219 is more than 7/8 of 250, so the next room is 5/2 of both: 547 points and 700 triangles. Then
-//! a frame needs 40 000 points and 80 000 triangles, 1.3 MB. The rest of the budget is divided in
-//! the proportion of these two numbers, and the room stays until frames need little. The test
-//! `automatic_room_grows_ahead_and_no_further` computes this.
+//! Ten quads, `Automatic` with a budget of 100 000 bytes:
+//!
+//! ```text
+//! event                                                            points   triangles    bytes
+//! first room: ten quads at factor 4                                   250         320    5 840
+//! a frame needs 219 points (over 7/8 of 250) and 280 triangles:
+//!     room for 5/2 of both                                            547         700   12 776
+//! a frame needs 40 000 points and 80 000 triangles, 1.28 MB:
+//!     both grow until less than 20 bytes of the budget are left
+//! ```
+//!
+//! What is left of the budget is divided in the proportion of what is missing. After that the room
+//! stays until frames need little. The test `automatic_room_grows_ahead_and_no_further` computes
+//! these numbers.
 //!
 //! # What must hold
 //!
-//! - Room grows ahead of frames whose output rises by up to 4 % each, with two on their way: 1.04^3
-//!   < 8/7.
-//! - Room at least doubles in a dimension that was short, unless it reaches the budget or the most
-//!   that a frame can need. So the number of times that buffers are made is logarithmic.
-//! - Room shrinks at least by half, and never below the first room.
-//! - Room does not grow once the budget is used.
-//! - If the budget holds all patches at factor 1, so does the room. Then every frame is drawn,
-//!   because [`Overflow::Coarser`](super::Overflow::Coarser) scales factors down to 1.
-//! - No buffer exceeds the device's limit. An index buffer is a multiple of 8 bytes long, so the
-//!   limit is rounded down to one.
+//! - A frame fits if each frame's output is at most 4 % above the last one's: feedback is up to two
+//!   frames late, and 1.04^3 < 8/7.
+//! - A dimension that was short at least doubles (5/2 of 7/8 is 2.19), unless the budget or the
+//!   most that frames can need ends it. So the number of reallocations is logarithmic.
+//! - A dimension that shrinks becomes at most half as large, or as small as the initial room. It
+//!   never becomes smaller than that, so small scenes do not reallocate.
+//! - A room that uses up its budget does not grow.
+//! - If the budget holds all patches at factor 1, the room does too.
+//!   [`Overflow::Coarser`](super::Overflow::Coarser) scales factors down to 1, so every frame is
+//!   then drawn.
+//! - No buffer exceeds the device's limit, rounded down to a multiple of 8, because an index
+//!   buffer's length is rounded up to one.
 
 use super::choices::{Points, Room};
 use tess_gpu::sizes::SHORT_PATCHES;
 use tess_gpu::{Capacity, Setup, Stage};
 
-/// The properties of a stage on which the size of its output depends.
+/// The parameters that determine the sizes of a stage's buffers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
     pub(crate) setup: Setup,
@@ -77,7 +90,7 @@ impl Form {
         }
     }
 
-    /// The room before the first frame. If the stage chooses, at least `least`, within the budget.
+    /// The initial room; with [`Room::Automatic`] at least `least`, as far as the budget allows.
     pub(crate) fn first(self, room: Room, least: Capacity) -> Capacity {
         match room {
             Room::Automatic { most_bytes } => {
@@ -87,8 +100,8 @@ impl Form {
         }
     }
 
-    /// The new room after a frame that needed this many points and primitives; `None` to keep the
-    /// present one.
+    /// The larger room to make after a frame that needed this many points and primitives, or `None`
+    /// if `now` is large enough or cannot grow.
     pub(crate) fn grown(self, room: Room, now: Capacity, needed: [u64; 2]) -> Option<Capacity> {
         let Room::Automatic { most_bytes } = room else { return None };
         let most = self.possible(Capacity { points: u32::MAX, primitives: u32::MAX });
@@ -104,19 +117,19 @@ impl Form {
         (grown != now).then_some(grown)
     }
 
-    /// The room of which a frame that needs this much uses two fifths.
+    /// A room of which frames with these needs use two fifths, or as much as is possible.
     fn ample(self, needed: [u64; 2]) -> Capacity {
         let more = |needed: u64| u32::try_from(needed.saturating_mul(5) / 2).unwrap_or(u32::MAX);
         self.possible(Capacity { points: more(needed[0]), primitives: more(needed[1]) })
     }
 
-    /// Whether a room leaves less of a budget than one point and one primitive take.
+    /// Whether a room uses up a budget: what is left does not hold one point and one primitive.
     fn uses(self, budget: u64, room: Capacity) -> bool {
         let [point, primitive] = self.element_bytes().map(u128::from);
         self.bytes(room) + point + primitive > u128::from(budget) && self.element_bytes() != [0, 0]
     }
 
-    /// The greater of `least` and `wanted` in each dimension, or as much of it as a budget holds.
+    /// The greater of `least` and `wanted` in each dimension, or as much of it as the budget holds.
     fn at_most(self, budget: u64, least: Capacity, wanted: Capacity) -> Capacity {
         let whole = Capacity {
             points: least.points.max(wanted.points),
@@ -128,8 +141,8 @@ impl Form {
         self.largest(budget, least, whole)
     }
 
-    /// The room that fills a budget: `least`, and beyond it in the proportion in which `shape`
-    /// exceeds `least`. A budget that does not hold `least` gives a part of `least`.
+    /// The room that fills a budget: `least`, and the rest divided in the proportion in which
+    /// `shape` exceeds `least`. If the budget does not hold `least`, the room is a part of `least`.
     fn largest(self, budget: u64, least: Capacity, shape: Capacity) -> Capacity {
         let (budget, fixed) = (u128::from(budget), self.bytes(least));
         let (base, free, shape) = match budget.checked_sub(fixed) {
@@ -140,7 +153,7 @@ impl Form {
             points: shape.points.saturating_sub(base.points),
             primitives: shape.primitives.saturating_sub(base.primitives),
         };
-        // At least 1: nothing is stored per element, and the division below is defined.
+        // A stage without patches has 0 bytes to divide; 1 keeps the division defined.
         let whole = self.bytes(beyond).max(1);
         let sum = |base: u32, beyond: u32| {
             let sum = u128::from(base) + u128::from(beyond) * free / whole;
@@ -152,7 +165,7 @@ impl Form {
         })
     }
 
-    /// The room, limited to the most that the patches can give and that a buffer can hold.
+    /// The part of a room that frames can ever need and that buffers can hold.
     fn possible(self, room: Capacity) -> Capacity {
         let worst = Capacity::worst_case(self.setup, self.patches);
         let of = |each: u32| match u64::from(each) {
@@ -167,8 +180,8 @@ impl Form {
         }
     }
 
-    /// The shaders of batches in any room, with any groups, of these or more patches: those whose
-    /// pipelines are made before a frame needs them.
+    /// All shaders that batches of this form may run, with any room and any groups, for this number
+    /// of patches or more. They are compiled when the stage is built, so that no frame has to.
     pub(crate) fn stages(self) -> Vec<Stage> {
         use Stage::{
             ExpandPoints, ExpandPrimitives, ExpandShort, Factors, Groups, List, Partition, Scan,
@@ -193,7 +206,7 @@ impl Form {
         4 * u64::from(self.setup.factors()) * u64::from(self.patches)
     }
 
-    /// Bytes that a point and a primitive take in the output buffers.
+    /// The stored bytes of a point and of a primitive.
     fn element_bytes(self) -> [u32; 2] {
         [
             self.packed_bytes() + self.vertex_bytes,
@@ -213,7 +226,7 @@ impl Form {
     }
 }
 
-/// The frames since one used more than a fifth of its room.
+/// The frames since one last used more than a fifth of the room.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lull {
     /// Frames after which room is given back.
@@ -223,11 +236,11 @@ pub(crate) struct Lull {
 }
 
 impl Lull {
-    /// 1024 frames take 17 seconds on most screens.
+    /// 1024 frames are 17 seconds at 60 frames per second.
     pub(crate) const NEW: Self = Self { patience: 1024, since: 0, most: [0; 2] };
 
-    /// The new room after a long lull; `None` to keep the present one. `frame` is the number of the
-    /// latest frame, `needed` the points and primitives that it needed.
+    /// The smaller room to make once the lull has lasted long enough, or `None`. `frame` is the
+    /// number of the latest frame and `needed` its points and primitives.
     pub(crate) fn shrunk(
         &mut self,
         (form, room, now): (Form, Room, Capacity),
@@ -259,7 +272,7 @@ mod tests {
         Form { setup, points, vertex_bytes, patches: 10, buffer_limit: 1 << 30 }
     }
 
-    /// Every stage that a plan runs is made ahead.
+    /// Every stage that a plan runs is compiled ahead.
     #[test]
     fn the_stages_are_those_of_every_plan() {
         use std::collections::HashSet;

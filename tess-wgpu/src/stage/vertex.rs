@@ -1,4 +1,4 @@
-//! The layout of the user's `struct Vertex` in a vertex buffer.
+//! The user's `struct Vertex` as a vertex buffer holds it.
 //!
 //! With [`Points::Evaluated`](super::Points::Evaluated) a compute pass writes an array of this
 //! struct, and the vertex shader loads its members as attributes. WGSL fixes the offsets of a
@@ -12,11 +12,11 @@
 //! }                                                 largest alignment, 16
 //! ```
 //!
-//! A member's attribute has the number of its `@location`. The position has the first number that
+//! A member's attribute has the number of its `@location`. The position has the lowest number that
 //! is free.
 //!
-//! The struct is read from the text, because a browser's compiler does not report layouts. The test
-//! `offsets_are_those_of_the_compiler` compares the result with naga's.
+//! The layout is computed from the text, because a browser's compiler does not report it. The test
+//! `offsets_are_those_of_the_compiler` compares it with naga's.
 
 use super::StageError;
 use super::wgsl::{self, Declaration};
@@ -26,17 +26,17 @@ use wgpu::VertexFormat as Format;
 /// The layout of [`TessellationStage::vertices`](super::TessellationStage::vertices).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VertexLayout {
-    /// The distance of two vertices, in bytes.
+    /// Bytes from one vertex to the next.
     pub array_stride: u64,
-    /// Offsets and formats. A member of `Vertex` has the `shader_location` of its `@location`; the
-    /// position has the first one that is free. Packed points are one attribute, at location 0.
+    /// Offsets and formats. The `shader_location` of a member of `Vertex` is its `@location`, and
+    /// that of the position is the lowest free one. Packed points are one attribute, at location 0.
     pub attributes: Vec<wgpu::VertexAttribute>,
     /// The names of the members, in the order of the attributes.
     names: Vec<String>,
 }
 
 impl VertexLayout {
-    /// The layout in the form that a render pipeline takes.
+    /// The layout as a render pipeline takes it.
     #[must_use]
     pub fn buffer(&self) -> wgpu::VertexBufferLayout<'_> {
         wgpu::VertexBufferLayout {
@@ -52,7 +52,7 @@ impl VertexLayout {
         self.names.iter().position(|own| own == name).map(|at| &self.attributes[at])
     }
 
-    /// Whether both layouts have the same bytes; names may differ.
+    /// Whether both describe the same bytes; names may differ.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.array_stride == other.array_stride && self.attributes == other.attributes
     }
@@ -64,7 +64,7 @@ impl VertexLayout {
         Self { array_stride: 8, attributes, names: vec!["packed".to_owned()] }
     }
 
-    /// The layout of `struct Vertex` among these declarations.
+    /// The layout of the `struct Vertex` among these declarations.
     ///
     /// # Errors
     /// [`StageError::Wgsl`] if there is none, or if a member cannot be an attribute.
@@ -94,8 +94,8 @@ impl VertexLayout {
         Ok(Self { array_stride: end.next_multiple_of(align_of_all), attributes, names })
     }
 
-    /// The parameters of a vertex shader that loads all members, and the call that puts them
-    /// together.
+    /// The parameters of a vertex shader that loads all members, and the expression that makes a
+    /// `Vertex` of them.
     ///
     /// ```text
     /// @location(1) tess_0: vec4<f32>, @location(0) tess_1: vec2<f32>     Vertex(tess_0, tess_1)
@@ -142,7 +142,7 @@ fn members(text: &str) -> Vec<Member<'_>> {
             }
             "," | "}" | ";" => {}
             name => {
-                // The colon, then the type up to a comma that is in no angle brackets.
+                // The colon, then the type up to a comma outside of angle brackets.
                 let mut depth = 0_i32;
                 let kind = words.by_ref().skip(1).take_while(|&word| {
                     depth += i32::from(word == "<") - i32::from(word == ">");
@@ -178,7 +178,7 @@ impl Member<'_> {
         match (builtin, self.number("location")?) {
             (Some("position"), _) => Ok(None),
             (Some(other), _) => Err(format!(
-                "`{}` is `@builtin({other})`, which no vertex buffer can hold; take another value \
+                "`{}` is `@builtin({other})`, which no vertex buffer can hold; choose another value \
                  of `points` than `Points::Evaluated`",
                 self.name
             )),
@@ -213,10 +213,10 @@ impl Member<'_> {
     }
 }
 
-/// The words of a type, with aliases replaced by the words that they stand for.
+/// The words of a type, with each alias replaced by what it stands for.
 fn resolved<'a>(kind: &[&'a str], declared: &[Declaration<'a>]) -> Vec<&'a str> {
     let mut words = kind.to_vec();
-    // An alias may name an alias. The compiler refuses a circle.
+    // Eight rounds resolve aliases of aliases; the compiler refuses a cycle.
     for _ in 0..8 {
         let meaning = |word: &'a str| {
             let is_alias = |one: &&Declaration<'a>| one.keyword == "alias" && one.name == word;
@@ -259,7 +259,7 @@ fn scalar_and_count<'a>(words: &[&'a str]) -> Option<(&'a str, u64)> {
     }
 }
 
-/// Scalar, number of components, format of the attribute, and type in WGSL.
+/// Scalar, number of components, the attribute's format, and the type in WGSL.
 const KINDS: [(&str, u64, Format, &str); 15] = [
     ("f32", 1, Format::Float32, "f32"),
     ("f32", 2, Format::Float32x2, "vec2<f32>"),
@@ -288,7 +288,7 @@ mod tests {
     use super::*;
     use wgpu::naga::{TypeInner, front};
 
-    /// The struct of these members, with the declarations that they need.
+    /// The struct of these members, with what they need around it.
     fn text(members: &str) -> String {
         format!(
             "enable f16; alias Colour = vec4f; alias Half = f16; alias Three = array<f32, 3>;\n\

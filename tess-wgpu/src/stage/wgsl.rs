@@ -1,18 +1,17 @@
-//! The declarations of a WGSL text at module scope, by name and line.
-//!
-//! They are found without a compiler: a browser's compiler reports less, and only later.
+//! Finds the module-scope declarations of a WGSL text by name and line. No compiler is used,
+//! because a browser's reports little and reports it late.
 
-/// A declaration at module scope.
+/// Something that a text declares at module scope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Declaration<'a> {
     pub(super) name: &'a str,
-    /// The number of its line, from 1.
+    /// Counted from 1.
     pub(super) line: u32,
     /// `fn`, `override`, ...
     pub(super) keyword: &'a str,
     /// Whether it is a function with the attribute `@fragment`.
     pub(super) is_fragment: bool,
-    /// The whole declaration, beginning where the one before it ends.
+    /// The whole declaration, from the end of the one before it.
     pub(super) text: &'a str,
 }
 
@@ -68,12 +67,12 @@ pub(super) fn is_in_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The number of bytes before the first such character.
+/// The bytes before the first such character.
 fn until(text: &str, is_end: impl Fn(char) -> bool) -> usize {
     text.find(is_end).unwrap_or(text.len())
 }
 
-/// The number of bytes of the comment with which a text begins; comments nest.
+/// The bytes of the comment that a text begins with; comments nest.
 fn block_comment(text: &str) -> usize {
     let (mut at, mut depth) = (2, 1);
     while depth > 0 {
@@ -121,8 +120,8 @@ pub(super) fn declarations(text: &str) -> Vec<Declaration<'_>> {
     all
 }
 
-/// The declarations that these functions use, and those without a name, in the order of the text. A
-/// name that a local variable hides counts as used.
+/// The declarations that the functions `entries` use, and those without a name, in the order of the
+/// text. A name that a local variable hides also counts as used.
 pub(super) fn reached<'a>(all: &[Declaration<'a>], entries: &[&'a str]) -> Vec<Declaration<'a>> {
     let mut is_reached = vec![false; all.len()];
     let mut names = [entries, &[""]].concat();
@@ -137,11 +136,11 @@ pub(super) fn reached<'a>(all: &[Declaration<'a>], entries: &[&'a str]) -> Vec<D
     all.iter().zip(is_reached).filter(|one| one.1).map(|one| *one.0).collect()
 }
 
-/// The predefined types of WGSL that the stage's text names; it uses no aliases of them.
+/// The built-in types that the stage's text names. It uses no built-in aliases, such as `vec4f`.
 const TYPES: &str = "array atomic bitcast bool f32 i32 mat4x4 ptr texture_2d u32 vec2 vec3 vec4";
 
-/// The user's first declaration of a predefined name of WGSL which the stage's text uses. The stage
-/// would call the user's declaration instead.
+/// The user's first declaration of a built-in name that the stage's text uses. The stage's text
+/// would mean the user's declaration instead.
 pub(super) fn shadowed<'a>(user: &'a str, own: &str) -> Option<Declaration<'a>> {
     let declared: Vec<&str> = declarations(own).into_iter().map(|one| one.name).collect();
     let words: Vec<&str> = tokens(own).map(|(_, token)| token).collect();

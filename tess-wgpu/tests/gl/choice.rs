@@ -64,7 +64,7 @@ pub(crate) fn opengl_is_last() {
 
 pub(crate) fn what_is_lacking_is_said() {
     let old = adapter(&[&NO_VULKAN[..], &OLD].concat());
-    assert!(old.contains("lacks compute shaders, which OpenGL has from 4.3"), "{old}");
+    assert!(old.contains("lacks compute shaders, which need OpenGL 4.3"), "{old}");
     assert!(old.contains("install a driver of Vulkan"), "what to do: {old}");
     let metal = adapter(&[("WGPU_BACKEND", "metal")]);
     assert!(metal.contains("WGPU_BACKEND allows no other"), "{metal}");

@@ -8,7 +8,7 @@ use bevy_tess::{LevelOfDetail, TessBackend, TessSettings, TessStats, Tessellated
 
 pub(crate) fn set_up(mut gizmos: ResMut<GizmoConfigStore>) {
     let (config, _) = gizmos.config_mut::<DefaultGizmoConfigGroup>();
-    // In front of everything.
+    // Drawn in front of everything.
     config.depth_bias = -1.0;
     config.line.width = 1.5;
 }
@@ -47,8 +47,8 @@ pub(crate) fn press(
     }
 }
 
-/// Writes the frame time, the triangles and who tessellates onto the screen and into the window's
-/// title.
+/// Writes the frame time, the number of triangles and the backend onto the screen and into the
+/// window's title.
 pub(crate) fn write(
     diagnostics: Res<DiagnosticsStore>,
     settings: Res<TessSettings>,
@@ -98,7 +98,7 @@ mod tests {
         app
     }
 
-    /// Presses a key and lets it go again.
+    /// Presses and releases a key.
     fn strike(app: &mut App, key: KeyCode) {
         app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(key);
         app.update();

@@ -1,4 +1,4 @@
-//! A flight over a tessellated terrain with characters: see README.md beside this file.
+//! A flight over a tessellated terrain with characters: see README.md in this folder.
 
 mod args;
 mod hud;

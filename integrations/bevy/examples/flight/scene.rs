@@ -73,7 +73,7 @@ pub(crate) fn set_up(
     commands.spawn((
         Camera3d::default(),
         Projection::Perspective(PerspectiveProjection { fov: 1.17, ..default() }),
-        // One that needs no texture.
+        // A tone mapping that needs no texture.
         Tonemapping::AcesFitted,
         DistanceFog {
             color: sky,
@@ -96,7 +96,7 @@ fn ground() -> Result<HeightField> {
     Ok(map.with_size(SIZE).with_colors(colors).with_patches(UVec2::splat(64))?)
 }
 
-/// Characters of one of five colours share their shape.
+/// A character in one of five colours. All characters share one shape.
 fn character(number: u16) -> Result<(Tessellated, StandardMaterial)> {
     static SHAPE: std::sync::OnceLock<Arc<dyn Shape>> = std::sync::OnceLock::new();
     let mesh = gltf::animal();
@@ -115,7 +115,7 @@ fn teapot() -> Result<Tessellated> {
     Ok(Tessellated::new(BezierPatches::new(patches)?))
 }
 
-/// Where the camera flies by.
+/// A place that the camera flies past.
 fn at_the_flight(ground: &HeightField) -> Transform {
     let at = ground.surface_at(Vec2::new(0.54, 0.22));
     let upright = Quat::from_rotation_x(-FRAC_PI_2);
@@ -139,7 +139,7 @@ fn spread(number: u16, step: f32) -> f32 {
     (0.5 + step * f32::from(number)).fract()
 }
 
-/// Where the camera is after so many seconds: on a circle over the terrain, or above it.
+/// The camera's place after a number of seconds: on a circle over the terrain, or above it.
 fn flight(args: &Args, seconds: f32) -> Transform {
     if args.above {
         return Transform::from_xyz(0.0, 24.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
@@ -163,7 +163,7 @@ pub(crate) fn fly(
     }
 }
 
-/// The moment; a screenshot's stands still.
+/// The time in seconds; it stands still for a screenshot.
 fn seconds(args: &Args, time: &Time) -> f32 {
     match args.screenshot {
         Some(_) => args.seconds,
@@ -175,7 +175,7 @@ fn seconds(args: &Args, time: &Time) -> f32 {
 #[derive(Clone, Copy, Component, Debug)]
 pub(crate) enum Moving {
     Water,
-    /// So many seconds ahead of the others.
+    /// The seconds by which it is ahead of the others.
     Head(f32),
 }
 

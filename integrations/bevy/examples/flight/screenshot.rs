@@ -8,9 +8,9 @@ use bevy::render::render_resource::TextureFormat;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured, save_to_disk};
 use bevy_tess::TessStats;
 
-/// So many frames in a row must have the same number of triangles.
+/// The frames in a row that must have the same number of triangles.
 const STEADY: u32 = 4;
-/// After so many frames something is wrong.
+/// The frames after which the attempt is given up.
 const PATIENCE: u32 = 300;
 
 /// The image that the camera draws into.

@@ -89,7 +89,7 @@ fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// The matrix of the head's joint after so many seconds, three rows.
+/// The matrix of the head's joint after a number of seconds, as three rows.
 pub(crate) fn nod(seconds: f32) -> Vec<f32> {
     let neck = Mat4::from_translation(Vec3::new(0.5, 0.17, 1.6));
     let joint = neck * Mat4::from_rotation_x(0.4 * ops::sin(2.0 * seconds)) * neck.inverse();

@@ -1,4 +1,4 @@
-//! Buffers of the entities of a program, which a camera's shaders read.
+//! The buffers that a camera's shaders read for the entities of a program.
 
 use super::extract::Item;
 use super::layout::{self, GpuInstance, GpuView};
@@ -19,7 +19,7 @@ pub(crate) struct Content {
     instances: Mirror,
     meshes: Mirror,
     values: Mirror,
-    /// The bind group, and the buffers that it was made of.
+    /// The bind group, and the buffers that it binds.
     bound: Option<(Vec<BufferId>, BindGroup)>,
 }
 
@@ -34,7 +34,7 @@ impl Content {
         Self { view, instances, meshes, values, bound: None }
     }
 
-    /// Writes what changes from frame to frame. An instance that no entity has is hidden.
+    /// Writes the values that change from frame to frame. Instances without an entity are hidden.
     pub(crate) fn update(
         &mut self,
         (places, items): (&Places, &[&Item]),
@@ -66,7 +66,7 @@ impl Content {
         self.values.update(values, gpu)
     }
 
-    /// The bind group; it is made anew if one of the buffers is another.
+    /// The bind group, which is made again whenever one of the buffers was replaced.
     pub(crate) fn bind(
         &mut self,
         places: &Places,

@@ -16,7 +16,7 @@ use bevy::render::render_resource::IndexFormat;
 use bevy::render::view::ExtractedView;
 use tess_wgpu::TessellationStage;
 
-/// In the main pass.
+/// The draw in the main pass.
 pub(crate) type DrawLit = (
     SetItemPipeline,
     SetMeshViewBindGroup<0>,
@@ -25,7 +25,7 @@ pub(crate) type DrawLit = (
     DrawTessellated,
 );
 
-/// In a prepass or a shadow map.
+/// The draw in a prepass or a shadow map.
 pub(crate) type DrawDepth = (
     SetItemPipeline,
     SetPrepassViewBindGroup<0>,

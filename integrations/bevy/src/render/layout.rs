@@ -51,7 +51,7 @@ pub(crate) struct GpuInstance {
 }
 
 impl GpuInstance {
-    /// An entity whose patches, words and values begin there.
+    /// The instance of an entity. `firsts` are the numbers of its first patch, word and value.
     pub(crate) fn new(item: &Item, firsts: [u32; 3], is_visible: bool) -> Self {
         let [first_patch, first_word, first_value] = firsts;
         let linear = Mat3::from(item.world_from_local.matrix3);
@@ -67,7 +67,7 @@ impl GpuInstance {
         }
     }
 
-    /// Makes it that of an entity that the camera does not see.
+    /// Marks the instance as one that the camera does not see.
     pub(crate) const fn hide(&mut self) {
         self.rule = LevelOfDetail::HIDDEN;
     }
@@ -76,8 +76,8 @@ impl GpuInstance {
 /// The words that Bevy's fragment functions read of each entity.
 pub(crate) fn meshes(items: &[&Item]) -> Vec<u32> {
     let of = |item: &&Item| {
-        // The sign says that fragments are told which side is in front, whatever the transform does
-        // to triangles.
+        // With this sign, fragments learn which side is in front, even if the transform mirrors the
+        // triangles.
         let mut flags = MeshFlags::SIGN_DETERMINANT_MODEL_3X3;
         flags.set(MeshFlags::SHADOW_RECEIVER, item.receives_shadows);
         let world_from_local = item.world_from_local.into();

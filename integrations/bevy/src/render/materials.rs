@@ -1,4 +1,4 @@
-//! The materials of surfaces: Bevy's, prepared by Bevy.
+//! The materials of surfaces, which Bevy prepares.
 
 use super::extract::Extracted;
 use bevy::ecs::prelude::*;
@@ -19,7 +19,7 @@ pub(crate) struct Material {
     type_id: TypeId,
 }
 
-/// Where a material is drawn, as Bevy does without transmission.
+/// The pass that draws a material, as Bevy chooses it, but without transmission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pass {
     Opaque,
@@ -53,8 +53,8 @@ impl Material {
     }
 }
 
-/// Finds the materials of the frame's surfaces. One without is not drawn: Bevy loads it, or the
-/// surface is hidden.
+/// Finds the materials of the frame's surfaces. A surface without one is not drawn, because Bevy
+/// still loads the material or the surface is hidden.
 pub(crate) fn find(
     mut extracted: ResMut<Extracted>,
     instances: Res<RenderMaterialInstances>,

@@ -1,23 +1,24 @@
-//! Buffers of which only what changes is written.
+//! Buffers of which only the changed words are written.
 
 use bevy::render::render_resource::{Buffer, BufferDescriptor, BufferUsages};
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use std::cell::Cell;
 use std::ops::Range;
 
-/// Where to upload, and how many bytes were.
+/// The device and queue for uploads, and the number of uploaded bytes.
 pub(crate) struct Gpu<'a> {
     pub(crate) device: &'a RenderDevice,
     pub(crate) queue: &'a RenderQueue,
     pub(crate) uploaded: Cell<u64>,
 }
 
-/// A storage buffer that doubles; the device copies what is there. None at first.
+/// A storage buffer that doubles when it is full; the device copies its contents. There is none at
+/// first.
 #[derive(Debug, Default)]
 pub(crate) struct Growing(pub(crate) Option<Buffer>);
 
 impl Growing {
-    /// Writes words from this one on. An error if they exceed one binding.
+    /// Writes words, beginning at word `at`. It is an error if they exceed one binding.
     pub(crate) fn write(&mut self, at: u32, words: &[u32], gpu: &Gpu<'_>) -> Result<(), String> {
         let end = 4 * (u64::from(at) + words.len() as u64);
         let buffer = self.with_room(end, gpu)?;
@@ -46,21 +47,22 @@ impl Growing {
         if let Some(old) = old {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             encoder.copy_buffer_to_buffer(&old, 0, new, 0, old.size());
-            // At once: what is written from now on comes behind it.
+            // Submitted at once, so that later writes come after the copy.
             gpu.queue.submit([encoder.finish()]);
         }
         Ok(new)
     }
 }
 
-/// A buffer, and the words that are in it.
+/// A buffer, and a copy of its words.
 #[derive(Debug, Default)]
 pub(crate) struct Mirror {
     pub(crate) buffer: Growing,
     pub(crate) words: Vec<u32>,
 }
 
-/// Runs with fewer equal words between them are one: a write costs more than these words.
+/// Changed runs with fewer equal words than this between them are written as one, because a write
+/// costs more than these words.
 const APART: usize = 64;
 
 impl Mirror {
@@ -74,7 +76,7 @@ impl Mirror {
     }
 }
 
-/// Where words differ from those before, or are new.
+/// The runs of words that differ from the old ones, or are new.
 pub(crate) fn changed(old: &[u32], new: &[u32]) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
     for at in (0..new.len()).filter(|&at| old.get(at) != Some(&new[at])) {

@@ -1,4 +1,4 @@
-//! The pipelines of programs, for what cameras and lights need of them.
+//! The pipelines of programs, for the passes of cameras and lights.
 
 use super::layout;
 use crate::program::{DRAW_GROUP, Program};
@@ -21,7 +21,7 @@ use bevy::render::render_resource::{
 use bevy::shader::ShaderDefVal;
 use std::sync::Arc;
 
-/// A kind of draw: of Bevy's key, whether only depth, normals and motion, and whether as a
+/// A kind of draw: Bevy's key, whether only depth, normals and motion are drawn, and whether as a
 /// wireframe.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Kind {
@@ -30,11 +30,11 @@ pub(crate) struct Kind {
     pub(crate) wireframe: bool,
 }
 
-/// The pipelines so far, by the program's number.
+/// The pipelines made so far, by the program's number and the kind.
 #[derive(Debug, Default, Resource)]
 pub(crate) struct Pipelines(HashMap<(usize, Kind), CachedRenderPipelineId>);
 
-/// Bevy's own pipelines, which state what cameras and lights need.
+/// Bevy's own pipelines, from which those of programs are made.
 #[derive(SystemParam)]
 pub(crate) struct Own<'w> {
     mesh: Res<'w, MeshPipeline>,
@@ -43,7 +43,7 @@ pub(crate) struct Own<'w> {
 }
 
 impl Pipelines {
-    /// The pipeline of a program for what is drawn.
+    /// The pipeline of a program for a kind of draw.
     pub(crate) fn get(
         &mut self,
         program: &Program,
@@ -57,15 +57,14 @@ impl Pipelines {
     }
 }
 
-/// A mesh with the attributes that a fallback has, for whose layout Bevy states what a camera
-/// needs.
+/// A mesh with the attributes of the CPU's meshes. For its layout Bevy makes the pipelines that the
+/// plugin adapts.
 fn layout_of_a_mesh() -> MeshVertexBufferLayoutRef {
     crate::cpu::mesh(Default::default(), PrimitiveTopology::TriangleList)
         .get_mesh_vertex_buffer_layout(&mut MeshVertexBufferLayouts::default())
 }
 
-/// Bevy's pipeline for meshes, with the program's shaders and bind group in place of those for
-/// meshes.
+/// Bevy's pipeline for meshes, with the program's shaders and bind group in place of the meshes'.
 fn descriptor(
     own: &Own<'_>,
     program: &Program,
@@ -93,7 +92,7 @@ fn descriptor(
         let shader = if kind.is_prepass { &program.prepass } else { &program.fragment };
         fragment.shader = shader.clone();
         fragment.entry_point = None;
-        // Tangents where a material wants them, as meshes have.
+        // Tangents if a material needs them, as meshes have them.
         if ["NORMAL_MAP", "CLEARCOAT_NORMAL_MAP", "ANISOTROPY"].into_iter().any(|name| {
             let name = format!("STANDARD_MATERIAL_{name}");
             fragment.shader_defs.contains(&name.into())
@@ -108,8 +107,8 @@ fn descriptor(
     descriptor
 }
 
-/// Bevy's pipeline for a mesh of a material. Where the device cannot draw what is in front of the
-/// near plane, the vertex shader moves it there.
+/// Bevy's pipeline for a mesh of a material. If the device cannot draw vertices in front of the
+/// near plane, the vertex shader moves them onto it.
 fn of_a_mesh(
     own: &Own<'_>,
     kind: &Kind,
@@ -137,7 +136,8 @@ fn of_a_mesh(
     descriptor
 }
 
-/// Bevy's pipeline for the main pass: its `MaterialPipelineSpecializer`, which others cannot make.
+/// Bevy's pipeline for the main pass, as from its `MaterialPipelineSpecializer`, which other crates
+/// cannot make.
 fn lit(
     own: &Own<'_>,
     key: MeshPipelineKey,

@@ -1,4 +1,5 @@
-//! Where a program's entities are in its buffers. An entity keeps its place as long as it is there.
+//! The places of a program's entities in its buffers. An entity keeps its place as long as it
+//! exists.
 
 use super::extract::Item;
 use super::mirror::{Gpu, Growing, changed};
@@ -10,10 +11,10 @@ use std::collections::BTreeMap;
 use std::mem::{replace, take};
 use std::sync::Arc;
 
-/// A first number, and how many there are.
+/// The first number of a run, and its length.
 type Run = [u32; 2];
 
-/// Which numbers below `end` are free.
+/// The numbers below `end` that are free.
 #[derive(Debug, Default)]
 struct FreeRuns {
     free: BTreeMap<u32, u32>,
@@ -21,7 +22,7 @@ struct FreeRuns {
 }
 
 impl FreeRuns {
-    /// Replaces a run that has another length.
+    /// Replaces a run if its length is to change.
     fn resize(&mut self, run: &mut Run, length: usize) -> Result<(), String> {
         if run[1] as usize == length {
             return Ok(());
@@ -62,14 +63,14 @@ impl FreeRuns {
     }
 }
 
-/// The place of an entity. It has no words if there is no room for it.
+/// The place of an entity. It has no words if there was no room for it.
 #[derive(Debug)]
 struct Place {
     shape: Arc<dyn Shape>,
     /// The number of its instance.
     slot: Run,
     patches: Run,
-    /// Their number, then themselves.
+    /// The number of values, followed by the values.
     values: Run,
     words: Option<Run>,
 }
@@ -78,7 +79,7 @@ struct Place {
 #[derive(Debug, Default)]
 pub(crate) struct Places {
     all: HashMap<MainEntity, Place>,
-    /// The words of shapes by address, and how many entities have each.
+    /// The words of shapes, by the shape's address, and the number of entities that use each.
     words: HashMap<usize, (Run, u32)>,
     slots: FreeRuns,
     patches: FreeRuns,
@@ -89,10 +90,10 @@ pub(crate) struct Places {
     /// The words of all shapes.
     pub(crate) shapes: Growing,
     pub(crate) groups: HashMap<MainEntity, u32>,
-    /// The first patch of each group. Free patches are groups too, and there are empty ones at the
+    /// The first patch of each group. Free patches form groups too, and empty groups follow at the
     /// end.
     pub(crate) begins: Vec<u32>,
-    /// How often entities came, went or changed.
+    /// The number of times that entities came, went or changed.
     pub(crate) changes: u64,
 }
 
@@ -105,7 +106,7 @@ impl Places {
         self.patches.end
     }
 
-    /// How many instances and values there are, free ones included.
+    /// The numbers of instances and of values, including free ones.
     pub(crate) const fn sizes(&self) -> [usize; 2] {
         [self.slots.end as usize, self.values.end as usize]
     }
@@ -116,7 +117,7 @@ impl Places {
         Some((place.slot[0] as usize, [place.patches[0], place.words?[0], place.values[0]]))
     }
 
-    /// Takes the entities of a frame, and uploads what is new of them.
+    /// Takes the entities of a frame, and uploads the new ones.
     pub(crate) fn refresh(&mut self, items: &[&Item], gpu: &Gpu<'_>) {
         let is_kept = |item: &&&Item| {
             self.all.get(&item.entity).is_some_and(|own| {
@@ -140,7 +141,7 @@ impl Places {
             self.patches.give(place.patches);
             self.values.give(place.values);
         }
-        // An entity's next shape may take over the words of the one before.
+        // An entity's new shape may take over the words of its old one.
         self.free_words(&left.values().map(|place| address(&place.shape)).collect());
         for item in items.iter().filter(|item| !kept.contains(&item.entity)) {
             let place = self.place(item, left.remove(&item.entity), gpu);
@@ -150,7 +151,7 @@ impl Places {
         self.group();
     }
 
-    /// Frees words that no entity has, but for these.
+    /// Frees the words of shapes that no entity uses, except those of the `wanted` ones.
     fn free_words(&mut self, wanted: &HashSet<usize>) {
         self.words.retain(|address, (run, users)| {
             let stays = *users > 0 || wanted.contains(address);
@@ -194,7 +195,7 @@ impl Places {
         Ok(())
     }
 
-    /// The words of a shape in place of another one.
+    /// The words of a shape, which may take the place of the entity's previous one.
     fn words_of(
         &mut self,
         shape: &Arc<dyn Shape>,

@@ -69,7 +69,7 @@ fn meshes(all: &RenderVisibleEntities) -> &[(Entity, MainEntity)] {
     all.get::<Mesh3d>().map_or(&[], |class| &class.entities_cpu_culling)
 }
 
-/// A phase of Bevy's that surfaces are in.
+/// A phase of Bevy's in which surfaces are drawn.
 pub(crate) trait Phase: PhaseItem {
     /// Bevy's keys of the pipelines, by the camera or the shadow map.
     type Keys: Resource + Deref<Target = HashMap<RetainedViewEntity, MeshPipelineKey>>;
@@ -77,13 +77,13 @@ pub(crate) trait Phase: PhaseItem {
     type Phases: Resource<Mutability = Mutable>
         + DerefMut<Target = HashMap<RetainedViewEntity, Self::Phase>>;
     type Phase;
-    /// The command.
+    /// The command that draws an item.
     type Draw: 'static;
     const IS_PREPASS: bool;
-    /// The materials that it takes, all if `None`.
+    /// The materials that the phase takes; all if `None`.
     const TAKES: Option<Pass>;
 
-    /// The key with what the pipelines of an alpha mode have more.
+    /// The part of the key that the alpha mode adds.
     fn alpha_key(mode: AlphaMode, key: MeshPipelineKey) -> MeshPipelineKey {
         alpha_mode_pipeline_key(mode, &Msaa::from_samples(key.msaa_samples()))
     }
@@ -219,7 +219,7 @@ impl Phase for Transparent3d {
     }
 }
 
-/// Puts what cameras or shadow maps see into their phases.
+/// Puts the surfaces that cameras or shadow maps see into their phases.
 pub(crate) fn queue<P: Phase>(
     extracted: Res<Extracted>,
     (mut pipelines, own, device): (ResMut<Pipelines>, Own<'_>, Res<RenderDevice>),

@@ -27,10 +27,10 @@ use tess_wgpu::{TessellationStage, Tessellator};
 /// The stages of all cameras.
 #[derive(Debug, Default, Resource)]
 pub(crate) struct Stages {
-    /// By the program's number, as those of cameras.
+    /// The places of each program's entities, by the program's number.
     places: HashMap<usize, Places>,
     of_views: HashMap<RetainedViewEntity, HashMap<usize, Prepared>>,
-    /// The camera by which surfaces are tessellated for lights that all cameras share.
+    /// The camera whose tessellation is drawn for lights that all cameras share.
     first: Option<RetainedViewEntity>,
     /// The pipelines that all stages share.
     tessellator: Option<Tessellator>,
@@ -66,23 +66,24 @@ impl Stages {
 #[derive(Debug, Default)]
 pub(crate) struct Prepared {
     content: Option<Content>,
-    /// With the most patches that it takes.
+    /// The stage, and the most patches that it takes.
     stage: Option<(TessellationStage, u32)>,
     drawn: Option<Drawn>,
-    /// The changes of the places that it has seen.
+    /// [`Places::changes`] when the stage was last prepared.
     changes: u64,
     /// An error is logged once; the program is then not drawn until its entities change.
     has_failed: bool,
-    /// Frames since it was prepared.
+    /// The frames since it was last prepared.
     idle: u32,
 }
 
-/// A stage and its buffers are kept so many frames without entities: 17 seconds on most screens.
+/// The frames for which a stage and its buffers are kept without entities: 17 seconds at 60 frames
+/// per second.
 const PATIENCE: u32 = 1024;
-/// Stages of so many patches have pipelines of their own. These are made with the first stage, so
-/// that growth waits for none.
+/// Numbers of patches at which stages begin to need other pipelines. These are made with the first
+/// stage, so that growth never waits for one.
 const OTHER_KINDS: [u32; 2] = [SHORT_PATCHES + 1, CATALOGUE_PATCHES];
-/// No stage takes fewer patches.
+/// The fewest patches for which a stage is made.
 const LEAST_PATCHES: u32 = 1024;
 
 /// The buffers of a draw.
@@ -93,7 +94,7 @@ pub(crate) struct Drawn {
     pub(crate) arguments: Buffer,
 }
 
-/// Prepares the stages of all cameras, in front of every pass.
+/// Prepares the stages of all cameras, before every pass.
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are what it uses")]
 pub(crate) fn prepare(
     cameras: Res<SortedCameras>,
@@ -193,7 +194,7 @@ impl Prepared {
     }
 }
 
-/// A stage for so many patches that begins with this room; Bevy makes its render pipeline.
+/// A stage for this many patches that begins with this room; Bevy makes its render pipeline.
 fn stage(
     key: &Key,
     (patches, room): (u32, Capacity),
@@ -211,7 +212,7 @@ fn stage(
         .build(gpu.device.wgpu_device())
 }
 
-/// Drops what no entity has had for long, and counts what was drawn.
+/// Drops stages and places that no entity has used for long, and counts the drawn triangles.
 pub(crate) fn forget(mut stages: ResMut<Stages>, extracted: Res<Extracted>, stats: Res<TessStats>) {
     let mut triangles = 0;
     let Stages { places, of_views, uploaded, .. } = &mut *stages;

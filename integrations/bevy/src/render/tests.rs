@@ -1,5 +1,5 @@
 //! Whole frames without a window: the domain points equal the CPU's, user shaders are drawn, and
-//! what is wrong with them does not end the program.
+//! errors in them do not end the program.
 
 mod images;
 mod materials;
@@ -33,7 +33,7 @@ use tess_wgpu::TessellationStage;
 
 /// Pixels across and down.
 const SIZE: u32 = 64;
-/// Frames until shaders are loaded and room has grown.
+/// The frames until shaders are loaded and the room has grown.
 const FRAMES: usize = 12;
 
 /// An app with a camera at (0, 0, 2) that looks at the origin, before its first frame.
@@ -190,7 +190,7 @@ fn wrong_wgsl_is_not_drawn_and_ends_nothing() {
     assert_eq!(middle(&mut app), [0, 255, 0, 255], "the other one is drawn");
 }
 
-/// Points of a stage: patch, u and v.
+/// The points of a stage: patch, u and v.
 fn points_of(app: &App, stage: &TessellationStage, count: usize) -> Vec<(u32, [f32; 2])> {
     let world = app.sub_app(RenderApp).world();
     let device = world.resource::<RenderDevice>().wgpu_device().clone();
@@ -218,7 +218,7 @@ fn points_of(app: &App, stage: &TessellationStage, count: usize) -> Vec<(u32, [f
     words.into_iter().map(unpack).collect()
 }
 
-/// Patch, u and v of the points that the CPU makes of a uniform factor.
+/// The points that the CPU makes for a uniform factor: patch, u and v.
 fn expected(map: &HeightField, config: Config, factor: f32) -> Vec<(u32, [f32; 2])> {
     let factors = vec![PatchFactors::uniform(Domain::Quad, factor); map.patches() as usize];
     let mut made = Vec::new();

@@ -1,4 +1,4 @@
-//! Materials: textures, normal maps, alpha, the same on the GPU and on the CPU.
+//! Materials: textures, normal maps and alpha look the same on the GPU and on the CPU.
 
 use super::passes::square;
 use super::{SIZE, SURFACE, Wall, app, middle, picture, run};
@@ -34,7 +34,8 @@ fn half(world: &mut World, alpha_mode: AlphaMode) -> MeshMaterial3d<StandardMate
     add(world, StandardMaterial { base_color_texture, alpha_mode, unlit: true, ..default() })
 }
 
-/// The pictures of both ways, which are the same but for a few pixels on edges; the GPU's.
+/// Compares the pictures of GPU and CPU, which are the same except for a few pixels on edges, and
+/// returns the GPU's.
 fn same(name: &str, set_up: impl Fn(&mut World)) -> Vec<[u8; 4]> {
     let [gpu, cpu] = [TessBackend::Auto, TessBackend::Cpu].map(|backend| {
         let mut app = app();
@@ -110,7 +111,7 @@ fn a_mask_casts_the_shadow_of_what_is_there() {
             world.spawn((sun, Transform::from_xyz(6.0, 0.0, 6.0).looking_at(Vec3::ZERO, Vec3::Y)));
             world.spawn(square(Vec3::ZERO));
             let material = half(world, mode);
-            // It is behind the camera.
+            // This square, which casts the shadow, is behind the camera.
             world.spawn((square(Vec3::new(3.0, 0.0, 3.0)), material, NotShadowReceiver));
         })
     };
@@ -161,7 +162,7 @@ fn normal_maps_bend_the_light() {
     assert!(is_same, "from the prepass: {through_prepass:?}, {along_u:?}");
 }
 
-/// A material of one's own: what it adds to Bevy's.
+/// The extension of a material of the user's own.
 #[derive(Asset, AsBindGroup, Clone, Debug, TypePath)]
 pub(super) struct Tint {
     #[uniform(100)]

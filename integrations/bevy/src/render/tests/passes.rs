@@ -15,8 +15,8 @@ pub(super) fn square(at: Vec3) -> impl Bundle {
     (Tessellated::new(level), Transform::from_translation(at).with_rotation(facing))
 }
 
-/// How bright the middle of a square is if another one is behind the camera, towards the light: as
-/// it is, if it casts no shadow, if the first receives none, and without it.
+/// The brightness of the middle of a square if another one is behind the camera, towards the light:
+/// in general, if the other casts no shadow, if the first receives none, and without the other.
 fn brightness(backend: TessBackend, light: fn(&mut World) -> Entity) -> [u8; 4] {
     let mut app = app();
     app.insert_resource(TessSettings { backend, ..default() });
@@ -63,7 +63,8 @@ fn shadows_fall_from_what_the_camera_does_not_see() {
     }
 }
 
-/// Motion to the right, the normal towards the camera, whether the depth is the prepass's.
+/// The motion to the right, the part of the normal towards the camera, and whether the depth is the
+/// prepass's.
 const STORED: &str = "
 import bevy_pbr::prepass::utils::{prepass_depth, prepass_motion_vector, prepass_normal};
 
@@ -90,7 +91,7 @@ fn a_prepass_has_the_depth_the_normal_and_the_motion() {
     });
     run(&mut app);
     let [motion, normal, _, _] = middle(&mut app);
-    // The picture is twice the tangent of half the angle high at distance 1.
+    // At distance 1, the picture is as high as twice the tangent of half the angle.
     let moved = 0.1 / 2.0 / (2.0 * ops::tan(std::f32::consts::FRAC_PI_8));
     for (seen, expected) in [(motion, 8.0 * moved), (normal, ops::cos(0.7))] {
         let expected = Srgba::from(LinearRgba::rgb(expected, 0.0, 0.0)).to_u8_array()[0];

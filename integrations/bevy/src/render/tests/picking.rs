@@ -10,14 +10,14 @@ use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_8};
 
-/// [`app`] with the window that Bevy asks for before it looks at an image.
+/// [`app`] with a window, without which Bevy's pointers do not look at an image.
 fn app() -> App {
     let mut app = super::app();
     app.world_mut().spawn(PrimaryWindow);
     app
 }
 
-/// The hits at a place of the picture, the nearest first: entity, place, normal.
+/// The hits at a place of the picture, nearest first: entity, place, normal.
 fn hits(app: &mut App, position: Vec2) -> Vec<(Entity, Vec3, Vec3)> {
     let target = NormalizedRenderTarget::Image(app.world().resource::<Target>().0.clone().into());
     let location = PointerLocation::new(Location { target, position });
@@ -34,7 +34,8 @@ fn hits(app: &mut App, position: Vec2) -> Vec<(Entity, Vec3, Vec3)> {
     picks.into_iter().map(told).collect()
 }
 
-/// Places in height maps are rounded to 1/256 of a texel: on the slope, 1/4096 in height at most.
+/// The tolerance: places in height maps are rounded to 1/256 of a texel, which is at most 1/4096 in
+/// height on the slope.
 fn assert_near(observed: Vec3, expected: Vec3, what: &str) {
     let off = observed.distance(expected);
     assert!(off < 1.0 / 4000.0, "{what}: {observed}, expected {expected}");

@@ -10,14 +10,14 @@ use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A field of so many patches along each side.
+/// A field with this many patches along each side.
 fn field(number: u32, patches: u32) -> Arc<dyn Shape> {
     let heights = (0..25).map(|i| ((i * (number + 3)) % 7) as f32).collect();
     let field = HeightField::new(UVec2::splat(5), heights).expect("25 texels");
     Arc::new(field.with_patches(UVec2::splat(patches)).expect("there are some"))
 }
 
-/// Spawns it in a place of its own, facing the camera of [`app`], in a colour of its own.
+/// Spawns a surface that faces the camera of [`app`], in its own place and colour.
 fn spawn(app: &mut App, number: u32, shape: Arc<dyn Shape>) -> Entity {
     let base_color = Color::hsl((number * 37 % 360) as f32, 1.0, 0.5);
     let material = StandardMaterial { base_color, unlit: true, ..default() };
@@ -29,7 +29,7 @@ fn spawn(app: &mut App, number: u32, shape: Arc<dyn Shape>) -> Entity {
     app.world_mut().spawn((surface, MeshMaterial3d(material), transform)).id()
 }
 
-/// Bytes that a frame uploads, and three more.
+/// The bytes that a frame uploads, and those of the next three.
 fn uploaded(app: &mut App) -> [usize; 2] {
     let mut frame = || {
         app.update();
@@ -38,10 +38,10 @@ fn uploaded(app: &mut App) -> [usize; 2] {
     [frame(), frame() + frame() + frame()]
 }
 
-/// Bytes that Bevy's fragment functions read of an entity.
+/// The bytes per entity that Bevy's fragment functions read.
 const MESH: usize = 176;
 
-/// Bevy says a frame late where a new entity was before.
+/// The bytes per entity that follow a frame late, when Bevy knows where a new entity was before.
 const MOTION: usize = 60;
 
 #[test]
@@ -94,7 +94,7 @@ fn what_came_and_went_leaves_no_trace() {
     assert_ne!(observed, picture(&mut fresh), "one fewer would be seen");
 }
 
-/// Pipelines that there are: compute, render.
+/// The numbers of compute and of render pipelines.
 fn pipelines(app: &App) -> [usize; 2] {
     let report = app.sub_app(RenderApp).world().resource::<RenderInstance>().generate_report();
     let report = report.expect("natively");
@@ -120,8 +120,8 @@ fn no_pipeline_is_made_when_surfaces_come() {
     assert_eq!(pipelines(&app), before, "16464 patches more");
 }
 
-/// `cargo test --release -- --ignored --nocapture hitch`: times of frames in which 10 000 patches
-/// come and go beside a terrain.
+/// `cargo test --release -- --ignored --nocapture hitch`: the times of frames in which 10 000
+/// patches come and go next to a terrain.
 #[test]
 #[ignore = "it measures time"]
 fn no_frame_is_a_hitch() {

@@ -68,7 +68,7 @@ impl CpuShape for Moved {
     }
 }
 
-/// Whether something is drawn to the left, in the middle and to the right, and the picture.
+/// Whether something is drawn to the left, in the middle and to the right; and the picture.
 fn seen(app: &mut App) -> ([bool; 3], Vec<[u8; 4]>) {
     run(app);
     let pixels = picture(app);
