@@ -19,8 +19,10 @@ use crate::setup;
 use std::path::PathBuf;
 
 /// The arguments of `cargo` that build the tests of the C interface, and with them the library that
-/// benches link. Only this package: the workspace has twice as many to compile.
-const CAPI: &str = "test --package tess-capi --all-features --test foreign";
+/// benches link. Only this package: the workspace has twice as many to compile. The benches call no
+/// batches, whose kernels would take half of the build's time if they were optimised.
+const CAPI: &str = "test --package tess-capi --all-features --test foreign \
+                    --config profile.dev.package.tess-simd.opt-level=0";
 
 /// Runs the command; `None` if it does not exist.
 pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {

@@ -42,8 +42,8 @@ impl Catalogue {
     /// The slot of a topology, counted from 1, which must hold its key; 0 if it has none.
     ///
     /// It is not defined which of two colliding keys gets the first slot. It is defined that each
-    /// key occurs once, in one of the 16 slots that start at its hash, after taken ones, and that it
-    /// has none only if other keys have all 16.
+    /// key occurs once, in one of the 16 slots that start at its hash, after taken ones, and that
+    /// it has none only if other keys have all 16.
     pub(crate) fn slot_of(&self, topology: [u32; 2], counts: [u32; 2], b: &mut Bound<'_>) -> u32 {
         let is_small = (0..2).all(|kind| counts[kind] <= self.most[kind]);
         let Some(key) = key_of(self.setup.domain, topology).filter(|_| is_small) else { return 0 };
