@@ -190,7 +190,7 @@ pub(crate) fn read(text: &str) -> Result<Mesh, Box<dyn Error>> {
     if mesh.normals.len() != mesh.positions.len()
         || corners.iter().any(|&corner| corner as usize >= mesh.positions.len())
     {
-        return Err("the numbers of positions and normals differ, or an index is past the last corner".into());
+        return Err("positions and normals differ in number, or an index is out of range".into());
     }
     Ok(mesh)
 }
