@@ -8,7 +8,7 @@ struct QuadFactors {
     inside: vec2<f32>,
 }
 
-// The factors of a quad by those of its edges; each inside factor is the mean of the edges that run its way.
+// The factors of a quad from those of its edges; each inside factor is the mean of the two edges in its direction.
 fn tess_quad_factors(edges: vec4<f32>) -> QuadFactors {
     return QuadFactors(edges, tess_inside_quad(edges));
 }
@@ -19,13 +19,13 @@ struct TriFactors {
     inside: f32,
 }
 
-// The factors of a triangle by those of its edges; the inside factor is their mean.
+// The factors of a triangle from those of its edges; the inside factor is their mean.
 fn tess_tri_factors(edges: vec3<f32>) -> TriFactors {
     return TriFactors(edges, tess_inside_triangle(edges));
 }
 
 struct IsolineFactors {
-    // How many lines, and how many segments each of them has.
+    // The number of lines, and the number of segments of each line.
     density: f32,
     detail: f32,
 }

@@ -1,4 +1,4 @@
-// A rectangle of patches over x and z, raised by heights. height_field.rs writes the words, and replaces the number of
+// A rectangle of patches over x and z, raised by heights. height_field.rs writes the words, and puts in the number of
 // words before the heights (in `texel`).
 
 struct Ground {

@@ -190,7 +190,7 @@ pub(crate) fn read(text: &str) -> Result<Mesh, Box<dyn Error>> {
     if mesh.normals.len() != mesh.positions.len()
         || corners.iter().any(|&corner| corner as usize >= mesh.positions.len())
     {
-        return Err("the mesh has another number of normals, or an index behind its corners".into());
+        return Err("positions and normals differ in number, or an index is out of range".into());
     }
     Ok(mesh)
 }

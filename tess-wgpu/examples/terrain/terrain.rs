@@ -107,7 +107,7 @@ pub(crate) fn points(word: &str) -> Result<Points, String> {
         "pull" => Ok(Points::Pull),
         "none" => Ok(Points::PullWithoutIndices),
         "evaluated" => Ok(Points::Evaluated),
-        _ => Err(format!("--points {word} is none of stored, pull, none and evaluated")),
+        _ => Err(format!("--points {word} is not one of stored, pull, none and evaluated")),
     }
 }
 

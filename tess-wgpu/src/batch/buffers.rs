@@ -22,8 +22,7 @@ impl Buffers {
         let Patches { groups, factors, .. } = patches;
         let tables = pipelines.tables(setup.config.split)?;
         let device = pipelines.device();
-        // An output that is not written has no windows, so its placeholder, `factors`, is never
-        // bound.
+        // An output that is not written has no windows, so its placeholder, `factors`, is unused.
         let (points, indices) = match outputs {
             Outputs::CountOnly | Outputs::Arguments(_) => (factors, factors),
             Outputs::Indices { indices, .. } => (factors, indices),

@@ -8,9 +8,9 @@
 //!
 //! # The scales
 //!
-//! Step 0 leaves the factors alone. Each further step has a scale that is smaller by 2^(-6/256),
-//! down to 1/64 at step 256. The scales are called the ladder. A step `s > 0` changes one raw
-//! factor `f` like this (`scaled` in fit.wgsl):
+//! Step 0 leaves the factors alone. Each further step multiplies the scale by 2^(-6/256), down to
+//! 1/64 at step 256. The scales are called the ladder. A step `s > 0` changes one raw factor `f`
+//! like this (`scaled` in fit.wgsl):
 //!
 //! ```text
 //! f <= 1, negative or NaN     stays f

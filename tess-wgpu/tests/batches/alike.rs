@@ -1,4 +1,4 @@
-//! Patches of equal topology in a row, whose elements are copied; and what is not copied.
+//! Runs of patches of equal topology, whose elements are copied, and patches that are not copied.
 
 use crate::common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
@@ -6,8 +6,8 @@ use tess_gpu::Setup;
 use tess_gpu::sizes::{BLOCK, SHORT_PATCHES};
 use tess_verify::generate::SplitMix64;
 
-/// Runs of patches with these factors, so many, that begin and end within blocks, each long enough
-/// for tiles within whole blocks; the copies of these begin at various elements of a patch.
+/// Runs of patches with these factors, of these lengths. They begin and end within blocks, and each
+/// is long enough for tiles within whole blocks; the copies begin at various elements of a patch.
 fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(31);
     let mut all = Vec::new();
@@ -48,7 +48,7 @@ fn like_patches_in_every_domain_partitioning_and_output() {
     }
 }
 
-/// In every format, and with patches just below and above the largest that are copied.
+/// Copies in every format, and patches just below and above the largest that are copied.
 #[test]
 fn like_patches_of_every_size_and_format() {
     let mut machine = Machine::open();
@@ -64,7 +64,8 @@ fn like_patches_of_every_size_and_format() {
     }
 }
 
-/// The same topology, and other points: factors that round up to the same number of segments.
+/// Patches of the same topology with other points: factors that round up to the same number of
+/// segments.
 #[test]
 fn equal_topologies_with_different_points() {
     let mut machine = Machine::open();
@@ -142,7 +143,7 @@ fn planted_faults_are_seen() {
     machine.assert_noticed(fractional, &similar, &["has_same_points"]);
 }
 
-/// A batch whose patches differ in an inside factor alone.
+/// A batch whose patches differ only in an inside factor.
 fn different_inside() -> Vec<PatchFactors> {
     let inside = |number: u32| if number.is_multiple_of(3) { 5.0 } else { 3.0 };
     let patch =

@@ -6,14 +6,14 @@ use tess_gpu::sizes::CATALOGUE_PATCHES;
 use tess_gpu::{Copies, Setup};
 use tess_verify::generate::SplitMix64;
 
-/// As many patches as a batch with a catalogue has.
+/// The fewest patches of a batch that has a catalogue.
 const COUNT: u32 = CATALOGUE_PATCHES;
 
 fn setup(domain: Domain, partitioning: Partitioning) -> Setup {
     Setup::new(domain, Config::new(partitioning, OutputPrimitive::TriangleCw))
 }
 
-/// Patches with these factors at random, each on its own.
+/// Patches each of whose factors is one of these, chosen at random.
 fn unlike(domain: Domain, count: u32, factors: &[f32]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(77);
     let most = u32::try_from(factors.len()).expect("some factors");
@@ -21,7 +21,7 @@ fn unlike(domain: Domain, count: u32, factors: &[f32]) -> Vec<PatchFactors> {
     (0..count).map(|_| PatchFactors::from_fn(domain, &mut factor)).collect()
 }
 
-/// They give so few topologies that the catalogue holds all of them.
+/// Factors with so few topologies that the catalogue holds all of them.
 const SMALL: [f32; 5] = [1.0, 1.25, 2.0, 2.75, 4.0];
 
 #[test]
@@ -126,13 +126,13 @@ fn planted_faults_are_seen() {
     );
 }
 
-/// Patches of factor 2, of whose factors one in ten is this.
+/// Patches of factor 2, in which one factor in ten is replaced by this one.
 fn with_some(factor: f32) -> Vec<PatchFactors> {
     unlike(Domain::Quad, COUNT, &[2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, factor])
 }
 
 /// Patches with one edge of 33 or 34 points, and 2 to 4 points along everything else: few
-/// triangles, and one point more than a key has room for.
+/// triangles, but one point more than a key has room for.
 fn one_long_edge() -> Vec<PatchFactors> {
     let long = unlike(Domain::Isoline, COUNT, &[1.0, 32.0, 33.0]);
     let rest = unlike(Domain::Quad, COUNT, &[1.0, 2.0, 3.0]);

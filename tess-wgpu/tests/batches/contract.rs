@@ -1,4 +1,4 @@
-//! Promises beyond equal bits: sizes, overflow, nothing silent.
+//! Promises besides equal bits: sizes, overflow, no silent failures.
 
 use crate::common::device::{Machine, POISON};
 use crate::common::expected::Expected;
@@ -30,7 +30,8 @@ fn formats_and_numberings() {
     }
 }
 
-/// The result of [`tess_wgpu::Tessellator::tessellate`]: outputs of patches, and where each begins.
+/// The result of [`tess_wgpu::Tessellator::tessellate`]: the outputs of patches, and the beginning
+/// of each.
 #[test]
 fn whole_outputs_say_where_each_patch_begins() {
     let mut machine = Machine::open();
@@ -63,7 +64,7 @@ fn whole_outputs_say_where_each_patch_begins() {
     }
 }
 
-/// Two indices share a word, also where one patch ends and the next begins.
+/// Two 16-bit indices share a word, also across the boundary of two patches.
 #[test]
 fn indices_of_16_bits() {
     let mut machine = Machine::open();
@@ -84,13 +85,13 @@ fn indices_of_16_bits() {
     }
 }
 
-/// Indices of the whole batch, of 16 bits, reach 65536 points.
+/// 16-bit indices of the whole batch reach 65536 points.
 #[test]
 fn a_batch_that_16_bits_cannot_number_does_not_fit() {
     let mut machine = Machine::open();
     let setup = Setup { index_type: IndexType::U16, ..quads(Partitioning::Integer) };
     for (count, fits) in [(1 << 14, true), ((1 << 14) + 1, false)] {
-        let patches = uniform(1.0, count); // of four points each
+        let patches = uniform(1.0, count); // four points each
         let expected = Expected::new(setup, &patches);
         let (points, indices) = expected.words();
         let written = machine.write(setup, &patches, points, indices);
@@ -105,7 +106,7 @@ fn no_patches_and_culled_patches() {
     let setup = quads(Partitioning::FractionalEven);
     machine.assert_equal(setup, &[]);
     machine.assert_equal(setup, &uniform(0.0, 5000));
-    // Long runs of culled patches between others, at tile boundaries too.
+    // Long runs of culled patches between others, also at tile boundaries.
     let mut mixed = uniform(-1.0, 3000);
     for (number, patch) in mixed.iter_mut().enumerate() {
         if number % 997 == 500 || number > 2990 {
@@ -133,7 +134,7 @@ fn adversarial_counts() {
     }
 }
 
-/// Output that does not fit is not written, and the status says what it needs.
+/// Output that does not fit is not written, and the status holds the numbers that it needs.
 #[test]
 fn overflow_is_reported_and_nothing_is_written() {
     let mut machine = Machine::open();
@@ -162,7 +163,7 @@ fn overflow_is_reported_and_nothing_is_written() {
     }
 }
 
-/// Counting alone, where the output would have more than 2^32 indices.
+/// A batch that only counts, whose output would have more than 2^32 indices.
 #[test]
 fn counting_2_pow_20_patches() {
     let mut machine = Machine::open();
@@ -173,7 +174,7 @@ fn counting_2_pow_20_patches() {
     assert_eq!(status.primitives(), 8192 << 20, "triangles");
 }
 
-/// Output of more than 2^32 points, of which the low word alone would fit.
+/// Output of more than 2^32 points, whose low word by itself would fit.
 #[test]
 fn overflow_beyond_32_bits() {
     let mut machine = Machine::open();
@@ -195,8 +196,8 @@ fn counting_in_several_portions() {
     assert_eq!(status.primitives(), 8 << 22, "triangles");
 }
 
-/// No batch stores contexts of integer factors. The tap computes them, that of a factor 1 which
-/// counts as even too.
+/// No batch stores contexts of integer factors, but the tap computes them, also that of a factor 1
+/// that counts as even.
 #[test]
 fn contexts_of_integers() {
     let mut machine = Machine::open();
@@ -216,11 +217,11 @@ fn contexts_of_integers() {
     }
 }
 
-/// A quad whose factors lie half way between two 15.16 numbers, up to factors of 64.
+/// A quad whose factors are halfway between two 15.16 numbers, up to factors of 64.
 fn of_ties(random: &mut SplitMix64) -> PatchFactors {
     PatchFactors::from_fn(Domain::Quad, |_| {
         let exponent = 127 + random.below(6);
-        // So many bits of the mantissa lie below 2^-16.
+        // The number of bits of the mantissa that are below 2^-16.
         let below = 134 - exponent;
         let mantissa = random.below(1 << 23) >> below << below | 1 << (below - 1);
         f32::from_bits(exponent << 23 | mantissa)

@@ -1,4 +1,5 @@
-//! Batches that are cut up: several portions, windows and rows of workgroups; and the prefix sums.
+//! Batches that are divided into several portions, windows and rows of workgroups; and the prefix
+//! sums.
 
 use crate::common::device::Machine;
 use crate::common::expected::{Expected, by_simd};
@@ -9,9 +10,9 @@ use tess_verify::generate::SplitMix64;
 use tess_wgpu::{DeviceLimits, Gpu, Outputs, Tessellator};
 use wgpu::BufferUsages;
 
-/// Limits that cut after 65536 patches, a few hundred tiles and 5 workgroups.
+/// Limits that divide batches after 65536 patches, a few hundred tiles and 5 workgroups.
 const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 5 };
-/// WebGPU's limits, but for workgroups.
+/// WebGPU's limits, except that of workgroups.
 const TWO: Limits = Limits { workgroups: 2, ..Limits::WEBGPU };
 
 fn setup(domain: Domain) -> Setup {
@@ -30,7 +31,7 @@ fn of_these(domain: Domain, count: u32, factors: [f32; 6]) -> Vec<PatchFactors> 
     all.collect()
 }
 
-/// Everything is written once and in its place wherever the batch is cut.
+/// Wherever the batch is divided, everything is written once and in its place.
 #[test]
 fn portions_windows_and_rows() {
     let mut machine = Machine::open();
@@ -45,7 +46,7 @@ fn portions_windows_and_rows() {
     machine.assert_equal(Setup { numbering, index_type, ..setup }, &patches);
 }
 
-/// Three sections of blocks in rows of two, with a workgroup too many.
+/// Three sections of blocks in rows of two, with one workgroup too many.
 #[test]
 fn rows_of_sections() {
     let mut machine = Machine::open();
@@ -57,7 +58,7 @@ fn rows_of_sections() {
     machine.assert_equal(setup, &patches);
 }
 
-/// Batches that write no points are not cut up; and a packed point has 30 bits for its patch's
+/// Batches that write no points are not divided; and a packed point has 30 bits for its patch's
 /// number.
 #[test]
 fn batches_too_large_for_their_outputs() {
@@ -83,8 +84,8 @@ fn batches_too_large_for_their_outputs() {
     assert!(too_many.starts_with("1073741825 patches"), "{too_many}");
 }
 
-/// A window that begins at another tile and workgroups that take each row for the first are
-/// noticed.
+/// The comparison notices a window that begins at another tile, and workgroups that take each row
+/// for the first.
 #[test]
 fn wrong_windows_and_rows_are_seen() {
     let patches = small(Domain::Triangle, 150_000);
@@ -102,7 +103,7 @@ fn wrong_windows_and_rows_are_seen() {
     }
 }
 
-/// The dispatch sizes that the device writes keep to the limit, and the check would see others.
+/// The dispatch sizes that the device writes are within the limit, and the check notices others.
 #[test]
 fn written_dispatch_sizes_keep_to_the_limit() {
     let mut machine = Machine::open();
@@ -158,7 +159,7 @@ fn rows(plan: &Plan, stage: Stage) -> u32 {
     }
 }
 
-/// Rows of 65535 workgroups where a device binds gigabytes: 16 million patches in one portion and
+/// Rows of 65535 workgroups on a device that binds gigabytes: 16 million patches in one portion and
 /// one window, compared with tess-simd.
 #[test]
 #[ignore = "6 GiB on a device that binds 3 at once: cargo test --release -p tess-wgpu \
@@ -207,7 +208,8 @@ fn compare_sums(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) {
         let first = usize::try_from(2 * entry).expect("in memory");
         [observed[first], observed[first + 1]]
     };
-    // Sums so far of the whole batch, and at the beginning of the section and of the block.
+    // The running sums of the whole batch, and those at the beginning of the section and of the
+    // block.
     let (mut all, mut section, mut block) = ([0; 2], [0; 2], [0; 2]);
     for (patch, &raw) in (0..).zip(patches) {
         if patch % SECTION == 0 {

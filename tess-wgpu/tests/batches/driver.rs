@@ -4,7 +4,7 @@ use crate::common::objects::{compute, dispatch, group, whole};
 use tess_wgpu::{Error, Gpu};
 use wgpu::BufferUsages as Usage;
 
-/// A branch that a uniform decides, with enough in it to be worth leaving out.
+/// A branch that a uniform decides, with enough code in it to be worth leaving out.
 const SOURCE: &str = "
 @group(0) @binding(0) var<SPACE> count: u32;
 @group(0) @binding(1) var<storage, read_write> out: array<u32>;
@@ -43,9 +43,9 @@ fn growth(space: &str) -> Result<u64, Error> {
     Ok(resident().saturating_sub(before))
 }
 
-/// Lavapipe of Mesa 22.3 compiles such a shader anew each time that it is bound, for the value of
-/// the uniform, and keeps what it compiled: 0.1 MB here, 0.2 MB for the stage `partition` of a
-/// batch of up to 256 patches.
+/// Lavapipe of Mesa 22.3 compiles such a shader for the value of the uniform each time that it is
+/// bound, and keeps the result: 0.1 MB here, 0.2 MB for the stage `partition` of a batch of up to
+/// 256 patches.
 #[test]
 #[ignore = "fails on lavapipe, which keeps every shader that it compiles for a uniform's value: \
             cargo test -p tess-wgpu --test batches driver -- --ignored"]

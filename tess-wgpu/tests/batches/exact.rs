@@ -1,4 +1,4 @@
-//! Everything that the shaders write against the golden model, on whatever adapter there is.
+//! Everything that the shaders write, compared with the golden model on any adapter.
 
 use crate::common::device::{Machine, Written};
 use crate::common::expected::{Expected, by_simd};
@@ -8,8 +8,8 @@ use tess_gpu::Setup;
 use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection, SplitMix64, configurations};
 
-/// Random patches of each configuration, every boundary once and what lies beside minimum patches,
-/// through the whole pipeline.
+/// Random patches of each configuration, with every boundary value once and the neighbours of
+/// minimum patches, through the whole pipeline.
 #[test]
 fn boundaries_and_random_patches_in_every_configuration() {
     let mut machine = Machine::open();
@@ -27,7 +27,7 @@ fn boundaries_and_random_patches_in_every_configuration() {
     }
 }
 
-/// Patches whose factors are 1 but for one of them.
+/// Patches whose factors are 1 except for one.
 fn beside_minimum(domain: Domain) -> impl Iterator<Item = PatchFactors> {
     let others = [f32::NAN, f32::NEG_INFINITY, -1.0, 0.0, 0.5, 1.000_02, 2.0, 3.0];
     let with = move |position| {
@@ -36,7 +36,7 @@ fn beside_minimum(domain: Domain) -> impl Iterator<Item = PatchFactors> {
     (0..domain.factors()).flat_map(move |position| others.map(with(position)))
 }
 
-/// Compares with the golden model and, on its own, with the CPU backend.
+/// Compares with the golden model and, separately, with the CPU backend.
 fn assert_both_equal(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) {
     let expected = Expected::new(setup, patches);
     let (point_words, index_words) = expected.words();
@@ -48,8 +48,7 @@ fn assert_both_equal(machine: &mut Machine, setup: Setup, patches: &[PatchFactor
     assert_eq!(difference, None, "{setup:?}");
 }
 
-/// The first word that tess-simd has otherwise. Model and tess-simd are compared with each other
-/// elsewhere.
+/// The first word that differs from tess-simd's. Other tests compare the model with tess-simd.
 fn from_simd(setup: Setup, patches: &[PatchFactors], written: &Written) -> Option<String> {
     let (points, indices) = by_simd(setup, patches);
     let first = |what, [observed, expected]: [&[u32]; 2]| {

@@ -1,4 +1,4 @@
-//! A comparison counts only after it has been seen to fail: damaged shaders are noticed.
+//! A comparison counts only after it has been seen to fail: the tests notice damaged shaders.
 
 use crate::common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
@@ -30,7 +30,7 @@ fn a_tile_of_another_patch_is_seen() {
     machine.assert_noticed(setup, &patches, &["entry_of"]);
 }
 
-/// No fault of the list is left out: each is named by a test of this folder.
+/// A test of this folder names each fault of the list.
 #[test]
 fn every_fault_of_the_list_is_planted() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/batches");

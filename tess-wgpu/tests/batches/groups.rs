@@ -1,4 +1,4 @@
-//! Batches in groups: the draw arguments of each group, wherever the batch is cut.
+//! Batches in groups: the draw arguments of each group, wherever the batch is divided.
 
 use crate::common::device::Machine;
 use crate::common::patches::random;
@@ -37,7 +37,7 @@ fn observed(machine: &Machine, batch: &Batch, groups: usize) -> Vec<DrawIndexed>
     bytemuck::pod_collect_to_vec(&bytes.expect("the device answers"))
 }
 
-/// Points and indices before each patch and behind the last, from the model.
+/// The model's numbers of points and indices before each patch and after the last.
 fn sums(setup: Setup, patches: &[PatchFactors]) -> Vec<[u32; 2]> {
     let mut sum = [0; 2];
     let mut sums = vec![sum];
@@ -77,7 +77,7 @@ fn are_right(
     observed(machine, &batch, groups.len()) == expected(&sums, groups)
 }
 
-/// Groups that begin anywhere, empty ones and those behind the last patch among them.
+/// Groups that begin anywhere, including empty ones and those after the last patch.
 fn some_groups(patches: u32, count: u32) -> Vec<u32> {
     let mut random = SplitMix64::new(21);
     let mut groups: Vec<u32> = (0..count).map(|_| random.below(patches)).collect();
@@ -105,7 +105,7 @@ fn each_group_has_its_own_draw() {
     assert!(are_right(&mut machine, isolines, &[], &[0, 0]), "no patches");
 }
 
-/// Limits that cut after 65536 patches and put five workgroups in a row.
+/// Limits that divide batches after 65536 patches and put five workgroups in a row.
 const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 5 };
 
 fn many() -> Vec<PatchFactors> {
@@ -113,7 +113,7 @@ fn many() -> Vec<PatchFactors> {
     (0..150_000_u32).map(|number| factor(number.to_le_bytes()[0])).collect()
 }
 
-/// Groups that end in a later portion than they begin in, and those that begin with one.
+/// Groups that end in a later portion than they begin in, and groups that begin with a portion.
 fn across_portions() -> Vec<u32> {
     let mut groups = some_groups(150_000, 700);
     groups.extend([65_535, 65_536, 65_537, 131_072]);

@@ -57,7 +57,7 @@ fn buffers_that_do_not_do_are_refused() {
     assert_eq!(batch.err(), Some(expected), "more patches than points can name");
 }
 
-/// The text that a person reads, beside what a program can match.
+/// The text for a person, in addition to the variant that a program can match.
 #[test]
 fn errors_name_what_is_wrong() {
     for (buffer, name) in [
@@ -84,10 +84,10 @@ fn patches_of_another_domain_are_refused() {
     assert_eq!(output.err(), Some(expected), "a quad among isolines");
 }
 
-/// Too much output, too many factors, and what lies between them.
+/// Too much output, too many factors, and cases between them.
 #[test]
 fn what_exceeds_the_device_is_refused() {
-    // The tables of constants alone are larger: fewer patches would not help.
+    // The tables of constants are already larger, so fewer patches would not help.
     let (needed, got) = (4 * 540_864, 1 << 20);
     let gpu = small_device(got);
     let output =
@@ -113,7 +113,7 @@ fn what_exceeds_the_device_is_refused() {
     machine.assert_equal(setup(Domain::Quad), &quads(3.0, 10));
 }
 
-/// A lost device is an error each time, in whatever is done next.
+/// Every call on a lost device is an error.
 #[test]
 fn a_lost_device_is_an_error() {
     let mut machine = Machine::on(limited(wgpu::Limits::default()));

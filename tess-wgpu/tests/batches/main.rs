@@ -1,5 +1,5 @@
-//! Batches on whatever adapter there is, against the golden model. One program, since each links
-//! wgpu again.
+//! Batches on any adapter, compared with the golden model. This is one program, because each
+//! program links wgpu again.
 
 mod alike;
 mod catalogue;

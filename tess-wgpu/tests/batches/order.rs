@@ -1,5 +1,4 @@
-//! The vertex-cache order: what the model has in that order, bit for bit, whichever way a tile is
-//! made.
+//! The vertex-cache order: equal to the model's, bit for bit, whichever way a tile is made.
 
 use crate::common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
@@ -15,7 +14,7 @@ fn triangles(domain: Domain) -> Setup {
     setup(domain, Partitioning::FractionalOdd, OutputPrimitive::TriangleCw)
 }
 
-/// Patches with factors from 0 to `most`, each on its own; every eighth has one factor everywhere.
+/// Patches with random factors from 0 to `most`; every eighth patch has the same factor everywhere.
 #[expect(clippy::float_arithmetic, reason = "quarters are exact")]
 fn patches(domain: Domain, count: u32, most: u32) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(5);
@@ -29,7 +28,7 @@ fn patches(domain: Domain, count: u32, most: u32) -> Vec<PatchFactors> {
     (0..count).map(&mut patch).collect()
 }
 
-/// Short batches in every partitioning; what has no rings keeps the specification's order.
+/// Short batches in every partitioning; domains without rings keep the specification's order.
 #[test]
 fn every_configuration() {
     let mut machine = Machine::open();
@@ -46,7 +45,7 @@ fn every_configuration() {
     check(Domain::Isoline, Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
 }
 
-/// Tiles that are computed, from the factors of every size.
+/// Tiles that are computed, from factors of every size.
 #[test]
 fn large_patches_in_every_format() {
     let mut machine = Machine::open();
@@ -58,7 +57,7 @@ fn large_patches_in_every_format() {
     }
 }
 
-/// Tiles that are looked up in the catalogue, and others beside them.
+/// Tiles that are looked up in the catalogue, and others next to them.
 #[test]
 fn small_patches_of_a_long_batch() {
     let mut machine = Machine::open();

@@ -1,4 +1,4 @@
-//! The module for a user's own shaders: any element from its number alone.
+//! The module for a user's own shaders, which computes any element from its number.
 
 use crate::common::device::Machine;
 use crate::common::objects::{compute, dispatch, group, whole};
@@ -9,7 +9,7 @@ use tess_verify::generate::{SplitMix64, configurations};
 use tess_wgpu::Batch;
 use wgpu::BufferUsages as Usage;
 
-/// A user's shader: asks for one point and one primitive of a patch.
+/// A user's shader, which asks for one point and one primitive of a patch.
 const USER: &str = "
 @group(0) @binding(0) var<storage, read> asked: array<vec4<u32>>;
 @group(0) @binding(1) var<storage, read_write> answers: array<u32>;

@@ -1,4 +1,5 @@
-//! Short batches, which one workgroup prepares; the largest of them, and the smallest that is not.
+//! Short batches, which one workgroup prepares, up to the largest, and the smallest batch that is
+//! not short.
 
 use crate::common::device::{Machine, POISON};
 use crate::common::expected::Expected;
@@ -45,14 +46,14 @@ fn short_batches_in_every_configuration() {
     }
 }
 
-/// Patches of few triangles, culled ones among them.
+/// Patches of few triangles, including culled ones.
 fn low(count: u32) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(42);
     let mut factor = |_| [0.0, 2.0, 2.5, 3.0, 5.0, 6.0][random.below(6) as usize];
     (0..count).map(|_| PatchFactors::from_fn(Domain::Quad, &mut factor)).collect()
 }
 
-/// A batch leaves the same when it runs again, short or not: nothing has to be cleared in between.
+/// A batch, short or not, writes the same when it runs again: nothing has to be cleared in between.
 fn run_twice(machine: &mut Machine, patches: &[PatchFactors]) -> Result<(), String> {
     let setup = setup(Domain::Quad);
     let expected = Expected::new(setup, patches);

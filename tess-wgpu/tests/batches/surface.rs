@@ -1,5 +1,5 @@
-//! The teapot example's shaders evaluate the surface of tess-surface, and the test would see
-//! another one.
+//! The teapot example's shaders evaluate the surface of tess-surface, and the test notices another
+//! one.
 
 #![expect(clippy::float_arithmetic, reason = "surfaces are evaluated in floating point")]
 
@@ -27,23 +27,23 @@ fn evaluate(@builtin(global_invocation_id) id: vec3u) {
 /// The largest difference between two evaluations of one point, in units in the last place (ulps)
 /// of the control net's extent E: its largest coordinate, well below the next power of two.
 ///
-/// A point is six levels of interpolation deep, three along u and three along v. Each level,
-/// a + (b - a) t with 0 <= t <= 1, passes on at most the larger error of a and b, and adds those
-/// of its own operations: b - a and its product with t are at most 2 E, so rounding to nearest
-/// adds at most 1 ulp each; the sum is at most E and adds half of one; fusing leaves one of them
-/// out. That makes 6 * 2.5 = 15 ulps on the CPU. WGSL leaves the direction of rounding open,
-/// which doubles it to 30 on the device; and its division by the weight, here exactly 1, may be
-/// off by 2.5 ulps, here 3. Both together: 48. The two sides of an edge, both evaluated on the
-/// device, are three levels deep: 2 * (15 + 3) = 36.
+/// A point is six levels of interpolation deep, three along u and three along v. Each level, a + (b
+/// - a) t with 0 <= t <= 1, passes on at most the larger error of a and b, and adds those of its
+/// own operations: b - a and its product with t are at most 2 E, so rounding to nearest adds at
+/// most 1 ulp each; the sum is at most E and adds half an ulp; fusing omits one of these errors.
+/// That makes 6 * 2.5 = 15 ulps on the CPU. WGSL leaves the direction of rounding open, which
+/// doubles it to 30 on the device; and its division by the weight, here exactly 1, may be off by
+/// 2.5 ulps, here 3. Both together: 48. The two sides of an edge, both evaluated on the device, are
+/// three levels deep: 2 * (15 + 3) = 36.
 const BOUND_ULPS: f32 = 48.0;
 
 /// The tessellated teapot: its points in the tessellator's order.
 struct Teapot {
     gpu: Gpu,
     model: Model,
-    /// As the device tessellated them, packed.
+    /// The device's points, packed.
     packed: Vec<[u32; 2]>,
-    /// As tess-core does: (u, v) of each patch's points.
+    /// tess-core's points: (u, v) of each point, by patch.
     domain_points: Vec<Vec<[f32; 2]>>,
     /// [`BOUND_ULPS`] as a distance along each axis.
     bound: f32,
@@ -155,7 +155,7 @@ impl Teapot {
 
     fn near(&self, observed: Vec3, expected: Vec3) -> Result<(), String> {
         let distance = (observed - expected).abs().max_element();
-        // NaN is not near either.
+        // NaN is not near either number.
         if distance <= self.bound {
             return Ok(());
         }
@@ -173,7 +173,7 @@ fn the_shaders_evaluate_the_teapot() {
     assert_eq!(teapot.compare_sides(&positions), Ok(()), "both sides of every edge");
 }
 
-/// One coordinate of one control point, on an edge of a patch that a neighbour has too.
+/// One coordinate of one control point, on an edge that the patch shares with a neighbour.
 #[test]
 fn a_moved_control_point_is_seen() {
     let teapot = Teapot::new();

@@ -7,7 +7,7 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, QuadFactors};
 use tess_gpu::layout::PackedPoint;
 use tess_gpu::{Setup, Stage};
 
-/// A block of words stands in the tour as it is.
+/// The tour contains a block of words unchanged.
 fn assert_words(name: &str, words: &[u32]) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/tour-gpu.md");
     let tour = std::fs::read_to_string(path).expect(path);
@@ -69,7 +69,7 @@ fn the_tour_is_what_a_device_writes() {
     }
 }
 
-/// A line of points or triangles stands in the tour.
+/// The tour contains a line of points or triangles.
 fn assert_line(begin: usize, end: usize, items: &[String]) {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/tour-gpu.md");
     let tour = std::fs::read_to_string(path).expect(path);

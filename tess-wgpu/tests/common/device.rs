@@ -1,4 +1,4 @@
-//! Running batches into poisoned, guarded buffers, and comparing with the golden model.
+//! Runs batches into poisoned, guarded buffers, and compares them with the golden model.
 
 use super::expected::Expected;
 use std::sync::LazyLock;
@@ -11,7 +11,7 @@ use wgpu::BufferUsages as Usage;
 
 /// No point and no index has these bits, so "not written" differs from anything written.
 pub(crate) const POISON: u32 = 0xFFFF_FFFF;
-/// Words behind the output that must stay as they are; a whole number of points and primitives.
+/// The words after the output that must not change, a whole number of points and primitives.
 const GUARD: u32 = 6 * 128;
 
 /// The device that the tests run on.
@@ -40,32 +40,32 @@ pub(crate) fn device_of(instance: &wgpu::Instance, required_limits: wgpu::Limits
     })
 }
 
-/// The same, of an instance of its own.
+/// The same, on an instance of its own.
 pub(crate) fn limited(limits: wgpu::Limits) -> Gpu {
     let descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     device_of(&wgpu::Instance::new(descriptor), limits)
 }
 
-/// What [`Machine::open`] gives, so that a process makes the pipelines of a setup once.
+/// The machine of [`Machine::open`], so that a process makes the pipelines of a setup once.
 static SHARED: LazyLock<Machine> = LazyLock::new(|| {
     Machine::on(pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}")))
 });
 
 impl Machine {
-    /// An adapter with WebGPU's default limits, the same for all tests of a process. None is a
-    /// failure, not a reason to skip.
+    /// Opens an adapter with WebGPU's default limits, the same for all tests of a process. If there
+    /// is none, the test fails, and is not skipped.
     pub(crate) fn open() -> Self {
         let Self { gpu, tessellator } = &*SHARED;
         Self { gpu: gpu.clone(), tessellator: tessellator.clone() }
     }
 
-    /// This device, with pipelines of its own.
+    /// This device, with new pipelines.
     pub(crate) fn on(gpu: Gpu) -> Self {
         let tessellator = Tessellator::new(&gpu.device);
         Self { gpu, tessellator }
     }
 
-    /// Plants a fault in the shaders, of which at least one must have its text.
+    /// Plants a fault in the shaders, at least one of which must have its text.
     pub(crate) fn plant(&mut self, setup: Setup, name: &str) {
         let fault = shader_faults::named(name);
         let sources = Stage::ALL.map(|stage| stage.source(setup));
@@ -75,8 +75,8 @@ impl Machine {
         self.tessellator = Tessellator::with_edit(&self.gpu.device, edit);
     }
 
-    /// Plants each fault alone, and asserts that the output without it is the model's and with it
-    /// is not.
+    /// Plants each fault by itself. Asserts that the output equals the model's without the fault,
+    /// and differs with it.
     pub(crate) fn assert_noticed(
         &mut self,
         setup: Setup,
@@ -97,7 +97,7 @@ impl Machine {
         self.tessellator = sound;
     }
 
-    /// Batches that are made from now on keep to these limits. The pipelines stay.
+    /// Limits all batches that are made later. The pipelines stay.
     pub(crate) fn limit(&mut self, limits: Limits) {
         self.tessellator = self.tessellator.clone().limited(limits);
     }
@@ -149,7 +149,7 @@ impl Machine {
         batch
     }
 
-    /// A batch that writes to poisoned buffers of these many words, and the buffers.
+    /// A batch that writes to poisoned buffers of these numbers of words, and the buffers.
     pub(crate) fn batch(
         &mut self,
         setup: Setup,
@@ -165,14 +165,14 @@ impl Machine {
         (batch, outputs)
     }
 
-    /// The buffers behind a batch, with its points and indices.
+    /// The buffers after a batch, with its points and indices.
     pub(crate) fn written(&self, batch: &Batch, outputs: &[wgpu::Buffer; 2]) -> Written {
         let (status, draw) = self.status(batch);
         let [points, indices] = outputs.each_ref().map(|buffer| self.words(buffer));
         Written { status, draw, points, indices }
     }
 
-    /// Tessellates into poisoned buffers of these many words.
+    /// Tessellates into poisoned buffers of these numbers of words.
     pub(crate) fn write(
         &mut self,
         setup: Setup,
@@ -195,8 +195,7 @@ impl Machine {
         }
     }
 
-    /// The same with points in each format and indices in each numbering, and with indices of 16
-    /// bits.
+    /// The same with points in each format, indices in each numbering, and 16-bit indices.
     pub(crate) fn assert_equal_in_every_format(&mut self, setup: Setup, patches: &[PatchFactors]) {
         for point_format in [PointFormat::Packed, PointFormat::F32] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {

@@ -1,11 +1,11 @@
-//! The content of a batch's buffers by the golden model.
+//! The contents of a batch's buffers, by the golden model.
 
 use super::device::{POISON, Written};
 use tess_core::{DomainPoint, Patch, PatchFactors};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 use tess_simd::{Output, Tessellator};
 
-/// The words of both buffers, and where each patch's begin.
+/// The words of both buffers, and the first words of each patch.
 #[derive(Debug)]
 pub(crate) struct Expected<'a> {
     setup: Setup,
@@ -32,7 +32,7 @@ impl<'a> Expected<'a> {
         own
     }
 
-    /// Words of points and of indices, these a whole number of 8 bytes.
+    /// The numbers of words of points and of indices; the latter are whole 8 bytes.
     pub(crate) fn words(&self) -> (u32, u32) {
         let (points, indices) = self.counts();
         (points, (indices * self.setup.index_type.bytes()).next_multiple_of(8) / 4)
@@ -57,7 +57,7 @@ impl<'a> Expected<'a> {
         all
     }
 
-    /// First point and first primitive of each patch, and behind the last.
+    /// The first point and the first primitive of each patch, and the numbers after the last patch.
     pub(crate) fn begins(&self) -> Vec<[u32; 2]> {
         let per_primitive = self.setup.indices_per_primitive() as usize;
         let end = (self.points.len(), self.indices.len());
@@ -67,13 +67,13 @@ impl<'a> Expected<'a> {
             .collect()
     }
 
-    /// Words of points, and indices.
+    /// The number of words of points, and of indices.
     fn counts(&self) -> (u32, u32) {
         let count = |words: &[u32]| u32::try_from(words.len()).expect("a test's output");
         (count(&self.points), count(&self.indices))
     }
 
-    /// The first difference, guards included.
+    /// The first difference, including guard words.
     pub(crate) fn compare(&self, written: &Written) -> Result<(), String> {
         let Written { status, draw, points, indices } = written;
         let (point_words, index_words) = self.counts();
@@ -126,7 +126,7 @@ impl<'a> Expected<'a> {
         ))
     }
 
-    /// A patch as a case to run again, and where its element comes from.
+    /// A patch as a case to run again, and the origin of its element.
     fn origin(&self, what: &str, patch: usize, word: usize) -> String {
         let Some(&factors) = self.patches.get(patch) else { return "behind the last one".into() };
         let model = Patch::new(self.setup.config, factors);

@@ -1,4 +1,4 @@
-//! wgpu's objects in a few words: what the tests' own have in common.
+//! wgpu's objects, for the tests' own shaders, in few words.
 
 #![allow(dead_code, unused_imports, reason = "each test crate uses its part")]
 
@@ -30,8 +30,8 @@ pub(crate) fn part(buffer: &wgpu::Buffer, offset: u64, size: u64) -> BindingReso
     BindingResource::Buffer(wgpu::BufferBinding { buffer, offset, size })
 }
 
-/// A compute pipeline with these layouts, or with those that wgpu finds in the text if there are
-/// none.
+/// A compute pipeline with these layouts or, if there are none, with those that wgpu finds in the
+/// text.
 pub(crate) fn compute(
     device: &wgpu::Device,
     wgsl: String,

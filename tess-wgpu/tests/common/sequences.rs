@@ -1,4 +1,5 @@
-//! Random sequences of calls, each shrunk to the shortest that fails and printed as code.
+//! Random sequences of calls. One that fails is shrunk to the shortest that still fails, and
+//! printed as code.
 
 use proptest::collection::vec;
 use proptest::strategy::Strategy;
@@ -7,8 +8,7 @@ use std::cell::{Cell, RefCell};
 use std::fmt::Debug;
 use std::time::{Duration, Instant};
 
-/// For how long the long run goes on, or `None` for the short one: the variable
-/// `TESS_LONG_SECONDS`.
+/// The seconds of the long run, from the variable `TESS_LONG_SECONDS`, or `None` for the short run.
 pub(crate) fn long() -> Option<Duration> {
     let seconds = std::env::var("TESS_LONG_SECONDS").ok()?;
     let seconds = seconds.parse().unwrap_or_else(|_| panic!("TESS_LONG_SECONDS is {seconds:?}"));
@@ -16,8 +16,8 @@ pub(crate) fn long() -> Option<Duration> {
 }
 
 /// Runs sequences of 1 to `most` calls: `short` of them, or as many as the time of the long run
-/// allows. `run` returns how many words it compared, or says what is wrong. `names` is what the
-/// text of a call takes for granted.
+/// allows. `run` returns the number of compared words, or the difference. `names` are the imports
+/// that the printed calls need.
 #[expect(clippy::print_stdout, reason = "the long run's numbers")]
 pub(crate) fn hold<C: Clone + Debug>(
     names: &str,
@@ -26,7 +26,7 @@ pub(crate) fn hold<C: Clone + Debug>(
     run: impl FnMut(&[C]) -> Result<u64, String>,
 ) {
     let (begin, mut sequences) = (Instant::now(), 0_u64);
-    // The clock is looked at after so many.
+    // The clock is read after this many sequences.
     let cases = if long().is_some() { 10 } else { short };
     let (run, words) = (RefCell::new(run), Cell::new(0_u64));
     for seed in 0_u64.. {
@@ -54,13 +54,13 @@ pub(crate) fn hold<C: Clone + Debug>(
     println!("{sequences} sequences, {words} words compared, {time:?}");
 }
 
-/// The calls as a test that fails.
+/// The calls as the text of a failing test.
 fn pasted(names: &str, calls: &[impl Debug]) -> String {
     let lines: String = calls.iter().map(|call| format!("        {call:?},\n")).collect();
     format!("#[test]\nfn found() {{\n    use {names};\n    replay(&[\n{lines}    ]);\n}}")
 }
 
-/// Says what differs.
+/// The text of a difference.
 pub(crate) fn equal<T: PartialEq + Debug>(
     what: &str,
     observed: T,

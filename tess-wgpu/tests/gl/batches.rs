@@ -9,8 +9,8 @@ use tess_gpu::{IndexType, Numbering, Order, PointFormat, Setup};
 use tess_verify::generate::SplitMix64;
 use tess_wgpu::Gpu;
 
-/// Every domain with every partitioning, and every output with each of both; split orders, formats,
-/// orders and index types take turns.
+/// Every domain with every partitioning, and every output with each domain and each partitioning;
+/// split orders, formats, orders and index types take turns.
 pub(crate) fn small_ones_equal_the_model(gpu: Gpu) {
     let mut machine = Machine::on(gpu);
     let mut numbers = SplitMix64::new(1);

@@ -1,5 +1,5 @@
-//! Which adapter is opened, and what is said where there is none: by this program as a process of
-//! its own, whose environment takes from the drivers what they have.
+//! The choice of an adapter, and the error if there is none. This program asks in a process of its
+//! own, whose environment hides some of the drivers.
 
 use std::process::Command;
 use tess_wgpu::Gpu;
@@ -7,12 +7,12 @@ use tess_wgpu::Gpu;
 /// The argument that asks for [`answer`].
 const QUESTION: &str = "which-adapter";
 
-/// Whether this process was started to say which adapter there is.
+/// Whether this process was started to print its adapter.
 pub(crate) fn is_asked() -> bool {
     std::env::args().nth(1).is_some_and(|argument| argument == QUESTION)
 }
 
-/// Says which adapter there is, or why there is none.
+/// Prints the adapter, or the reason why there is none.
 #[expect(clippy::print_stdout, reason = "another process reads it")]
 pub(crate) fn answer() {
     match pollster::block_on(Gpu::open()) {
@@ -31,15 +31,16 @@ fn say(arguments: &[&str], variables: &[(&str, &str)]) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// The adapter in an environment with these variables, or why there is none.
+/// The adapter in an environment with these variables, or the reason why there is none.
 fn adapter(variables: &[(&str, &str)]) -> String {
     say(&[QUESTION], variables)
 }
 
-/// There is no Vulkan.
+/// An environment without Vulkan.
 const NO_VULKAN: [(&str, &str); 2] =
     [("VK_DRIVER_FILES", "/nonexistent"), ("VK_ICD_FILENAMES", "/nonexistent")];
-/// OpenGL is an old one, of a GPU by its name, which wgpu prefers to a driver in software.
+/// An environment with an old OpenGL that bears the name of a GPU, which wgpu prefers to a driver
+/// in software.
 const OLD: [(&str, &str); 4] = [
     ("force_gl_renderer", "Intel"),
     ("MESA_GL_VERSION_OVERRIDE", "3.3"),
@@ -47,7 +48,8 @@ const OLD: [(&str, &str); 4] = [
     ("MESA_EXTENSION_OVERRIDE", "-GL_ARB_compute_shader -GL_ARB_shader_storage_buffer_object"),
 ];
 
-/// There is OpenGL ES alone, since Mesa gives no OpenGL of the version that wgpu asks for.
+/// An environment with only OpenGL ES, because Mesa has no OpenGL of the version that wgpu asks
+/// for.
 const ES: (&str, &str) = ("MESA_GL_VERSION_OVERRIDE", "3.2");
 
 pub(crate) fn opengl_is_last() {
@@ -72,7 +74,7 @@ pub(crate) fn what_is_lacking_is_said() {
     assert!(none.contains("WGPU_BACKEND is none of vulkan, metal, dx12, gl"), "{none}");
 }
 
-/// The tests of OpenGL, on OpenGL ES.
+/// Runs the tests of OpenGL on OpenGL ES.
 pub(crate) fn opengl_es_equals_the_model() {
     let adapter = adapter(&[ES, ("WGPU_BACKEND", "gl")]);
     assert!(adapter.contains("OpenGL ES 3."), "{adapter}");

@@ -1,8 +1,8 @@
-//! wgpu's OpenGL backend gives what the others give: batches as the model has them, the stage's
-//! triangles, and errors where OpenGL has too little.
+//! wgpu's OpenGL backend has the results of the other backends: batches that equal the model's, the
+//! stage's triangles, and errors if OpenGL lacks something.
 //!
-//! Where no OpenGL gives a device, the tests are reported as ignored, with the reason; with the
-//! environment variable `CI` set they fail.
+//! If no OpenGL gives a device, the tests are reported as ignored, with the reason; if the
+//! environment variable `CI` is set, they fail.
 
 #![expect(clippy::float_arithmetic, reason = "pixels and factors are floats")]
 
@@ -34,8 +34,8 @@ const TESTS: &[(&str, Test)] = &[
     ("flat_members_of_the_first_vertex_are_refused", pictures::flat_members_are_refused),
 ];
 
-/// Those that need another environment, in processes of their own: Mesa can be asked for less than
-/// it has.
+/// The tests that need another environment, in processes of their own. Mesa can be asked to offer
+/// less than it has.
 const OF_MESA: &[(&str, fn())] = &[
     ("opengl_is_the_last_choice", choice::opengl_is_last),
     ("what_is_lacking_is_said", choice::what_is_lacking_is_said),
@@ -73,7 +73,7 @@ fn trial(name: &str, lacking: Option<String>, test: impl FnOnce() + Send + 'stat
         .with_ignored_flag(std::env::var_os("CI").is_none())
 }
 
-/// A device of OpenGL as a program makes one that knows nothing of tess-wgpu.
+/// A device of OpenGL, made as by a program that does not use tess-wgpu to open it.
 async fn open() -> Result<Gpu, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::GL;

@@ -40,7 +40,7 @@ pub(crate) fn every_way_to_draw(gpu: Gpu) {
     }
 }
 
-/// Draws with vertex buffers of another pipeline, which are gone afterwards.
+/// Draws with another pipeline, whose vertex buffers are dropped afterwards.
 fn leave_locations_enabled(scene: &Scene, stage: &mut TessellationStage) {
     const WGSL: &str = "
         @vertex

@@ -16,7 +16,7 @@ macro_rules! shader {
 /// The error in a shape's WGSL, joined with the plugin's and the stage's.
 fn complaint(shape: &[&str]) -> Option<String> {
     let own = [shader!("types.wgsl"), shader!("surface.wgsl"), shader!("project.wgsl")];
-    // As program.rs and height_field.rs put them in.
+    // The replacements of program.rs and height_field.rs.
     let user =
         [shape, &own].concat().join("\n").replace("TESS_GROUP", "2").replace("HEADER", "20u");
     let source = TessellationStage::joined(&user, "");

@@ -10,10 +10,10 @@ use tess_verify::generate::SplitMix64;
 
 /// Patches of the teapot's knob and bottom: their edges v = 0 are collapsed.
 const COLLAPSED: [usize; 2] = [20, 28];
-/// The most by which a normal on a collapsed edge may be off, in radians: 0.03 degrees.
+/// The greatest error of a normal on a collapsed edge, in radians: 0.03 degrees.
 const OF_A_LIMIT: f32 = 5e-4;
 
-/// The normal of one of the patches, by a number, at a place.
+/// The normal of a patch, by its number, at a place.
 static NORMAL: LazyLock<String> = LazyLock::new(|| {
     let net = |number: usize| {
         let net = teapot::patches()[number].points;
@@ -37,8 +37,8 @@ pub(crate) fn tables() -> Vec<Table> {
     ]
 }
 
-/// Curves of every kind: plain, running back on themselves, collapsed to a point, and equal at both
-/// ends alone.
+/// Curves of every kind: plain, turning back on themselves, collapsed to a point, and equal only at
+/// both ends.
 fn curve(kind: usize, random: &mut SplitMix64) -> [Vec4; 4] {
     let [a, b, c, d] = [(); 4].map(|()| point(random, 1.0));
     let points = match kind {
@@ -56,7 +56,7 @@ fn curve(kind: usize, random: &mut SplitMix64) -> [Vec4; 4] {
     std::array::from_fn(|i| (points[i] * weights[i]).extend(weights[i]))
 }
 
-/// Points of edges near those of the CPU, and from the other side the same bits.
+/// Points of edges are near the CPU's, and have the same bits from the other side.
 fn edges() -> Vec<Case> {
     let (mut all, mut random) = (Vec::new(), SplitMix64::new(31));
     let axis = [0.0, 0.7, 0.7, 0.0].map(|x| Vec4::new(x, x, x, 1.0));

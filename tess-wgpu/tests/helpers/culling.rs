@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3, Mat4, Vec3};
 use tess_surface::culling::{faces_away, is_outside};
 use tess_verify::generate::SplitMix64;
 
-/// Radii a little below and a little above the one that decides.
+/// Radii a little below and a little above the deciding one.
 const RADII: [(f64, bool); 2] = [(0.999, true), (1.001, false)];
 
 pub(crate) fn tables() -> Vec<Table> {
@@ -28,7 +28,8 @@ const fn answer(yes: bool) -> Expected {
     Expected::Bits(one(if yes { 1.0 } else { 0.0 }))
 }
 
-/// A perspective of z from 0 to w that sees from `near` to `far`, an eighth wider than high.
+/// A perspective projection with z from 0 to w that sees from `near` to `far`, an eighth wider than
+/// high.
 fn projection(near: f32, far: f32) -> Mat4 {
     let depth = far / (near - far);
     Mat4::from_cols_array_2d(&[

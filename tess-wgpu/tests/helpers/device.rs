@@ -1,4 +1,4 @@
-//! Calling helpers on a device.
+//! Calls helpers on a device.
 
 use crate::objects::{compute, dispatch, group, image, layout, storage};
 use crate::{Args, Table};
@@ -37,7 +37,7 @@ fn source(edit: impl Fn(&str) -> String, call: &str) -> String {
 /// Texels of the height image along x and y.
 pub(crate) const SIZE: [u16; 2] = [8, 4];
 
-/// The heights of the image: of 8 bits, so that their mixtures at 1/256 of a texel are exact.
+/// The heights of the image, of 8 bits, so that interpolation at 1/256 of a texel is exact.
 pub(crate) fn heights() -> Vec<f32> {
     (0..SIZE[0] * SIZE[1]).map(|i| f32::from(i * 37 % 256) / 256.0).collect()
 }
@@ -50,7 +50,7 @@ pub(crate) struct Device {
 }
 
 impl Device {
-    /// A machine without one is a failure, not a reason to skip.
+    /// If there is none, the test fails, and is not skipped.
     pub(crate) fn open() -> Self {
         let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
         let texels = heights();

@@ -5,12 +5,12 @@ use glam::{Vec3, Vec4};
 use tess_surface::{Curve, Edge, FactorRule, PnCorner, factors, pn};
 use tess_verify::generate::SplitMix64;
 
-/// Errors of a quotient, in ulps: 2.5 of the division by WGSL's rule.
+/// The error of a quotient, in ulps: WGSL allows 2.5 for a division.
 const OF_A_QUOTIENT: f32 = 3.0;
-/// Of a quotient's root: half of the quotient's, and 2 of `inverseSqrt` and 2.5 of a division,
-/// which WGSL's root may be.
+/// The error of a quotient's root: half of the quotient's, plus 2 of `inverseSqrt` and 2.5 of a
+/// division, from which WGSL may compute the root.
 const OF_A_ROOT: f32 = 7.0;
-/// Of a rule: a dot product, two roots, a division and some products, each within 5 ulps.
+/// The error of a rule: a dot product, two roots, a division and some products, each within 5 ulps.
 const OF_A_RULE: f32 = 32.0;
 
 pub(crate) fn tables() -> Vec<Table> {
@@ -160,7 +160,7 @@ fn ranges() -> Vec<Case> {
     all.map(|x| case([one(x)], Expected::Bits(one(factors::clamp_factor(x))))).collect()
 }
 
-/// Dividends and divisors: quotients of all sizes, and those of 0.
+/// Dividends and divisors with quotients of all sizes, and those of 0.
 fn ratios() -> Vec<[f32; 2]> {
     let mut all = vec![
         [0.0, 0.0],
@@ -243,7 +243,7 @@ fn at_most() -> Vec<Case> {
 fn by_distance() -> Vec<Case> {
     let (mut all, mut random) = (Vec::new(), SplitMix64::new(3));
     for number_of in 0..200 {
-        // Every second one in a model of units ten million times as small.
+        // Every second case is in a model whose units are ten million times as small.
         let size = if number_of % 2 == 0 { 1.0 } else { 1e-7 };
         let [a, b] = [(); 2].map(|()| point(&mut random, size));
         let eye = point(&mut random, 4.0 * size);
@@ -293,7 +293,8 @@ fn by_flatness() -> Vec<Case> {
         vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [8.0, 0.02], [1e9, 1e-9], [-1.0, 1.0], [4.0, 1.0]];
     given
         .extend((0..200).map(|_| [number(&mut random, 0.0, 60.0), number(&mut random, 1e-3, 1.0)]));
-    // Powers of two: a factor on a limit may be the next one on another device, so none is there.
+    // Powers of two: on another device, a factor on a limit may be the next one, so no case is on a
+    // limit.
     let case = |[bend, tolerance]: [f32; 2]| {
         let factor = factors::edge_by_flatness(bend, tolerance);
         case([[bend, tolerance, 0.0, 0.0]], Expected::Bits(one(factor)))
@@ -313,7 +314,7 @@ fn beside_halves() -> Vec<Case> {
     given.into_iter().map(case).collect()
 }
 
-/// Factors of edges: whole ones, fractional ones, and equal ones.
+/// Factors of edges: integers, fractions, and equal ones.
 fn edges() -> Vec<[f32; 4]> {
     let mut random = SplitMix64::new(6);
     // Three times this number is halfway between two floats.

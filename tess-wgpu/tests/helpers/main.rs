@@ -1,10 +1,10 @@
-//! The helpers of hull and domain functions, each on a table of arguments against the function of
-//! tess-surface.
+//! The helpers of hull and domain functions, each compared with the function of tess-surface on a
+//! table of arguments.
 //!
 //! Bits are compared where two patches meet and where WGSL leaves no freedom. Elsewhere WGSL lets a
 //! device fuse a multiplication with an addition, and divide and take roots with errors of some
-//! units in the last place; each table says how many it allows. Every fault of `list.faults` is
-//! seen.
+//! units in the last place; each table states the errors that it allows. The tables notice every
+//! fault of `list.faults`.
 
 #![expect(clippy::float_arithmetic, reason = "the helpers compute in floats")]
 
@@ -44,9 +44,9 @@ pub(crate) struct Case {
 pub(crate) enum Expected {
     /// These numbers, to the bit.
     Bits([f32; 4]),
-    /// These numbers, each within an error.
+    /// These numbers, each within its error.
     Near([f32; 4], f32),
-    /// The bits of the case before: the other side of an edge.
+    /// The bits of the previous case, which is the other side of the edge.
     AsBefore,
 }
 
@@ -58,12 +58,12 @@ pub(crate) const fn one(x: f32) -> [f32; 4] {
     [x, 0.0, 0.0, 0.0]
 }
 
-/// The arguments, and zeros behind them.
+/// The arguments, followed by zeros.
 pub(crate) fn args(given: &[[f32; 4]]) -> Args {
     std::array::from_fn(|i| given.get(i).copied().unwrap_or_default())
 }
 
-/// A vector and a number behind it.
+/// A vector followed by a number.
 pub(crate) fn vec(xyz: glam::Vec3, w: f32) -> [f32; 4] {
     xyz.extend(w).to_array()
 }

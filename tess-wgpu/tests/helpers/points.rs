@@ -9,8 +9,8 @@ use tess_surface::sides::edge_corners;
 use tess_surface::{Address, Curve, Edge, HeightMap, PnCorner, Sides, Surface, SurfacePatch};
 use tess_verify::generate::SplitMix64;
 
-/// Errors of a position, in ulps of the largest coordinate: a fused operation rounds once where the
-/// CPU rounds twice.
+/// The error of a position, in ulps of the largest coordinate: a fused operation rounds once, the
+/// CPU twice.
 const OF_A_POINT: f32 = 8.0;
 /// The largest coordinate of a corner.
 const SIZE_OF_A_PATCH: f64 = 1.0;
@@ -43,7 +43,7 @@ pub(crate) fn tables() -> Vec<Table> {
     ]
 }
 
-/// Places along an edge as tessellators give them: multiples of 2^-16.
+/// Places along an edge, as a tessellator computes them: multiples of 2^-16.
 pub(crate) fn places(random: &mut SplitMix64) -> [f32; 6] {
     let part = |parts: u32| parts as f32 / 65536.0;
     let any = part(1 + random.below(65_535));
@@ -58,7 +58,7 @@ fn lines() -> Vec<Case> {
     let (mut all, mut random) = (Vec::new(), SplitMix64::new(21));
     for number_of in 0..100 {
         let [a, mut b] = [(); 2].map(|()| point(&mut random, SIZE_OF_A_PATCH));
-        // Some ends differ in their later components alone, or not at all.
+        // Some ends differ only in their later components, or not at all.
         match number_of % 4 {
             1 => b.x = a.x,
             2 => (b.x, b.y) = (a.x, a.y),
@@ -76,7 +76,7 @@ fn lines() -> Vec<Case> {
             all.push(Case { args: args(&[b, a, one(1.0 - t)]), expected: Expected::AsBefore });
         }
     }
-    // The fourth component decides about the direction too, and is interpolated.
+    // The fourth component also decides the direction, and is interpolated.
     for _ in 0..20 {
         let [a, b] = [(); 2].map(|()| [0.3, 0.7, 0.1, number(&mut random, -1.0, 1.0)]);
         for t in places(&mut random) {
@@ -124,7 +124,7 @@ fn patch(sides: &Sides<()>, [a, b, c, d]: [Vec3; 4]) -> SurfacePatch {
     })
 }
 
-/// Points of the whole domain against the CPU's. Corners are exact.
+/// Points of the whole domain, compared with the CPU's. Corners are exact.
 fn patches(sides: &Sides<()>) -> Vec<Case> {
     let (mut all, mut random) = (Vec::new(), SplitMix64::new(22));
     for _ in 0..30 {
@@ -158,7 +158,7 @@ const EDGES_OF_QUADS: &str = "select(tess_along(a[0], a[1], a[4].z), \
 const EDGES_OF_TRIANGLES: &str = "select(tess_along(a[0], a[1], a[4].z), \
     tess_on_triangle(array(a[0], a[1], a[2]), a[4].xy), a[4].w == 1.0)";
 
-/// Points on edges have the bits that the edge's two ends give, whichever comes first: so all
+/// The bits of points on an edge depend only on the edge's two ends, in either order, so all
 /// patches of the edge agree.
 fn edges(corners: usize) -> Vec<Case> {
     let sides = if corners == 4 { Sides::Quad([(); 4]) } else { Sides::Triangle([(); 3]) };
@@ -184,8 +184,8 @@ fn edges(corners: usize) -> Vec<Case> {
     all
 }
 
-/// Heights at places around multiples of 1/256 of a texel, where mixtures of texels of 8 bits are
-/// exact, and beyond the image, up to infinity.
+/// Heights at places around multiples of 1/256 of a texel, where interpolation between 8-bit texels
+/// is exact, and outside of the image, up to infinity.
 fn samples() -> Vec<Case> {
     let [width, height] = SIZE.map(usize::from);
     let map = HeightMap::new(width, height, heights()).expect("as many texels");

@@ -1,4 +1,5 @@
-//! The examples' pictures are those that a rasteriser on the CPU draws of the CPU's tessellation.
+//! The examples' pictures equal those that a rasteriser on the CPU draws from the CPU's
+//! tessellation.
 
 #![expect(
     clippy::float_arithmetic,
@@ -48,13 +49,13 @@ use tess_wgpu::Gpu;
 /// Pixels across and down; a row has a multiple of 256 bytes.
 const SIZE: [u32; 2] = [512, 384];
 
-/// Those of the pictures in which single pixels count.
+/// The width and height of pictures in which single pixels count.
 const LARGE: [u32; 2] = [960, 720];
 
-/// A pixel differs if a channel is further off than this. Devices round colours and positions in
-/// ways of their own.
+/// A pixel differs if a channel differs by more than this. Devices round colours and positions
+/// differently.
 const CHANNEL: i16 = 12;
-/// So many pixels of a thousand may differ: those on outlines, and on the edges of triangles.
+/// The most pixels of a thousand that may differ: those on outlines and on the edges of triangles.
 const PER_MILLE: usize = 10;
 
 fn gpu() -> Gpu {
@@ -69,7 +70,7 @@ fn picture_of<S: Show>(gpu: &Gpu, args: &Args, size: [u32; 2]) -> Vec<u8> {
     app::picture::<S>(gpu, args, size).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// How many pixels of a thousand differ.
+/// The pixels of a thousand that differ.
 fn difference(observed: &[u8], expected: &[[u8; 3]]) -> usize {
     assert_eq!(observed.len(), 4 * expected.len(), "pictures of one size");
     let differs = |(a, b): &(&[u8; 4], &[u8; 3])| {
@@ -111,7 +112,7 @@ fn passes_draw_what_was_prepared_once() {
     assert!(found > PER_MILLE, "hills without shadows differ in only {found}");
 }
 
-/// The triangle that is found surrounds the place where the ray meets the hills.
+/// The found triangle surrounds the place where the ray meets the hills.
 #[test]
 fn the_picked_triangle_is_the_one_that_the_pixel_shows() {
     let gpu = gpu();
@@ -146,7 +147,7 @@ fn the_picked_triangle_is_the_one_that_the_pixel_shows() {
 fn picked(gpu: &Gpu, args: &Args) -> Option<pick::Picked> {
     let mut show = pick::Pick::new(gpu, wgpu::TextureFormat::Rgba8Unorm, args)
         .unwrap_or_else(|error| panic!("{error}"));
-    // The first frame is coarser.
+    // The first frame is coarser than asked for.
     for _ in 0..3 {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let frame = app::Frame { gpu, encoder: &mut encoder, seconds: 0.0, size: SIZE };
@@ -156,7 +157,7 @@ fn picked(gpu: &Gpu, args: &Args) -> Option<pick::Picked> {
     show.picked(gpu).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Where points come from makes no difference to a single pixel.
+/// The source of points does not change a single pixel.
 #[test]
 fn the_terrain_is_the_same_without_buffers() {
     let gpu = gpu();
@@ -169,7 +170,7 @@ fn the_terrain_is_the_same_without_buffers() {
     assert!(of("evaluated") == stored, "evaluated once");
 }
 
-/// The red, green and blue teapots of the example are all there, and only they.
+/// The picture has the red, green and blue teapots of the example, and nothing else.
 #[test]
 fn each_mesh_is_drawn_with_its_material() {
     let pixels = picture_of::<meshes::Meshes>(&gpu(), &Args::default(), LARGE);
@@ -181,7 +182,8 @@ fn each_mesh_is_drawn_with_its_material() {
     assert!(counts.iter().all(|&count| count > 3000), "{counts:?} pixels of each colour");
 }
 
-/// How many pixels of the terrain of the example `batch` show the background, which it has nowhere.
+/// The pixels inside the terrain of the example `batch` that show the background colour, which the
+/// terrain does not have.
 fn background_pixels(gpu: &Gpu, args: &Args) -> usize {
     let pixels = picture_of::<batch::Batch>(gpu, args, LARGE);
     assert_eq!(pixels.len(), 4 * 960 * 720, "the whole picture");
@@ -192,7 +194,7 @@ fn background_pixels(gpu: &Gpu, args: &Args) -> usize {
 fn the_terrain_of_a_batch_has_no_cracks() {
     let gpu = gpu();
     assert_eq!(background_pixels(&gpu, &Args::default()), 0, "background inside the surface");
-    // Patches in the middle of the picture, each with one factor of its own.
+    // Patches in the middle of the picture, each with one changed factor.
     for patch in [6 * 32 + 16, 8 * 32 + 15, 9 * 32 + 17] {
         let wrong = Args::default().with("wrong", &patch.to_string());
         assert!(background_pixels(&gpu, &wrong) > 0, "patch {patch} shows no crack");

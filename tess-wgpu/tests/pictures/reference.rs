@@ -1,4 +1,5 @@
-//! The examples' scenes by tess-core, tess-surface and the rasteriser of the program `tess`.
+//! The examples' scenes, drawn with tess-core, tess-surface and the rasteriser of the program
+//! `tess`.
 
 use crate::camera::Camera;
 use crate::raster::{Fragment, Raster};
@@ -35,14 +36,14 @@ fn draw(
     }
 }
 
-/// The power of a number of 0 to 1 to a whole exponent.
+/// The power of a number from 0 to 1 with an integer exponent.
 fn power(base: f32, exponent: u8) -> f32 {
     (0..exponent).fold(1.0, |product, _| product * base)
 }
 
-/// The example `teapot`, so far to the right.
+/// The example `teapot`, moved to the right.
 pub(crate) fn teapot(size: [u32; 2], right: f32) -> Vec<[u8; 3]> {
-    // As draw.wgsl has it.
+    // The same as in draw.wgsl.
     let (eye, target) = (Vec3::new(3.2, -7.6, 5.0), Vec3::new(0.3, 0.0, 1.45));
     let camera = Camera { eye, target, up: Vec3::Z, zoom: 3.1 };
     let model = Model::bezier(tess_surface::teapot::patches()).expect("a sound model");
@@ -68,7 +69,7 @@ pub(crate) fn teapot(size: [u32; 2], right: f32) -> Vec<[u8; 3]> {
     raster.pixels().to_vec()
 }
 
-/// The function `wave` of sea.wgsl at the first moment, with waves of this height.
+/// The function `wave` of sea.wgsl at time 0, with waves of this height.
 fn wave(at: Vec2, height: f32) -> Vec3 {
     let Vec2 { x, y } = at;
     let z = 0.16 * libm::sinf(1.7 * x + 0.6 * y)
@@ -127,7 +128,7 @@ fn height(at: Vec2) -> f32 {
     0.25 * libm::sinf(1.7 * at.x) * libm::sinf(1.9 * at.y) + 1.8 * libm::expf(-1.5 * top.dot(top))
 }
 
-/// Where a ray meets the hills, if it does.
+/// The place where a ray meets the hills, if it does.
 pub(crate) fn hit(from: Vec3, direction: Vec3) -> Option<Vec3> {
     let mut ray = (1..4000_u16).map(|step| from + direction * (0.005 * f32::from(step)));
     ray.find(|at| {

@@ -1,4 +1,4 @@
-//! A plan of tess-gpu on bare wgpu, and what a batch leaves, whoever ran it.
+//! A plan of tess-gpu on bare wgpu, and the buffers that a batch leaves, whichever host ran it.
 
 #[allow(dead_code, reason = "batches are made and recorded apart")]
 #[path = "../../../tess-gpu/examples/bare_wgpu.rs"]
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use tess_gpu::{Plan, Resource, Setup, Stage};
 use tess_wgpu::Batch;
 
-/// The buffers that a batch leaves beside its output.
+/// The buffers that a batch leaves in addition to its output.
 pub(crate) struct Left<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) status: &'a wgpu::Buffer,
@@ -77,7 +77,7 @@ impl Runner {
 }
 
 impl Bare {
-    /// `given` are the caller's factors, and points and indices where they are written.
+    /// `given` are the caller's factors, and points and indices if they are written.
     pub(crate) fn new(
         machine: &Machine,
         pipelines: &mut Pipelines,

@@ -4,29 +4,29 @@ use proptest::prelude::*;
 use tess_core::{Domain, PatchFactors};
 use tess_verify::generate::{SplitMix64, random_patch};
 
-/// One call. Numbers of setups, batches and buffers count round and round.
+/// One call. Numbers of setups, batches and buffers wrap around.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum DeviceCall {
-    /// The first patches of a domain's buffer of factors become others.
+    /// Replaces the first patches in a domain's buffer of factors.
     Fill { domain: Domain, with: Patches },
-    /// A batch of the first `count` patches of its domain's buffer, in groups; or a plan in long
-    /// stages on bare wgpu.
+    /// Makes a batch of the first `count` patches of its domain's buffer, in groups; or a plan in
+    /// long stages on bare wgpu.
     Make { setup: usize, count: u32, groups: u32, output: Destination, is_bare: bool },
-    /// `count` batches from batch `first` on are encoded into one encoder.
+    /// Encodes `count` batches, beginning with batch `first`, into one encoder.
     Run { first: usize, count: usize, then: Then },
-    /// The oldest encoder that was kept is submitted.
+    /// Submits the oldest encoder that was kept.
     Late,
-    /// A batch is dropped.
+    /// Drops a batch.
     Forget { batch: usize },
-    /// Batches that are made from now on keep to low limits, or to the device's.
+    /// Gives batches that are made later low limits, or the device's.
     Limit { is_low: bool },
-    /// Patches in, output back.
+    /// Tessellates patches and reads the output back.
     Whole { setup: usize, with: Patches },
-    /// A call that is refused.
+    /// Makes a call that is refused.
     Refused { setup: usize, wrong: WrongCall },
 }
 
-/// Where a batch writes. A sum is what its patches need at that time, and so much more or less.
+/// The buffers that a batch writes. Room is what its patches need at that time, plus a difference.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Destination {
     Count,
@@ -40,12 +40,12 @@ pub(crate) enum Destination {
         points: i32,
         primitives: i32,
     },
-    /// Indices alone, into a buffer of its own.
+    /// Only indices, into a buffer of its own.
     Indices {
         points: i32,
         primitives: i32,
     },
-    /// Draw arguments alone.
+    /// Only draw arguments.
     Arguments {
         points: i32,
         primitives: i32,
@@ -71,7 +71,7 @@ pub(crate) enum WrongCall {
     OtherDomain,
 }
 
-/// Some patches, by a seed.
+/// Patches made from a seed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patches {
     pub(crate) kind: Kind,
@@ -85,13 +85,13 @@ pub(crate) enum Kind {
     Culled,
     /// Runs of 1 to 600 equal ones.
     Runs,
-    /// Small in the mean, with everything that factors can be.
+    /// Small on average, with every kind of factor.
     Any,
     /// Factors up to 3.
     Tiny,
-    /// The same, but seven of eight are culled.
+    /// Factors up to 3, but seven of eight patches are culled.
     Sparse,
-    /// All factors from 40 to 66; not many.
+    /// Few patches, with factors from 40 to 66.
     Large,
 }
 
@@ -151,7 +151,7 @@ fn output() -> impl Strategy<Value = Destination> + Clone {
     ]
 }
 
-/// A call; `setups` is how many setups there are.
+/// A call; `setups` is the number of setups.
 pub(crate) fn call(setups: usize) -> impl Strategy<Value = DeviceCall> + Clone {
     let domain = prop::sample::select(&Domain::ALL[..]);
     let then = prop::sample::select(vec![

@@ -1,4 +1,4 @@
-//! Batches in any order of calls, and in all options crossed: compared with the golden model word
+//! Batches in any order of calls and with all pairs of options, compared with the golden model word
 //! for word.
 
 mod bare;
@@ -19,7 +19,7 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::{Copies, IndexType, Numbering, Order, PointFormat, Setup};
 use world::{Kept, World};
 
-/// Setups of every domain, partitioning and format, few enough for their pipelines to be made
+/// Setups of every domain, partitioning and format, but so few that their pipelines are made
 /// quickly.
 fn few() -> Vec<Setup> {
     use OutputPrimitive::{Line, Point, TriangleCcw, TriangleCw};
@@ -41,7 +41,7 @@ fn few() -> Vec<Setup> {
     ]
 }
 
-/// Does the calls on a new world; returns how many words were compared.
+/// Makes the calls on a new world; returns the number of compared words.
 fn replayed(
     machine: &mut Machine,
     kept: &mut Kept,
@@ -60,7 +60,7 @@ fn setups() -> Vec<Setup> {
     if sequences::long().is_some() { options::setups() } else { few() }
 }
 
-/// Does a sequence that was found. One of the long run needs its variable.
+/// Runs a sequence that was found. A sequence of the long run needs its variable.
 fn replay(calls: &[DeviceCall]) {
     let outcome = replayed(&mut Machine::open(), &mut Kept::default(), &setups(), calls);
     outcome.unwrap_or_else(|difference| panic!("{difference}"));
@@ -77,7 +77,7 @@ fn any_sequence_of_calls_gives_the_models_words() {
 }
 
 /// Batches that share buffers, one of which grows beyond 16-bit indices while its encoder waits.
-/// Draw arguments alone have room for that.
+/// Only draw arguments have room for that.
 #[test]
 fn a_batch_outgrows_its_indices() {
     let large = Patches { kind: Kind::Large, count: 30, seed: 1 };

@@ -1,4 +1,4 @@
-//! Every two values of two options of a setup and of a plan, together on a device.
+//! Every pair of values of two options of a setup and of a plan, on a device.
 
 use crate::calls::DeviceCall::{Fill, Limit, Make, Run};
 use crate::calls::{Destination, Kind, Patches, Then};
@@ -8,11 +8,11 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::{Capacity, Copies, IndexType, Numbering, Order, Plan, PointFormat, Setup};
 use tess_testkit::pairs::{Choice, Options};
 
-/// How many patches: one, a short batch, a long one, one with a catalogue, and one of two portions
-/// (0 stands for it).
+/// Numbers of patches: one, a short batch, a long one, one with a catalogue, and one of two
+/// portions (written as 0).
 const COUNTS: [u32; 5] = [1, 300, 1100, 16_384, 0];
 const GROUPS: [u32; 3] = [0, 1, 300];
-/// Room for points and primitives beyond what is needed.
+/// The room for points and primitives in excess of the needs.
 const ROOMS: [[i32; 2]; 4] = [[0, 0], [-1, 0], [0, -1], [1000, 700]];
 
 /// The options in order, each with the number of its values.
@@ -60,19 +60,19 @@ fn setup(row: &[usize]) -> Setup {
     }
 }
 
-/// The setups of all rows: every two of their values together.
+/// The setups of all rows, which contain every pair of their values.
 pub(crate) fn setups() -> Vec<Setup> {
     options().rows().iter().map(|row| setup(row)).collect()
 }
 
-/// Runs the batch of a row, with its room and with what it needs, and compares everything. Returns
-/// how many words were compared, and how many batches gave something that fitted.
+/// Runs the batch of a row, with the row's room and with the room that it needs, and compares
+/// everything. Returns the number of compared words, and of batches with output that fitted.
 fn run(machine: &mut Machine, kept: &mut Kept, row: &[usize]) -> Result<[u64; 2], String> {
     let (setup, is_bare) = (setup(row), row[HOST] == 2);
     let plan = Plan::new(setup, u32::MAX, Capacity::default(), crate::world::LOW);
     let is_cut = COUNTS[row[PATCHES]] == 0;
     let count = if is_cut { plan.portion_patches() + 700 } else { COUNTS[row[PATCHES]] };
-    // Few enough for 16-bit indices where that can be.
+    // Few enough for 16-bit indices where possible.
     let is_narrow = (row[6], row[5]) == (0, 0);
     let kind = match count {
         0..=300 => Kind::Any,
@@ -117,7 +117,7 @@ fn every_two_options_together_give_the_models_words() {
         let own = own.unwrap_or_else(|wrong| panic!("{}\n{wrong}", named(row)));
         sum = [sum[0] + own[0], sum[1] + own[1]];
     }
-    // A quarter of the rows only counts.
+    // In a quarter of the rows, the batch only counts.
     assert!(sum[1] >= rows.len() as u64, "{sum:?} words and batches of {} rows", rows.len());
 }
 
@@ -127,7 +127,7 @@ fn what_excludes_each_other_is_named() {
     let refused = options().refused();
     assert_eq!(refused.len(), 2, "indices or arguments alone, and two portions");
     for (_, mut row) in refused {
-        // A plan itself is only told how many patches there are.
+        // A plan is given only the number of patches.
         row[HOST] = 1;
         let wrong = run(&mut machine, &mut kept, &row).expect_err(&named(&row));
         let words = "patches without a point buffer are more than one binding holds";

@@ -1,4 +1,4 @@
-//! The results of a shader that pulls its points: every point and primitive of a batch that stores
+//! A shader that pulls its points: it computes every point and primitive of a batch that stores
 //! neither.
 
 use crate::bare::Left;
@@ -28,16 +28,16 @@ fn ask(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 ";
 
-/// The most elements of a kind that are asked for, from the first on.
+/// The most elements of a kind that are asked for, beginning with the first.
 const MOST: u32 = 20_000;
 
-/// The pipelines of the setups that were asked so far.
+/// The pipelines of the setups so far.
 #[derive(Default)]
 pub(crate) struct Pulling(HashMap<Setup, wgpu::ComputePipeline>);
 
 impl Pulling {
-    /// Compares what a shader computes behind a batch that has run; returns how many words were
-    /// compared.
+    /// Compares the results of a shader that runs after a batch; returns the number of compared
+    /// words.
     pub(crate) fn compare(
         &mut self,
         machine: &Machine,

@@ -1,8 +1,8 @@
-//! The calls of a sequence, done, and compared with the model.
+//! Makes the calls of a sequence, and compares the results with the model.
 //!
 //! Every buffer that batches write has a shadow: the words that it must hold. A batch whose output
-//! fits changes the beginning of its shadows, and nothing else ever changes. So a buffer that
-//! equals its shadow was written where it had to be and nowhere else.
+//! fits changes the beginning of its shadows, and nothing else ever changes. A buffer that equals
+//! its shadow was therefore written in the right places and nowhere else.
 
 mod checks;
 
@@ -20,7 +20,7 @@ use tess_verify::generate::SplitMix64;
 use tess_wgpu::Outputs;
 use wgpu::BufferUsages as Usage;
 
-/// Points and words of indices of the buffers that batches share.
+/// The numbers of points and of words of indices in the buffers that batches share.
 const SHARED: [[usize; 2]; 3] = [[50, 100], [3000, 10_000], [70_000, 150_000]];
 pub(crate) const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 3 };
 
@@ -32,12 +32,12 @@ struct Store {
     last: Last,
 }
 
-/// Who wrote a store last: the setup, the factors, and where the words or 16-bit halves of each
-/// patch begin.
+/// The last writer of a store: the setup, the factors, and the first word or 16-bit half of each
+/// patch.
 #[derive(Default)]
 struct Last(Option<(Setup, Vec<PatchFactors>, Vec<usize>)>);
 
-/// A batch and what the model needs to know of it.
+/// A batch, and the facts that the model needs.
 struct Made {
     runner: Runner,
     setup: Setup,
@@ -46,7 +46,7 @@ struct Made {
     room: Capacity,
     /// The stores of points and of indices.
     stores: [Option<usize>; 2],
-    /// Whether the vertex shader computes what is not stored.
+    /// Whether the vertex shader computes the elements that are not stored.
     is_pulled: bool,
 }
 
@@ -57,26 +57,26 @@ pub(crate) struct Kept {
     bare: Pipelines,
 }
 
-/// Everything that lives as long as a sequence, and what outlives it.
+/// Everything that lives as long as a sequence, and the pipelines, which outlive it.
 pub(crate) struct World<'a> {
     machine: &'a mut Machine,
     kept: &'a mut Kept,
     setups: &'a [Setup],
-    /// By domain.
+    /// The buffer of factors and the patches of each domain.
     factors: Vec<(wgpu::Buffer, Vec<PatchFactors>)>,
     limits: Limits,
     stores: Vec<Store>,
     batches: Vec<Rc<Made>>,
     late: VecDeque<(wgpu::CommandEncoder, Vec<Rc<Made>>)>,
-    /// Words that were compared.
+    /// The number of compared words.
     pub(crate) words: u64,
-    /// Batches that ran and gave something that fitted.
+    /// The number of batches that ran with output that fitted.
     pub(crate) written: usize,
 }
 
 impl<'a> World<'a> {
-    /// With buffers for the factors of `patches` patches of each domain, of which the first few are
-    /// not culled.
+    /// A world with buffers for the factors of `patches` patches of each domain, of which the first
+    /// few are not culled.
     pub(crate) fn new(
         machine: &'a mut Machine,
         kept: &'a mut Kept,
@@ -116,7 +116,7 @@ impl<'a> World<'a> {
         own
     }
 
-    /// A store of these words, which nobody has written.
+    /// A store of this many words, which nothing has written.
     fn store(&mut self, what: String, words: usize) -> usize {
         let shadow = vec![POISON; words.max(1)];
         let buffer = self.machine.upload(&shadow, Usage::STORAGE | Usage::COPY_SRC);
@@ -124,7 +124,7 @@ impl<'a> World<'a> {
         self.stores.len() - 1
     }
 
-    /// Does a call, and says what is wrong afterwards.
+    /// Makes a call, and returns what is wrong afterwards.
     pub(crate) fn call(&mut self, call: DeviceCall) -> Result<(), String> {
         match call {
             DeviceCall::Fill { domain, with } => self.fill(domain, with),
@@ -195,8 +195,8 @@ impl<'a> World<'a> {
             ];
             let given: Vec<_> =
                 given.into_iter().filter_map(|(of, buffer)| Some((of, buffer?))).collect();
-            // What the buffers hold, and not what the indices can name: the plan has to know that
-            // itself.
+            // The room of the buffers, even if indices cannot number that many points: the plan
+            // must limit that itself.
             let held =
                 |store: usize| u32::try_from(self.stores[store].shadow.len() / 2).unwrap_or(0);
             let room = Capacity { points: stores[0].map_or(room.points, held), ..promised };
@@ -223,7 +223,7 @@ impl<'a> World<'a> {
         Ok(())
     }
 
-    /// The room that a batch is told, and the stores of its points and indices.
+    /// The room that a batch is given, and the stores of its points and indices.
     fn room_and_stores(
         &mut self,
         setup: Setup,
@@ -254,14 +254,14 @@ impl<'a> World<'a> {
         }
     }
 
-    /// A store of indices for so many primitives, in whole 8 bytes as only these are used.
+    /// A store of indices for this many primitives, in whole 8 bytes, because only these are used.
     fn indices_for(&mut self, setup: Setup, primitives: u32) -> usize {
         let bytes = primitives as usize * setup.primitive_bytes() as usize;
         self.store("own indices".to_owned(), bytes.div_ceil(8) * 2)
     }
 
     /// The room that the documentation promises: whole points, whole 8 bytes of indices, and no
-    /// more points than indices can name.
+    /// more points than indices can number.
     fn room(
         &self,
         setup: Setup,
@@ -302,7 +302,7 @@ impl<'a> World<'a> {
         Ok(())
     }
 
-    /// Submits batches, changes the shadows as the model says, and compares everything.
+    /// Submits batches, updates the shadows by the model, and compares everything.
     fn submit(
         &mut self,
         encoder: wgpu::CommandEncoder,
@@ -348,7 +348,7 @@ impl<'a> World<'a> {
 const ALL: Capacity = Capacity { points: u32::MAX, primitives: u32::MAX };
 
 impl Made {
-    /// Overflow: 1 for points, 2 for primitives.
+    /// The status's overflow: 1 for points, 2 for primitives.
     fn overflow(&self, expected: &Expected<'_>) -> u32 {
         let [points, primitives] = *expected.begins().last().expect("the end");
         u32::from(points > self.room.points) | u32::from(primitives > self.room.primitives) << 1
@@ -378,7 +378,7 @@ const fn written(output: Destination) -> Written {
     }
 }
 
-/// Batches that are made from now on keep to these limits. The pipelines stay.
+/// Limits all batches that are made later. The pipelines stay.
 fn limit(machine: &mut Machine, is_low: bool) -> Limits {
     let limits = if is_low { LOW } else { Limits::WEBGPU };
     machine.limit(limits);

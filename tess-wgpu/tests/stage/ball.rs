@@ -13,10 +13,10 @@ use wgpu::BufferUsages as Usage;
 
 /// Quads along an edge of the cube that the ball is made of.
 const CELLS: i16 = 2;
-/// The quads.
+/// The number of quads.
 pub(crate) const QUADS: u32 = 6 * (CELLS as u32) * (CELLS as u32);
 
-/// A vertex of a frame: where it is in clip space and in the world.
+/// A vertex of a frame: its place in clip space and in the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placed {
     pub(crate) uv: [u32; 2],
@@ -24,7 +24,7 @@ pub(crate) struct Placed {
     pub(crate) world: [f32; 4],
 }
 
-/// A frame's values for the shaders, as `View` of ball.wgsl.
+/// A frame's values for the shaders: `View` of ball.wgsl.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(crate) struct View {
@@ -67,7 +67,8 @@ pub(crate) struct Ball {
     evaluate: wgpu::ComputePipeline,
 }
 
-/// The corners of all quads, and each quad's, beginning anywhere and in both directions.
+/// The corners of all quads, and the four of each quad, which begin at any of them and run in
+/// either direction.
 fn mesh() -> (Vec<[f32; 4]>, Vec<[u32; 4]>) {
     let mut numbers: BTreeMap<[i16; 3], u32> = BTreeMap::new();
     let mut corners = Vec::new();
@@ -81,8 +82,8 @@ fn mesh() -> (Vec<[f32; 4]>, Vec<[u32; 4]>) {
                 at[(axis + 1) % 3] = a;
                 at[(axis + 2) % 3] = b;
                 *numbers.entry(at).or_insert_with(|| {
-                    // No coordinate is a short binary number: such ones hide what rounds
-                    // differently.
+                    // No coordinate is a short binary number, because these hide differences of
+                    // rounding.
                     let [x, y, z] = at.map(|c| 0.731_234_5 * f32::from(c));
                     corners.push([x, y, z, 0.0]);
                     u32::try_from(corners.len() - 1).expect("few corners")
@@ -99,7 +100,7 @@ fn mesh() -> (Vec<[f32; 4]>, Vec<[u32; 4]>) {
 }
 
 impl Ball {
-    /// With the user's WGSL changed like this.
+    /// The stage with this edit of the user's WGSL.
     pub(crate) fn new(edit: impl Fn(&str) -> String) -> Self {
         let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
         let (corners, quads) = mesh();
@@ -108,7 +109,7 @@ impl Ball {
             upload(bytemuck::bytes_of(&View::flight(0, false)), Usage::UNIFORM | Usage::COPY_DST);
         let quad_buffer = upload(bytemuck::cast_slice(&quads), Usage::STORAGE);
         let corner_buffer = upload(bytemuck::cast_slice(&corners), Usage::STORAGE);
-        // Unlike heights.
+        // Heights that all differ.
         let texels: Vec<u8> = (0..=255_u8).map(|k| k.wrapping_mul(89) ^ (k >> 3)).collect();
         let heights = image(&gpu, wgpu::TextureFormat::R8Unorm, [16, 16], &texels);
         let source = edit(include_str!("ball.wgsl"));

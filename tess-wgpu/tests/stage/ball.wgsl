@@ -1,9 +1,9 @@
-// A ball of quads whose corners are in no common order, displaced by a texture.
+// A ball of quads whose corners have different orders, displaced by a texture.
 
 struct View {
     clip_from_world: mat4x4<f32>,
     eye: vec4<f32>,
-    // Which rule makes the factors, and whether patches are culled.
+    // The rule of the factors, and whether patches are culled.
     rule: u32,
     culls: u32,
     displacement: f32,

@@ -1,11 +1,11 @@
-//! The helpers for hull and domain functions: no cracks under moving cameras, by exact positions,
-//! and nothing culled that is seen.
+//! The helpers for hull and domain functions: by exact positions, there are no cracks under moving
+//! cameras, and no visible patch is culled.
 
 use crate::ball::{Ball, Placed, View};
 use std::collections::BTreeMap;
 
-/// The vertices along an edge of a quad, from its corner of the lower number on: the bits of their
-/// positions.
+/// The bits of the positions along an edge of a quad, beginning at the corner with the lower
+/// number.
 fn along(quad: [u32; 4], points: &[Placed], edge: usize) -> ([u32; 2], Vec<[u32; 4]>) {
     // Along u = 0, v = 0, u = 1, v = 1, with corners at (0,0), (1,0), (1,1), (0,1).
     let [from, to] = [[0, 3], [0, 1], [1, 2], [3, 2]][edge].map(|corner: usize| quad[corner]);
@@ -23,7 +23,8 @@ fn along(quad: [u32; 4], points: &[Placed], edge: usize) -> ([u32; 2], Vec<[u32;
     ([from.min(to), from.max(to)], found.into_iter().map(|(_, bits)| bits).collect())
 }
 
-/// Compares both sides of every edge: how many were compared, and the first that differs.
+/// Compares both sides of every edge. Returns the number of compared edges, and the first that
+/// differs.
 fn compare_sides(quads: &[[u32; 4]], frame: &[Vec<Placed>]) -> (usize, Result<(), String>) {
     let mut sides: BTreeMap<[u32; 2], Vec<Vec<[u32; 4]>>> = BTreeMap::new();
     for (&quad, points) in quads.iter().zip(frame) {
@@ -81,8 +82,8 @@ fn planted_cracks_are_seen() {
     }
 }
 
-/// Whether a patch is seen: some vertex is in the frustum and faces the eye, as the ball's normals
-/// do.
+/// Whether a patch is visible: some vertex is in the frustum and faces the eye, by the ball's
+/// normal there.
 fn is_seen(points: &[Placed], eye: [f32; 4]) -> bool {
     points.iter().any(|point| {
         let [x, y, z, w] = point.clip;

@@ -12,7 +12,7 @@ use wgpu::BufferUsages as Usage;
 pub(crate) const WAYS: [Points; 4] =
     [Points::Stored, Points::Pull, Points::PullWithoutIndices, Points::Evaluated];
 
-/// Different factors for each edge and patch, one patch culled.
+/// Different factors for each edge and patch; one patch is culled.
 pub(crate) fn some_factors(domain: Domain) -> Vec<PatchFactors> {
     let factor = |patch: u8, factor: u8| match (patch, factor) {
         (5, 1) => 0.0,
@@ -48,7 +48,7 @@ fn every_way_to_draw_gives_the_models_triangles() {
     }
 }
 
-/// Patches that are folded, so that rings overlap: which triangle is seen depends on their order.
+/// Folded patches, in which rings overlap, so that their order decides which triangle is seen.
 #[test]
 fn a_given_order_is_that_of_every_way_to_draw() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
@@ -118,7 +118,7 @@ fn the_number_of_patches_changes_from_frame_to_frame() {
         let host = u32::try_from(count).expect("a few");
         let observed = scene.frame(&mut stage, host.into()).expect("it draws");
         assert_eq!(compare(&observed, &expected), Ok(()), "{count} patches, from the host");
-        // A device may also ask for too many.
+        // The number from the device may also be too large.
         let asked = if count == 8 { 1000 } else { host };
         let bytes = [7_u32, asked].map(u32::to_le_bytes).concat();
         let buffer = scene.gpu.upload("count", &bytes, Usage::COPY_SRC).expect("there is room");
@@ -162,7 +162,7 @@ fn an_engine_draws(scene: &Scene, points: Points) {
     let pipeline = scene.pipeline(shader, "tess_vertex", &[Some(layout.buffer())]);
     let mut stage = scene.build(builder.groups(&[0]).without_pipeline());
     assert_eq!(stage.vertex_layout(), &layout, "of the stage too");
-    // The last ones are as many as those before.
+    // The last groups are as many as those before.
     for groups in [&[0, 3, 6][..], &[0, 1, 1, 7], &[2], &[5]] {
         stage.set_groups(groups).expect("they ascend");
         let ends = groups[1..].iter().copied().chain([PATCHES]);
@@ -194,8 +194,8 @@ fn an_engine_draws(scene: &Scene, points: Points) {
     assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "the pass's pipeline");
 }
 
-/// As many groups as before are copied in the next frame. If others follow before it, only these
-/// count.
+/// If the number of groups stays the same, they are copied in the next frame. If they are set again
+/// before it, only the last ones count.
 #[test]
 fn the_last_groups_before_a_frame_count() {
     let scene = scene(Domain::Quad, Partitioning::Integer);
@@ -237,7 +237,7 @@ fn a_stage_without_a_pipeline_stores_its_points() {
     }
 }
 
-/// As in a browser: nothing blocks.
+/// The calls for browsers, which do not block.
 #[test]
 fn a_stage_is_made_and_read_without_blocking() {
     let scene = scene(Domain::Triangle, Partitioning::Integer);

@@ -1,4 +1,4 @@
-//! Values of a draw that the WGSL asks for: the factors that are drawn, the instance and the view.
+//! Values of a draw that the WGSL asks for: the factors, the instance and the view.
 
 use crate::common::device::device_of;
 use crate::common::objects::view_of;
@@ -12,7 +12,7 @@ use tess_wgpu::stage::{Points, Room, StageError};
 use tess_wgpu::{DeviceLimits, Error, Gpu};
 use wgpu::BufferUsages as Usage;
 
-/// The scene's WGSL whose pixels have the bits of a patch's first factor in the place of its
+/// The scene's WGSL, with pixels that hold the bits of a patch's first factor instead of its
 /// number.
 fn with_factors(domain: Domain) -> String {
     let first = if domain == Domain::Isoline { "density" } else { "edges.x" };
@@ -28,7 +28,7 @@ fn domain_sees_the_factors_that_are_drawn() {
         let scene = scene(domain, Partitioning::FractionalOdd);
         let text = with_factors(domain);
         for points in WAYS {
-            // The second is too little, so the factors are scaled down.
+            // The second room is too small, so the factors are scaled down.
             for room in [Room::WorstCase, Room::Exactly(Capacity { points: 300, primitives: 350 })]
             {
                 let mut stage = scene.build(scene.builder_of(&text).points(points).room(room));
@@ -53,7 +53,7 @@ fn domain_sees_the_factors_that_are_drawn() {
     }
 }
 
-/// The first four patches, whose instances are each a row lower.
+/// The first four patches, with each instance one row lower.
 #[test]
 fn instances_are_drawn_and_numbered() {
     let scene = scene(Domain::Quad, Partitioning::FractionalEven);
@@ -94,12 +94,12 @@ fn instances_are_drawn_and_numbered() {
     }
 }
 
-/// Each layer of the target shows the patches moved on by its number.
+/// Each layer of the target shows the patches, moved by its number.
 #[test]
 fn views_are_drawn_at_once_and_numbered() {
     let gpu = Gpu::open_with(DeviceLimits::Highest, wgpu::Features::MULTIVIEW);
     let gpu = pollster::block_on(gpu).unwrap_or_else(|error| panic!("{error}"));
-    // wgpu has no such feature on OpenGL.
+    // On OpenGL, wgpu lacks the feature.
     if gpu.info.backend == wgpu::Backend::Gl {
         return;
     }
@@ -276,7 +276,7 @@ fn a_stage_that_draws_anothers_output_does_nothing_else() {
     let built = Scene::on(quads.gpu.clone(), Domain::Quad, odd.config, Vec::new());
     let built = built.builder().output_of(&stage).build(device);
     assert_eq!(built.err(), Some(StageError::OtherOutput.into()), "another partitioning");
-    // Two devices of one instance: devices of two instances can have one number.
+    // Two devices of one instance, because devices of two instances can have the same number.
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let [first, second] = [0; 2].map(|_| {
         let gpu = device_of(&instance, Default::default());

@@ -13,7 +13,7 @@ fn quads() -> Scene {
     scene(Domain::Quad, Partitioning::Integer)
 }
 
-/// Why a stage with this WGSL is refused.
+/// The error with which a stage of this WGSL is refused.
 fn refusal(scene: &Scene, source: &str, points: Points) -> StageError {
     let built = scene.builder_of(source).points(points).build(&scene.gpu.device);
     match built {
@@ -22,7 +22,7 @@ fn refusal(scene: &Scene, source: &str, points: Points) -> StageError {
     }
 }
 
-/// The line and the message with which a stage refuses the right WGSL with `to` in the place of
+/// The line and the message with which a stage refuses the valid WGSL in which `to` replaces
 /// `from`.
 fn complaint(scene: &Scene, [from, to]: [&str; 2], points: Points) -> (Option<u32>, String) {
     let right = source(Domain::Quad);
@@ -50,7 +50,7 @@ fn wrong_wgsl_is_reported_with_the_users_line() {
             ("return Vertex(vec4<f32>(0.5", "return Vertex(vec5<f32>(0.5", "vec5"),
             ("place(number) + uv;", "place(number) + uw;", "uw"),
             ("const ONE = 1.0;", "const ONE = 1.0", "expected"),
-            // Parsed, but not valid: the function's body has another type.
+            // It can be parsed, but is not valid: the function's body has another type.
             (
                 "return vec2<f32>(f32(number % 4u), f32(number / 4u));",
                 "return number;",
@@ -60,8 +60,8 @@ fn wrong_wgsl_is_reported_with_the_users_line() {
             let expected = line_of(&right, from);
             let (line, message) = complaint(&scene, [from, to], points);
             let line = line.expect("a line of the user's");
-            // A missing semicolon is found where the next token begins; a statement of the wrong
-            // type is reported with its function, which begins a line before.
+            // A missing semicolon is found at the next token. A statement of the wrong type is
+            // reported with its function, which begins one line earlier.
             assert!((expected - 1..=expected + 2).contains(&line), "{line}: {message}");
             assert!(message.contains(says), "{message}");
             let text = StageError::Wgsl { line: Some(line), message }.to_string();
@@ -108,7 +108,7 @@ fn functions_that_do_not_go_with_the_stage_are_reported_with_their_line() {
             let keyword = if function == "QuadFactors" { "struct" } else { "fn" };
             let expected = line_of(&right.replace(from, to), &format!("{keyword} {function}"));
             let (line, message) = complaint(&scene, [from, to], points);
-            // The body of `hull` may be what is wrong instead.
+            // The error may be in the body of `hull` instead.
             let is_there = line.is_some_and(|line| (expected..=expected + 2).contains(&line));
             assert!(is_there, "{to}: {line:?}: {message}");
         }
@@ -133,7 +133,8 @@ fn the_factors_of_another_domain_are_named() {
     }
 }
 
-/// Layouts that do not go with the WGSL: the binding's name, its line and what its entry must be.
+/// Layouts that do not match the WGSL: the error has the binding's name, its line and the right
+/// entry.
 #[test]
 fn bindings_that_do_not_go_with_their_layout_are_named() {
     use crate::common::objects::{buffer, group, layout, storage, whole};
@@ -466,7 +467,7 @@ fn pipeline_constants_reach_every_function_or_are_refused() {
 #[test]
 fn encoders_and_tessellators_of_other_devices_are_refused() {
     let scene = quads();
-    // Further instances know fewer buffers, so that wgpu cannot take one for another.
+    // Later instances have fewer buffers, so that wgpu cannot mistake one for another.
     let other = limited(wgpu::Limits::default());
     let mut stage = scene.build(scene.builder().factors(Factors::Host));
     for _ in 0..2 {
@@ -482,7 +483,8 @@ fn encoders_and_tessellators_of_other_devices_are_refused() {
     scene.gpu.run(encoder).expect("the device finishes");
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
     assert_eq!(compare(&observed, &scene.pixels(&scene.patches)), Ok(()), "the stage goes on");
-    // Another device of the stage's own instance; devices of two instances can have one number.
+    // Another device of the stage's own instance, because devices of two instances can have the
+    // same number.
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let [first, second] = [0; 2].map(|_| device_of(&instance, Default::default()).device);
     let shared = Tessellator::new(&first);

@@ -1,4 +1,4 @@
-//! Points that are evaluated once: the vertices that are stored, and every draw of them.
+//! Points that are evaluated once: the stored vertices, and every draw of them.
 
 use crate::common::device::limited;
 use crate::drawing::{WAYS, scene};
@@ -9,8 +9,8 @@ use tess_gpu::layout::Status;
 use tess_wgpu::TessellationStage;
 use tess_wgpu::stage::{Points, Room};
 
-/// The vertices that a frame of the scene has, as words: position, u and v, number, and one word
-/// that nobody writes.
+/// The vertices of a frame of the scene, as words: position, u and v, number, and one word that is
+/// never written.
 fn model(scene: &Scene, patches: &[PatchFactors]) -> Vec<[u32; 7]> {
     let of_patch = |(number, &factors): (u16, &PatchFactors)| {
         let points = Patch::new(scene.config, factors).tessellate().points;
@@ -57,8 +57,8 @@ fn the_vertices_are_what_domain_returns_for_the_models_points() {
     }
 }
 
-/// One binding holds a part of the vertices: 4 MiB hold 3968 of 1056 bytes each, so these quads
-/// take five windows.
+/// One binding holds only part of the vertices: 4 MiB hold 3968 vertices of 1056 bytes, so these
+/// quads take five windows.
 #[test]
 fn vertices_beyond_one_binding_are_evaluated_in_windows() {
     let gpu = limited(wgpu::Limits {
@@ -100,8 +100,8 @@ fn room_that_grows_replaces_the_vertices() {
     assert_eq!(stored(&scene, &stage), model(&scene, &scene.patches), "in the new room");
 }
 
-/// The scene's WGSL with another mark, and places that a function of `project` moves by so many
-/// patches.
+/// The scene's WGSL with another mark, and with a function of `project` that moves the places by a
+/// number of patches.
 fn material(mark: u32, by: u32) -> String {
     source(Domain::Quad).replace("vertex.number, 1u", &format!("vertex.number, {mark}u"))
         + &format!(
@@ -112,7 +112,7 @@ fn material(mark: u32, by: u32) -> String {
         )
 }
 
-/// Each draws what a stage of its own would.
+/// Each of them draws the same as a separate stage would.
 #[test]
 fn one_output_is_drawn_with_many_materials() {
     let scene = scene(Domain::Quad, Partitioning::FractionalEven);
@@ -126,7 +126,7 @@ fn one_output_is_drawn_with_many_materials() {
             let builder = scene.builder_of(&text).project("moved").output_of(&stage);
             (mark, scene.build(builder))
         });
-        // The first frame is coarser, later ones have more room.
+        // The first frame is coarser; later ones have more room.
         for frame in 0..4 {
             let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
             stage.prepare(&mut encoder, PATCHES).expect("it is prepared");
@@ -161,7 +161,7 @@ fn one_output_is_drawn_with_many_materials() {
     }
 }
 
-/// `project` gives one picture in every way to draw, from `domain` that knows no camera.
+/// With `project` and a `domain` without a camera, every way to draw gives the same picture.
 #[test]
 fn project_is_called_after_domain_in_every_way_to_draw() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);

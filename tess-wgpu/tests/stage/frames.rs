@@ -1,4 +1,4 @@
-//! Frames that are dropped, kept or interrupted leave the stage as it should be.
+//! Frames that are dropped, kept or interrupted do not disturb the stage.
 
 use crate::common::objects::{group, layout, part, whole};
 use crate::drawing::{scene, some_factors};
@@ -105,7 +105,8 @@ fn a_lost_device_is_an_error() {
     }
 }
 
-/// A layout of one buffer, and a group of it; whether it has a dynamic offset, and its type.
+/// The layout of one buffer, and its group. The arguments are whether it has a dynamic offset, and
+/// its type.
 fn bound(
     scene: &Scene,
     (has_dynamic_offset, ty): (bool, wgpu::BufferBindingType),
@@ -187,7 +188,7 @@ fn dynamic_offsets_choose_factors() {
     assert_eq!(stage.set_dynamic_offsets(1, &[0]).err(), Some(none.into()));
 }
 
-/// A second bind group, whose offset chooses the number that the domain function adds to the
+/// A second bind group, whose offset selects the number that the domain function adds to the
 /// patch's.
 #[test]
 fn dynamic_offsets_of_later_groups_reach_the_draw() {

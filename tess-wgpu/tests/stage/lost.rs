@@ -1,7 +1,7 @@
-//! A device that the driver loses is an error, whichever call finds it.
+//! A device that the driver loses is an error, whichever call detects it.
 //!
-//! A software driver never loses its device, so a Vulkan layer (`lose.c`) does it, in a process of
-//! its own.
+//! A software driver never loses its device, so a Vulkan layer (`lose.c`) does that, in a process
+//! of its own.
 
 use crate::drawing::scene;
 use crate::scene::PATCHES;
@@ -14,7 +14,7 @@ use tess_wgpu::stage::Room;
 
 const LAYER: &str = "VK_LAYER_TESS_lose";
 
-/// Compiles the layer and describes it to Vulkan's loader, in a folder that is returned.
+/// Compiles the layer, and describes it to Vulkan's loader. Returns the folder.
 fn layer() -> PathBuf {
     let folder = std::env::temp_dir().join(format!("tess-lose-{}", std::process::id()));
     fs::create_dir_all(&folder).expect("a folder");

@@ -1,4 +1,4 @@
-//! The tessellation stage draws what the model says, in every form and with any room.
+//! The tessellation stage draws the model's triangles, in every form and with any room.
 
 #![expect(clippy::float_arithmetic, reason = "pixels and factors are floats")]
 

@@ -1,17 +1,17 @@
-//! The pixels by the model and exact arithmetic.
+//! The expected pixels, by the model and exact arithmetic.
 
 use crate::scene::{Pixel, SIZE};
 use tess_core::{Config, Patch, PatchFactors};
 use tess_gpu::layout::factor_words;
 
-/// Pixels across and down of one patch.
+/// The width and height of one patch in pixels.
 pub(crate) const PATCH: u32 = 64;
-/// A pixel whose centre is so near to an edge of a triangle, in pixels, can be either triangle's:
-/// devices round positions to 1/256 of a pixel.
+/// A pixel whose centre is nearer than this to an edge of a triangle, in pixels, can belong to
+/// either triangle: devices round positions to 1/256 of a pixel.
 const MARGIN: f64 = 1.0 / 64.0;
 
-/// The pixels of some patches, `None` where the model does not say. Each says where the corner
-/// `flat` of its triangle is.
+/// The pixels of some patches, `None` where the model leaves it open. Each holds the place of the
+/// corner `flat` of its triangle.
 pub(crate) fn pixels(config: Config, patches: &[PatchFactors], flat: usize) -> Vec<Option<Pixel>> {
     let mut all = vec![Some([0; 4]); (SIZE[0] * SIZE[1]) as usize];
     for (number, &factors) in (0_u32..).zip(patches) {
@@ -25,7 +25,7 @@ pub(crate) fn pixels(config: Config, patches: &[PatchFactors], flat: usize) -> V
     all
 }
 
-/// Fills a triangle of a patch with what `flat`, one of its corners, says.
+/// Fills a triangle of a patch with the values of `flat`, one of its corners.
 fn fill(all: &mut [Option<Pixel>], corners: [[f32; 2]; 3], flat: [f32; 2], number: u32) {
     let at = corners.map(|uv| uv.map(|c| f64::from(c) * f64::from(PATCH)));
     for y in 0..PATCH {
@@ -44,7 +44,8 @@ fn fill(all: &mut [Option<Pixel>], corners: [[f32; 2]; 3], flat: [f32; 2], numbe
     }
 }
 
-/// How far inside a triangle a point is; negative outside. A triangle without area has no inside.
+/// The distance of a point from the nearest edge of a triangle, negative outside. A triangle
+/// without area has no inside.
 fn distance(corners: [[f64; 2]; 3], point: [f64; 2]) -> f64 {
     let cross = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -72,7 +73,7 @@ impl Square for f64 {
     }
 }
 
-/// The first pixel that differs from the model, or too few to compare.
+/// The first pixel that differs from the model, or the fault that too few can be compared.
 pub(crate) fn compare(observed: &[Pixel], expected: &[Option<Pixel>]) -> Result<(), String> {
     let known = expected.iter().flatten().count();
     if known < expected.len() / 2 {
@@ -104,7 +105,7 @@ fn shown([u, v, number, is_drawn]: Pixel) -> String {
     }
 }
 
-/// The first factor of a buffer that is not that of these patches.
+/// The first factor of a buffer that differs from these patches'.
 pub(crate) fn compare_factors(observed: &[u32], patches: &[PatchFactors]) -> Result<(), String> {
     let expected = factor_words(patches);
     let each = expected.len() / patches.len().max(1);
@@ -142,7 +143,7 @@ fn differences_are_told_in_words() {
     assert_eq!(difference, "factor 2 of patch 1 is 5.0000005 = 40a00001, not 5 = 40a00000");
 }
 
-/// How many pixels show a patch.
+/// The number of pixels that show a patch.
 pub(crate) fn drawn(pixels: &[Pixel]) -> usize {
     pixels.iter().filter(|pixel| pixel[3] == 1).count()
 }

@@ -1,4 +1,4 @@
-//! A stage of one patch without bindings, and how much of the picture it covers.
+//! A stage of one patch without bindings, and the part of the picture that it covers.
 
 use crate::model::drawn;
 use crate::scene::{FORMAT, Scene};
@@ -6,8 +6,8 @@ use tess_core::{Config, Domain};
 use tess_wgpu::TessellationStage;
 use tess_wgpu::stage::Room;
 
-/// How many pixels a patch of factors 3, or of two lines of three segments, covers. `position` is
-/// the position in the picture of the domain point `uv`.
+/// The number of pixels that a patch of factors 3, or of two lines of three segments, covers.
+/// `position` is the WGSL of the position in the picture of the domain point `uv`.
 pub(crate) fn pixels(
     scene: &Scene,
     domain: Domain,

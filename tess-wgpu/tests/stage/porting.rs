@@ -1,4 +1,4 @@
-//! The WGSL of docs/porting.md is what the stage takes.
+//! The stage accepts the WGSL of docs/porting.md.
 
 use crate::bindings::{Bound, bind};
 use crate::common::objects;
@@ -49,7 +49,7 @@ fn the_blocks_of_the_porting_guide_compile() {
     }
 }
 
-/// Where the edge v = 0 of a quad has its points, in 2^-16.
+/// The places of the points on the edge v = 0 of a quad, in 2^-16.
 fn edge(partitioning: Partitioning, factor: f32) -> Vec<u32> {
     let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
     let points = Patch::new(config, QuadFactors::uniform(factor)).tessellate().points;
@@ -59,7 +59,7 @@ fn edge(partitioning: Partitioning, factor: f32) -> Vec<u32> {
     places
 }
 
-/// What the guide says of neighbours of different size.
+/// The guide's rule for neighbours of different size.
 #[test]
 fn short_edges_have_the_points_of_a_long_one() {
     let meets = |partitioning, factor: f32| {

@@ -1,4 +1,4 @@
-// The position of each point, as the vertex shader would have it.
+// The position of each point, as the vertex shader computes it.
 
 @group(1) @binding(0) var<storage, read> points: array<vec2<u32>>;
 @group(1) @binding(1) var<storage, read_write> positions: array<vec4<f32>>;

@@ -1,5 +1,5 @@
-//! Demand that rises slowly is met before a frame is coarse, and room that frames need no more is
-//! given back.
+//! If the needs rise slowly, the room grows before a frame is coarse. Room that frames no longer
+//! need is given back.
 
 use std::collections::VecDeque;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
@@ -9,7 +9,7 @@ use tess_wgpu::{Gpu, TessellationStage};
 
 const PATCHES: u16 = 96;
 
-/// Frames that the device is behind the host.
+/// The number of frames by which the device is behind the host.
 const IN_FLIGHT: usize = 2;
 
 fn config() -> Config {
@@ -26,7 +26,7 @@ fn primitives(patches: &[PatchFactors]) -> f64 {
     patches.iter().map(|&one| f64::from(Patch::new(config(), one).counts().primitives)).sum()
 }
 
-/// The least of such factors that give so many primitives.
+/// The least of these factors that give this many primitives.
 fn giving(wanted: f64) -> Vec<PatchFactors> {
     let (mut low, mut high) = (1.0_f32, 60.0_f32);
     for _ in 0..16 {
@@ -47,8 +47,8 @@ fn stage(gpu: &Gpu, room: Room) -> TessellationStage {
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Frames of these factors, each submitted when two more were recorded. Gives the rooms and the
-/// coarse frames.
+/// Runs frames of these factors, each submitted after two more were recorded. Returns the rooms and
+/// the coarse frames.
 fn run(
     gpu: &Gpu,
     stage: &mut TessellationStage,

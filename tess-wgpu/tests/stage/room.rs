@@ -1,4 +1,4 @@
-//! Frames that do not fit are coarser or empty, and a stage that may makes more room.
+//! Frames that do not fit are coarser or empty, and a stage makes more room if it may.
 
 use crate::drawing::{scene, some_factors};
 use crate::model::{compare, compare_factors, drawn};
@@ -17,7 +17,7 @@ fn needed(scene: &Scene) -> Capacity {
     })
 }
 
-/// The feedback of frame `frame`, after the device has been asked for it.
+/// The feedback of frame `frame`, for which the device is polled.
 fn feedback(scene: &Scene, stage: &mut TessellationStage, frame: u64) -> Feedback {
     for _ in 0..8 {
         if let Some(feedback) = stage.feedback().filter(|feedback| feedback.frame >= frame) {
@@ -41,7 +41,7 @@ pub(crate) fn scaled(patches: &[PatchFactors], domain: Domain, scale: f32) -> Ve
     patches.iter().map(of).collect()
 }
 
-/// The factors that a stage's last frame had, as words.
+/// The factors of a stage's last frame, as words.
 fn factors_of(scene: &Scene, stage: &TessellationStage) -> Vec<u32> {
     let buffer = stage.factors();
     let bytes = scene.gpu.read(buffer, buffer.size()).expect("they are there");
@@ -105,7 +105,7 @@ fn the_scale_is_the_greatest_of_the_ladder_that_fits() {
             |[points, primitives]: [u32; 2]| points <= room.points && primitives <= room.primitives;
         if fits(at(1.0 / 64.0)) {
             assert!(fits(at(scale)), "1/{part}: {scale}");
-            // A step of the ladder is 1.6 percent.
+            // One step of the ladder is 1.6 percent.
             assert!(!fits(at(scale * 1.017)), "1/{part}: {scale} could be more");
             let patches = scaled(&scene.patches, scene.domain, scale);
             let expected = scene.pixels(&patches);
@@ -172,7 +172,7 @@ fn factors_that_are_no_numbers_stay_culled() {
     assert_eq!(compare(&observed, &expected), Ok(()), "four patches are drawn");
 }
 
-/// As the README says.
+/// The memory that the README states.
 #[test]
 fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
     for (domain, expected) in [(Domain::Quad, 88), (Domain::Triangle, 64), (Domain::Isoline, 40)] {
@@ -196,8 +196,8 @@ fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
     }
 }
 
-/// A stage that draws nothing but depth. It stores neither points nor indices, so there can be any
-/// room.
+/// A stage that draws only depth. It stores neither points nor indices, so its room can be of any
+/// size.
 fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) -> TessellationStage {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let source = format!(
@@ -219,7 +219,7 @@ fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) ->
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// 2^19 quads of factor 64 give 2^32 triangles, of which the low word alone would fit anywhere. The
+/// 2^19 quads of factor 64 give 2^32 triangles, whose low word by itself would fit anywhere. The
 /// device takes 2048 workgroups in a row, so every pass has several rows.
 #[test]
 fn sums_beyond_32_bits_are_seen() {

@@ -7,7 +7,7 @@ use tess_wgpu::stage::{PatchCount, Room, StageBuilder};
 use tess_wgpu::{Error, Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
-/// Pixels across and down: patches in a grid of 4 x 2.
+/// The width and height in pixels: patches are in a grid of 4 x 2.
 pub(crate) const SIZE: [u32; 2] = [4 * model::PATCH, 2 * model::PATCH];
 /// The most patches.
 pub(crate) const PATCHES: u32 = 8;
@@ -69,7 +69,7 @@ impl Scene {
         Self::on(gpu, domain, config, patches)
     }
 
-    /// On this device.
+    /// A scene on this device.
     pub(crate) fn on(gpu: Gpu, domain: Domain, config: Config, patches: Vec<PatchFactors>) -> Self {
         let factors = given(&gpu, &patches);
         let layout = layout(&gpu.device, wgpu::ShaderStages::COMPUTE, [storage(true)]);
@@ -93,7 +93,7 @@ impl Scene {
         model::pixels(self.config, patches, if is_gl(&self.gpu) { 2 } else { 0 })
     }
 
-    /// A pipeline as an engine makes it: the entry point of a shader, vertex buffers, and a state
+    /// A pipeline as an engine makes it: with a shader's entry point, vertex buffers, and a state
     /// of its own.
     pub(crate) fn pipeline(
         &self,
@@ -128,19 +128,19 @@ impl Scene {
         })
     }
 
-    /// A stage of [`PATCHES`] patches at most, before it is built.
+    /// The builder of a stage of at most [`PATCHES`] patches.
     pub(crate) fn builder(&self) -> StageBuilder<'_> {
         self.builder_of(&self.source).room(Room::WorstCase)
     }
 
-    /// The same with other WGSL, and without the scene's room.
+    /// The same builder with other WGSL, and without the scene's room.
     pub(crate) fn builder_of<'a>(&'a self, source: &'a str) -> StageBuilder<'a> {
         TessellationStage::builder(source, self.domain, self.config, PATCHES)
             .bind_group(&self.layout, &self.group)
             .target(FORMAT)
     }
 
-    /// Builds a stage that must be right.
+    /// Builds a stage that must be valid.
     pub(crate) fn build(&self, builder: StageBuilder<'_>) -> TessellationStage {
         builder.build(&self.gpu.device).unwrap_or_else(|error| panic!("{error}"))
     }
@@ -154,7 +154,7 @@ impl Scene {
         self.frame_with(stage, patches, |stage, pass| stage.draw(pass))
     }
 
-    /// Prepares a frame, and draws it in this way.
+    /// Prepares a frame, and draws it with `draw`.
     pub(crate) fn frame_with(
         &self,
         stage: &mut TessellationStage,
@@ -166,7 +166,7 @@ impl Scene {
         self.draw_only(encoder, |pass| draw(stage, pass))
     }
 
-    /// Draws what was prepared, in this way, and returns the pixels.
+    /// Draws the prepared frame with `draw`, and returns the pixels.
     pub(crate) fn draw_only(
         &self,
         mut encoder: wgpu::CommandEncoder,

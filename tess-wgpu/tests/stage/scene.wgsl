@@ -1,6 +1,5 @@
-// Patches in a grid of 4 x 2, each 64 pixels wide; every pixel says which vertex its triangle begins with
-// (on OpenGL: ends with).
-// The setup's constants FACTORS and the type of the hull's result are put in for KIND.
+// Patches in a grid of 4 x 2, each 64 pixels wide. Every pixel holds the first vertex of its triangle (on OpenGL, the
+// last). scene.rs puts in the hull function of the domain.
 
 @group(0) @binding(0) var<storage, read> given: array<f32>;
 

@@ -1,8 +1,8 @@
-//! Any sequence of frames gives what the model says, on several stages of one device.
+//! Any sequence of frames on several stages of one device equals the model.
 //!
-//! The model of a stage is its factors, the place of its patches, its groups and the room that it
-//! says it has. From these follow the factors that a frame is scaled to, its points and indices
-//! word for word, and its pixels.
+//! The model of a stage is its factors, the places of its patches, its groups and the room that it
+//! reports. They determine the scaled factors of a frame, its points and indices word for word, and
+//! its pixels.
 
 mod calls;
 mod own;
@@ -52,8 +52,8 @@ impl World<'_> {
             StageCall::Late => {
                 if let Some((encoder, frame, count, recorded)) = own.kept.pop_front() {
                     own.drawn = None;
-                    // A bind group is recorded; factors in a buffer are those at the time of the
-                    // run.
+                    // A bind group is recorded, but factors in a buffer are read when the frame
+                    // runs.
                     let needed = match own.form.source {
                         Source::Hull => recorded,
                         Source::Host | Source::Buffer => own.needed(&own.frame_patches(count)),
@@ -93,7 +93,7 @@ impl World<'_> {
         let own = self.stages.get_mut(&used).expect("it is built");
         match then {
             Then::Drop => return Ok(()),
-            // More than a few would stop the feedback.
+            // More kept encoders than a few would stop the feedback.
             Then::Keep if own.kept.len() < 2 => {
                 let needed = own.needed(&own.frame_patches(count));
                 own.kept.push_back((encoder, own.frame - 1, count, needed));
@@ -113,7 +113,7 @@ impl World<'_> {
     }
 }
 
-/// Does the calls on new stages; returns how many words and pixels were compared.
+/// Makes the calls on new stages; returns the number of compared words and pixels.
 fn replayed(
     (gpu, shared): (&Gpu, &Tessellator),
     forms: &[StageForm],
@@ -133,18 +133,18 @@ fn forms() -> Vec<StageForm> {
     calls::forms(hold::long().is_some())
 }
 
-/// Does a sequence that was found. One of the long run needs its variable.
+/// Runs a sequence that was found. A sequence of the long run needs its variable.
 fn replay(calls: &[StageCall]) {
     replay_on(&forms(), calls);
 }
 
-/// Does a sequence on stages of these forms.
+/// Runs a sequence on stages of these forms.
 fn replay_on(forms: &[StageForm], calls: &[StageCall]) {
     let (gpu, shared) = device();
     replayed((&gpu, &shared), forms, calls).unwrap_or_else(|wrong| panic!("{wrong}"));
 }
 
-/// A device, and the tessellator that stages share.
+/// A device, and the tessellator that its stages share.
 fn device() -> (Gpu, Tessellator) {
     let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
     let shared = Tessellator::new(&gpu.device);
@@ -161,7 +161,7 @@ fn any_sequence_of_frames_gives_the_models_pictures() {
     });
 }
 
-/// A frame that runs late needs the room of the factors that its buffer has then.
+/// A frame that runs late needs room for the factors that its buffer holds at that time.
 #[test]
 fn a_late_frame_reads_later_factors() {
     let form = StageForm {
@@ -201,7 +201,7 @@ fn groups_and_room_change_in_one_frame() {
     ]);
 }
 
-/// Room that was given back grows again, also for a stage that takes the other's place.
+/// Room that was given back grows again, also for a stage that replaces the first.
 #[test]
 fn room_shrinks_and_grows_again() {
     let frame =

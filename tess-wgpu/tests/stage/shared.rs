@@ -1,5 +1,5 @@
-//! Stages with one tessellator share the pipelines that do not depend on what differs. Sequences
-//! compare their output.
+//! Stages with one tessellator share all pipelines that are the same for both. Sequences compare
+//! their output.
 
 use crate::common::device::device_of;
 use crate::scene::{FORMAT, PATCHES, source};
@@ -7,15 +7,15 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_wgpu::stage::StageBuilder;
 use tess_wgpu::{Gpu, TessellationStage, Tessellator};
 
-/// Pipelines that there are in an instance: compute, render.
+/// The numbers of compute and of render pipelines in an instance.
 fn pipelines(instance: &wgpu::Instance) -> [usize; 2] {
     let report = instance.generate_report().expect("natively");
     let hub = report.hub_report();
     [&hub.compute_pipelines, &hub.render_pipelines].map(|one| one.num_kept_from_user)
 }
 
-/// As a program makes one, whose cache is there from an earlier run or not. Making wgpu's cache is
-/// `unsafe`, so that these tests have none.
+/// A tessellator as a program makes it, whose pipeline cache may exist from an earlier run. Making
+/// wgpu's cache is `unsafe`, so these tests have none.
 fn tessellator(device: &wgpu::Device, cache: Option<&wgpu::PipelineCache>) -> Tessellator {
     let new = Tessellator::new(device);
     cache.into_iter().fold(new, Tessellator::with_pipeline_cache)
@@ -85,7 +85,7 @@ fn a_stage_makes_the_pipelines_that_no_other_has() {
 }
 
 /// A room that grows out of a short batch and shrinks into one again, other groups, and a stage for
-/// more patches: what they run has been made when the first stage was built.
+/// more patches: all of their pipelines were made when the first stage was built.
 #[test]
 fn no_frame_makes_a_pipeline() {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());

@@ -1,4 +1,4 @@
-//! Which way triangles turn, as docs/porting.md says.
+//! The winding of triangles, as docs/porting.md describes it.
 
 use crate::drawing::scene;
 use crate::one_patch;
@@ -13,7 +13,7 @@ fn clockwise_triangles_are_counter_clockwise_where_v_points_up() {
             for is_v_up in [true, false] {
                 for front_face in [FrontFace::Ccw, FrontFace::Cw] {
                     let config = Config::new(Partitioning::FractionalOdd, output);
-                    // Over the whole picture: u to the right, v upwards or downwards.
+                    // Patches over the whole picture: u to the right, v upwards or downwards.
                     let y = if is_v_up { "2.0 * uv.y - 1.0" } else { "1.0 - 2.0 * uv.y" };
                     let position = format!("2.0 * uv.x - 1.0, {y}");
                     let cull_mode = Some(wgpu::Face::Back);

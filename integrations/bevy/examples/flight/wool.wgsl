@@ -2,13 +2,14 @@
 
 const STEP = 0.001;
 
-// It depends on the place alone, so that edges stay closed.
+// It depends only on the place, so that edges stay closed.
 fn wool(at: vec3<f32>) -> f32 {
     let p = 27.0 * at;
     return 0.014 * (sin(p.x) * sin(p.y + 0.7 * sin(p.z)) + 0.6 * sin(1.7 * p.z + p.x) * cos(1.9 * p.y));
 }
 
-// The head moves with the joint, the body stays; w is 0 for directions. The weight depends on the place at rest alone, too.
+// The head moves with the joint, the body stays; w is 0 for directions. The weight, too, depends only on the place at
+// rest.
 fn skinned(at: TessPlace, rest: vec3<f32>, v: vec4<f32>) -> vec3<f32> {
     var moved: vec3<f32>;
     for (var row = 0u; row < 3u; row++) {

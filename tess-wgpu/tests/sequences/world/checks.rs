@@ -11,8 +11,8 @@ use tess_wgpu::{Error, Outputs};
 use wgpu::BufferUsages as Usage;
 
 impl World<'_> {
-    /// Compares what only a batch has: its counts, its draws, where its patches begin, and what a
-    /// shader pulls.
+    /// Compares the results besides points and indices: counts, draws, the beginnings of patches,
+    /// and pulled elements.
     pub(super) fn compare_own(
         &mut self,
         made: &Made,
@@ -106,7 +106,7 @@ impl World<'_> {
         equal("indices", &output.indices[..], indices)
     }
 
-    /// A call that is refused, with the error that says why.
+    /// Makes a call that is refused, and checks its error.
     pub(super) fn refused(&mut self, setup: Setup, wrong: WrongCall) -> Result<(), String> {
         let (factors, patches) = &self.factors[position(setup.domain)];
         let [points, indices] = [0, 1].map(|store| &self.stores[store].buffer);
@@ -149,7 +149,7 @@ impl World<'_> {
 }
 
 impl Last {
-    /// Which element of which patch stands in word `at`, of which the bits `wrong` are wrong.
+    /// The element and the patch of word `at`, in which the bits `wrong` are wrong.
     fn place(&self, what: &str, at: usize, wrong: u32) -> String {
         let Some((setup, patches, begins)) = &self.0 else { return String::new() };
         let is_narrow = what.contains("indices") && setup.index_type == IndexType::U16;

@@ -7,47 +7,47 @@ use tess_testkit::pairs::Options;
 use tess_verify::generate::SplitMix64;
 use tess_wgpu::stage::{Overflow, Points, Room};
 
-/// One call. All but the first go to the stage that is in use; at first that is stage 0.
+/// One call. All except the first kind go to the stage in use, which is stage 0 at first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum StageCall {
-    /// Another stage is used, which is built if it has not been.
+    /// Uses another stage, which is built if it is new.
     Use { stage: usize },
-    /// Another stage takes the place of the one in use: of another hull or fragment shader, and on
-    /// a tessellator of its own or on the one that all share.
+    /// Replaces the stage in use by one with another hull or fragment shader, on a tessellator of
+    /// its own or on the shared one.
     Rebuild { variant: u32, is_alone: bool },
-    /// The patches get other factors, by a seed. What records them may be dropped.
+    /// Gives the patches other factors, by a seed. The encoder that records them may be dropped.
     Give { seed: u64, is_dropped: bool },
-    /// The patches are moved on by so many places of the grid, through the uniform or another bind
+    /// Moves the patches by a number of places of the grid, through the uniform or another bind
     /// group.
     Move { by: u32, is_bound: bool },
-    /// Other groups of patches, from the next frame on.
+    /// Sets other groups of patches, which take effect in the next frame.
     Group { groups: u32 },
-    /// A frame of the first `count` patches.
+    /// Prepares and draws a frame of the first `count` patches.
     Frame { count: u32, from: Count, draw: Draw, then: Then },
-    /// The frame that was prepared last is drawn again, if it ran.
+    /// Draws the last prepared frame again, if it ran.
     Again { draw: Draw },
-    /// The oldest frame that was kept is submitted.
+    /// Submits the oldest frame that was kept.
     Late,
     /// Makes the room that a frame needs.
     MakeRoom { count: u32 },
-    /// A call that is refused.
+    /// Makes a call that is refused.
     Refused { wrong: WrongFrame },
 }
 
-/// Where the number of patches comes from.
+/// The source of the number of patches.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Count {
     Host,
     Device,
 }
 
-/// The part that is drawn.
+/// The part of the output that is drawn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Draw {
     Everything,
-    /// A group, by a number that counts round and round.
+    /// A group, by a number that wraps around.
     One(u32),
-    /// Every stage is prepared in the encoder, and this one drawn.
+    /// Everything, after every stage is prepared in the same encoder.
     AmongOthers,
     /// Everything, by a stage that draws this one's output.
     ByAnother,
@@ -70,7 +70,7 @@ pub(crate) enum WrongFrame {
     Factors,
 }
 
-/// Where a stage's factors come from.
+/// The source of a stage's factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
     Hull,
@@ -78,7 +78,7 @@ pub(crate) enum Source {
     Buffer,
 }
 
-/// The choices that a stage is made of.
+/// The options of a stage.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StageForm {
     pub(crate) domain: Domain,
@@ -90,7 +90,7 @@ pub(crate) struct StageForm {
     pub(crate) order: Order,
 }
 
-/// Rooms from too little for most frames to enough for any.
+/// Rooms, from too small for most frames to large enough for any.
 const ROOMS: [Room; 4] = [
     Room::Automatic { most_bytes: 40_000 },
     Room::Exactly(Capacity { points: 300, primitives: 350 }),
@@ -98,7 +98,7 @@ const ROOMS: [Room; 4] = [
     Room::WorstCase,
 ];
 
-/// A stage of these values of its options.
+/// A stage with these values of its options.
 fn form(row: &[usize]) -> StageForm {
     StageForm {
         domain: [Domain::Quad, Domain::Triangle][row[0]],
@@ -111,7 +111,7 @@ fn form(row: &[usize]) -> StageForm {
     }
 }
 
-/// The stages: a few, whose pipelines are made quickly, or every two options together.
+/// The stages: a few, whose pipelines are made quickly, or every pair of options.
 pub(crate) fn forms(is_long: bool) -> Vec<StageForm> {
     if is_long {
         let options = Options::new(&[2, 4, 4, 3, 4, 2, 2], |_, _| false);
@@ -130,7 +130,8 @@ pub(crate) fn forms(is_long: bool) -> Vec<StageForm> {
 /// The factors of all patches.
 pub(crate) fn factors(domain: Domain, seed: u64) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(seed);
-    // Eighths up to 10 or, in one of four, up to 3; now and then what culls and what is beyond all.
+    // Eighths up to 10 or, in one of four, up to 3; sometimes a factor that culls or that is out of
+    // range.
     let most = if seed.is_multiple_of(4) { 24 } else { 80 };
     let mut factor = || match random.below(60) {
         0 => 0.0,
@@ -142,7 +143,7 @@ pub(crate) fn factors(domain: Domain, seed: u64) -> Vec<PatchFactors> {
     (0..crate::scene::PATCHES).map(|_| PatchFactors::from_fn(domain, |_| factor())).collect()
 }
 
-/// A call; `stages` is how many stages there are.
+/// A call; `stages` is the number of stages.
 pub(crate) fn call(stages: usize) -> impl Strategy<Value = StageCall> + Clone {
     let select = prop::sample::select::<Draw>;
     let draw = prop_oneof![

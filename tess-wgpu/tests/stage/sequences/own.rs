@@ -1,4 +1,4 @@
-//! A stage in a sequence of frames, and what the model says of it.
+//! A stage in a sequence of frames, and its model.
 
 use super::calls::{self, Count, Draw, Source, StageForm, WrongFrame};
 use crate::common::expected::Expected;
@@ -18,13 +18,13 @@ use wgpu::BufferUsages as Usage;
 /// The groups that a stage is made with.
 const GROUPS: [u32; 4] = [0, 3, 3, 6];
 
-/// A stage, what it reads, and the model's state of it.
+/// A stage, the buffers that it reads, and the model's state.
 pub(super) struct Own {
     pub(super) form: StageForm,
     variant: u32,
     /// The room at first.
     pub(super) first: Capacity,
-    /// The frame since which little was needed, and the most that was needed since.
+    /// The frame since which little was needed, and the greatest needs since then.
     pub(super) lull: (u64, Capacity),
     pub(super) scene: Scene,
     pub(super) stage: TessellationStage,
@@ -38,9 +38,9 @@ pub(super) struct Own {
     pub(super) groups: Vec<u32>,
     pub(super) next_groups: Vec<u32>,
     pub(super) frame: u64,
-    /// The patches of the frame that was prepared last, if it ran.
+    /// The patches of the last prepared frame, if it ran.
     pub(super) drawn: Option<Vec<PatchFactors>>,
-    /// The latest frame that ran: its number and what it needed.
+    /// The latest frame that ran: its number and its needs.
     pub(super) heard: Option<(u64, Capacity)>,
     pub(super) kept: VecDeque<(wgpu::CommandEncoder, u64, u32, Capacity)>,
 }
@@ -48,10 +48,10 @@ pub(super) struct Own {
 /// The mark of a pixel that another stage has drawn.
 const OTHER: u32 = 7;
 
-/// Frames of little output after which a stage gives room back.
+/// The frames of little output after which a stage gives room back.
 pub(super) const PATIENCE: u64 = 2;
 
-/// The scene's WGSL with a grid that a uniform turns. A variant exchanges patches in `hull`, or
+/// The scene's WGSL with a grid that a uniform shifts. A variant exchanges patches in `hull`, or
 /// writes another number in the fragment shader, or both.
 fn source(form: StageForm, variant: u32) -> String {
     let place = "return vec2<f32>(f32(number % 4u), f32(number / 4u));";
@@ -66,8 +66,7 @@ fn source(form: StageForm, variant: u32) -> String {
 }
 
 impl Own {
-    /// A stage that takes the place of `old` has its layouts, so that it can share all of its
-    /// pipelines.
+    /// A stage that replaces `old` has the same layouts, so that it can share all pipelines.
     pub(super) fn new(
         (gpu, shared): (&Gpu, &Tessellator),
         form: StageForm,
@@ -154,11 +153,11 @@ impl Own {
         })
     }
 
-    /// Bytes of a room.
+    /// The bytes of a room.
     pub(super) fn bytes(&self, room: Capacity) -> u64 {
         let point = match self.form.points {
             Points::Stored => 8,
-            // The scene's `Vertex` has 32.
+            // The scene's `Vertex` has 32 bytes.
             Points::Evaluated => 8 + 32,
             Points::Pull | Points::PullWithoutIndices => 0,
         };
@@ -227,7 +226,7 @@ impl Own {
         let prepared = match from {
             Count::Host => self.stage.prepare(encoder, count.min(PATCHES)),
             Count::Device => {
-                // More than the stage was made for counts as that.
+                // A number above the stage's most patches counts as that.
                 let asked = if count < PATCHES { count } else { 1000 };
                 let words = [7, asked];
                 let bytes = bytemuck::bytes_of(&words);
@@ -241,8 +240,8 @@ impl Own {
         self.check_room(before)
     }
 
-    /// Compares what a frame left that ran last, but for its pixels. Returns the patches that are
-    /// drawn.
+    /// Compares the results of the last frame that ran, except its pixels. Returns the drawn
+    /// patches.
     pub(super) fn compare(
         &mut self,
         count: u32,
@@ -288,7 +287,8 @@ impl Own {
         Ok(patches)
     }
 
-    /// A scale fits, and one that is larger by a step of the ladder, 1.6 percent, does not.
+    /// Checks that a scale fits, and that one that is larger by a step of the ladder, 1.6 percent,
+    /// does not.
     fn check_scale(&self, scale: f32, count: u32, room: Capacity) -> Result<(), String> {
         let asked = self.frame_patches(count);
         let at = |scale| self.needed(&scaled(&asked, self.form.domain, scale));
@@ -316,7 +316,7 @@ impl Own {
 }
 
 impl Own {
-    /// Draws what was prepared: the pixels, and the group that was drawn if it was one.
+    /// Draws the prepared frame: the pixels, and the drawn group if it was one.
     pub(super) fn draw(
         &self,
         encoder: wgpu::CommandEncoder,
@@ -335,7 +335,7 @@ impl Own {
         Ok((observed.map_err(|error| error.to_string())?, group))
     }
 
-    /// Compares the pixels of the patches that were drawn last, or of a group of them.
+    /// Compares the pixels of the last drawn patches, or of a group of them.
     pub(super) fn check(
         &self,
         observed: &[Pixel],
@@ -350,7 +350,7 @@ impl Own {
             drawn[..begin].fill(culled);
             drawn[end..].fill(culled);
         }
-        // More would take the model too long.
+        // The model would take too long for more.
         let is_little = self.needed(&drawn).primitives < 2500;
         let mark = match draw {
             Draw::ByAnother => OTHER,

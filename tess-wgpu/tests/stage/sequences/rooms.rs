@@ -1,4 +1,4 @@
-//! The model of a stage's room, and how a stage makes some.
+//! The model of a stage's room and of its growth.
 
 use super::own::{Own, PATIENCE};
 use crate::hold::equal;
@@ -8,8 +8,8 @@ use tess_wgpu::Gpu;
 use tess_wgpu::stage::Room;
 
 impl Own {
-    /// The room behind `before`, when the stage has heard of all that ran; `None` where the budget
-    /// decides.
+    /// The room that follows `before`, once the stage has the feedback of all frames that ran;
+    /// `None` where the budget decides.
     pub(super) fn next_room(&mut self, before: Capacity) -> Option<Capacity> {
         let (Room::Automatic { most_bytes }, Some((frame, needed))) = (self.form.room, self.heard)
         else {
@@ -43,7 +43,7 @@ impl Own {
         Some(if is_lull { ample(most, self.first) } else { before })
     }
 
-    /// The room that a frame has, when it was `before`.
+    /// Checks the room of a frame, after the room `before`.
     pub(super) fn check_room(&mut self, before: Capacity) -> Result<(), String> {
         let now = self.stage.capacity();
         if let Some(expected) = self.next_room(before) {
@@ -58,7 +58,7 @@ impl Own {
     }
 
     pub(super) fn make_room(&mut self, gpu: &Gpu, count: u32) -> Result<(), String> {
-        // What was heard before makes room first. A budget that is then used is not checked.
+        // Earlier feedback makes room first. If that uses up the budget, nothing is checked.
         let middle = self.next_room(self.stage.capacity());
         let count = count.min(PATCHES);
         self.drawn = None;
