@@ -130,27 +130,39 @@ fn beside_minimum(
 fn transitions(cases: &mut Vec<Case>, choices: &Choices) {
     let partitioning = choices.partitioning(&[Partitioning::Integer]);
     let counts = segments(partitioning);
-    let has_quads = choices.domains.contains(&Domain::Quad);
+    let [has_triangles, has_quads] =
+        [Domain::Triangle, Domain::Quad].map(|domain| choices.domains.contains(&domain));
     for (order, &split) in choices.splits.iter().enumerate() {
-        let mut add = |factors| cases.push(choices.surface(partitioning, split, factors));
         for (number, &inside) in counts.iter().enumerate() {
-            if has_quads {
-                for (turn, outer) in counts.chunks(4).enumerate() {
-                    let quads = quads_with(outer, inside, turn);
-                    quads.into_iter().for_each(|quad| add(PatchFactors::Quad(quad)));
-                }
-            }
-            if choices.domains.contains(&Domain::Triangle) {
-                let is_due =
-                    |turn: usize| !has_quads || (number + turn) % choices.splits.len() == order;
-                let outer = counts.chunks(3).enumerate().filter(|(turn, _)| is_due(*turn));
-                for (_, outer) in outer {
-                    let factor = |p| if p == 3 { inside } else { outer[p % outer.len()] };
-                    add(PatchFactors::from_fn(Domain::Triangle, factor));
-                }
-            }
+            let is_due =
+                |turn: usize| !has_quads || (number + turn) % choices.splits.len() == order;
+            let quads = has_quads.then(|| quad_transitions(&counts, inside));
+            let triangles = has_triangles.then(|| triangle_transitions(&counts, inside, is_due));
+            let patches = quads.into_iter().flatten().chain(triangles.into_iter().flatten());
+            cases.extend(patches.map(|factors| choices.surface(partitioning, split, factors)));
         }
     }
+}
+
+/// Quads in which an inside factor meets each outer factor along both axes, four outer ones at a
+/// time.
+fn quad_transitions(outer: &[f32], inside: f32) -> impl Iterator<Item = PatchFactors> {
+    let turns = outer.chunks(4).enumerate();
+    turns.flat_map(move |(turn, outer)| quads_with(outer, inside, turn)).map(PatchFactors::Quad)
+}
+
+/// Triangles in which an inside factor meets each outer factor, three outer ones at a time; those
+/// whose turn is due.
+fn triangle_transitions(
+    outer: &[f32],
+    inside: f32,
+    is_due: impl Fn(usize) -> bool,
+) -> impl Iterator<Item = PatchFactors> {
+    let turns = outer.chunks(3).enumerate().filter(move |(turn, _)| is_due(*turn));
+    turns.map(move |(_, outer)| {
+        let factor = |p| if p == 3 { inside } else { outer[p % outer.len()] };
+        PatchFactors::from_fn(Domain::Triangle, factor)
+    })
 }
 
 /// All factors that give different numbers of points, ascending. Fractional ones are between two

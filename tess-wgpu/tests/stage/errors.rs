@@ -208,7 +208,7 @@ fn names_of_wgsls_own_are_refused_where_the_stage_uses_them() {
         let (line, message) = complaint(&scene, change, Points::PullWithoutIndices);
         let expected = line_of(&right.replace(change[0], &to), declaration);
         assert_eq!(line, Some(expected), "{message}");
-        assert!(message.contains("WGSL's own"), "{message}");
+        assert!(message.contains("built-in name of WGSL"), "{message}");
     }
     for declaration in ["fn pow(a: f32) -> f32 { return a; }", "fn at() {}", "const thread = 1;"] {
         let allowed = right.clone() + declaration;
