@@ -21,7 +21,7 @@ from typing import Callable, NamedTuple
 
 from records import RECORDS, ROOT, performance, text_of
 
-CORE = ["tess-core/src", "tess-verify/src/generate"]
+CORE = ["tess-core/src", "tess-verify/src/workloads.rs", "tess-verify/src/workloads/scenes.rs"]
 CPU = [*CORE, "tess-simd/src"]
 GPU = [*CORE, "tess-gpu/src", "tess-gpu/shaders", "tess-wgpu/src"]
 SURFACES = ["tess-core/src", "tess-surface/src"]
