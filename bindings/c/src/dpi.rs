@@ -93,18 +93,18 @@ pub unsafe extern "C" fn tess_dpi_process(
     fixed: *mut u32,
     parity: *mut u32,
 ) -> TessStatus {
-    answer(|| {
-        let config = TessConfig { domain, partitioning, output: 0, split: split_order };
-        let case = case(config, [f0, f1, f2, f3, f4, f5])?;
+    let config = TessConfig { domain, partitioning, output: 0, split: split_order };
+    let values = |case: &Case| {
         if number as usize >= case.factors.domain().factors() {
             return Err(TESS_OUT_OF_RANGE);
         }
         let patch = TessProcessedPatch::from(case.patch().processed());
         let f = listed(&patch.factors, number)?;
-        let values = [patch.outcome, f.clamped, f.rounded, f.fixed, f.context.parity];
-        // SAFETY: every pointer is writable, as the caller promises.
-        unsafe { write_each([outcome, clamped, rounded, fixed, parity], values) }
-    })
+        Ok([patch.outcome, f.clamped, f.rounded, f.fixed, f.context.parity])
+    };
+    let pointers = [outcome, clamped, rounded, fixed, parity];
+    // SAFETY: every pointer is writable, as the caller promises.
+    unsafe { of_patch(config, [f0, f1, f2, f3, f4, f5], pointers, values) }
 }
 
 /// The sizes of a patch: `tess_count` in scalars.
@@ -127,12 +127,11 @@ pub unsafe extern "C" fn tess_dpi_count(
     primitives: *mut u32,
     indices: *mut u32,
 ) -> TessStatus {
-    answer(|| {
-        let config = TessConfig { domain, partitioning, output, split: split_order };
-        let counts = case(config, [f0, f1, f2, f3, f4, f5])?.patch().counts();
-        // SAFETY: every pointer is writable, as the caller promises.
-        unsafe { write_each([points, primitives, indices], sizes(counts)) }
-    })
+    let config = TessConfig { domain, partitioning, output, split: split_order };
+    let values = |case: &Case| Ok(sizes(case.patch().counts()));
+    let pointers = [points, primitives, indices];
+    // SAFETY: every pointer is writable, as the caller promises.
+    unsafe { of_patch(config, [f0, f1, f2, f3, f4, f5], pointers, values) }
 }
 
 /// Point `i` of a patch: `tess_point` in scalars.
@@ -155,13 +154,13 @@ pub unsafe extern "C" fn tess_dpi_point(
     u: *mut u32,
     v: *mut u32,
 ) -> TessStatus {
-    answer(|| {
-        let config = TessConfig { domain, partitioning, output, split: split_order };
-        let case = case(config, [f0, f1, f2, f3, f4, f5])?;
+    let config = TessConfig { domain, partitioning, output, split: split_order };
+    let values = |case: &Case| {
         let point = TessPoint::from(case.patch().point(i).ok_or(TESS_OUT_OF_RANGE)?);
-        // SAFETY: both pointers are writable, as the caller promises.
-        unsafe { write_each([u, v], [point.u, point.v]) }
-    })
+        Ok([point.u, point.v])
+    };
+    // SAFETY: both pointers are writable, as the caller promises.
+    unsafe { of_patch(config, [f0, f1, f2, f3, f4, f5], [u, v], values) }
 }
 
 /// Primitive `t` of a patch: `tess_primitive` in scalars.
@@ -186,14 +185,14 @@ pub unsafe extern "C" fn tess_dpi_primitive(
     i1: *mut u32,
     i2: *mut u32,
 ) -> TessStatus {
-    answer(|| {
-        let config = TessConfig { domain, partitioning, output, split: split_order };
-        let case = case(config, [f0, f1, f2, f3, f4, f5])?;
+    let config = TessConfig { domain, partitioning, output, split: split_order };
+    let values = |case: &Case| {
         let primitive = case.patch().primitive(t).ok_or(TESS_OUT_OF_RANGE)?;
         let TessPrimitive { size: vertices, indices: [a, b, c], .. } = primitive.into();
-        // SAFETY: every pointer is writable, as the caller promises.
-        unsafe { write_each([size, i0, i1, i2], [vertices, a, b, c]) }
-    })
+        Ok([vertices, a, b, c])
+    };
+    // SAFETY: every pointer is writable, as the caller promises.
+    unsafe { of_patch(config, [f0, f1, f2, f3, f4, f5], [size, i0, i1, i2], values) }
 }
 
 /// The number of the `i`-th coverage bin that a patch hits; `TESS_OUT_OF_RANGE` past the last one.
@@ -218,12 +217,30 @@ pub unsafe extern "C" fn tess_dpi_coverage(
     i: u32,
     bin: *mut u32,
 ) -> TessStatus {
-    answer(|| {
-        let config = TessConfig { domain, partitioning, output, split: split_order };
-        let hit = bins_hit(&case(config, [f0, f1, f2, f3, f4, f5])?);
+    let config = TessConfig { domain, partitioning, output, split: split_order };
+    let values = |case: &Case| {
+        let hit = bins_hit(case);
         let number = hit.get(i as usize).and_then(|number| u32::try_from(*number).ok());
-        // SAFETY: `bin` is writable, as the caller promises.
-        unsafe { write_each([bin], [number.ok_or(TESS_OUT_OF_RANGE)?]) }
+        Ok([number.ok_or(TESS_OUT_OF_RANGE)?])
+    };
+    // SAFETY: `bin` is writable, as the caller promises.
+    unsafe { of_patch(config, [f0, f1, f2, f3, f4, f5], [bin], values) }
+}
+
+/// The body of a function on a patch: decodes the patch and writes the values that it has there.
+///
+/// # Safety
+/// - Every pointer, if not null and aligned, must be valid for writing one number.
+unsafe fn of_patch<const N: usize>(
+    config: TessConfig,
+    factors: [u32; 6],
+    pointers: [*mut u32; N],
+    values: impl FnOnce(&Case) -> Result<[u32; N], TessStatus>,
+) -> TessStatus {
+    answer(|| {
+        let values = values(&case(config, factors)?)?;
+        // SAFETY: every pointer is writable, as the caller promises.
+        unsafe { write_each(pointers, values) }
     })
 }
 
