@@ -15,6 +15,20 @@
 //! RawFactors         a vector of 8, if the patch is new      u0 v0 u1 v1 inside_u inside_v 0 0
 //! ```
 //!
+//! The pairs exist because a kernel's arguments go through registers, the vector because the stages
+//! compute with vectors. If the patch repeats, the pairs are compared and the vector is not made.
+//!
+//! # Entries
+//!
+//! ```text
+//! OnePatch::process      one patch per call: keeps its packet, and does nothing if the factors are the same
+//! Packet::process_one    a patch of a small batch, or one that repeats: any lane of the batch's packet
+//! one_counts             a patch that is only counted: no packet
+//! ```
+//!
+//! All three take the same way: `pairs`, `apart`, `process`. They differ in the result that they
+//! keep, and one call takes only one of them.
+//!
 //! # What must hold
 //!
 //! - Factors reach the kernel in registers ([`pairs`]). A vector load from memory would wait until
