@@ -8,6 +8,7 @@
 //! separately, at each level, and its words are compared with those of the same stage of
 //! `tess-core`. `tests/kernels.rs` does that; `benches/benches/kernels.rs` times the same entries
 //! on the same inputs.
+//!
 //! # An entry
 //!
 //! ```text
@@ -17,14 +18,13 @@
 //! ```
 //!
 //! A [`Case`] is an entry's input in one round: random in even rounds, extreme in odd ones, with
-//! A [`Case`] is an entry's input in one round: random in even rounds, extreme in odd ones, with
 //! another configuration in every second round. [`SEED`], the entry and the round determine it.
 //! Patches reach a stage through the stages before it, and the entries are in the order of the
 //! data. So the first entry that fails names the faulty kernel; those after it may only have
 //! received its wrong words.
+//!
 //! # One entry at work
 //!
-//! `stages/points/quad` in round 6 takes regular quads of fractional-even factors. For each of them
 //! `stages/points/quad` in round 6 takes regular quads of fractional-even factors. For each of them
 //! the model walks its points, and [`Words::points`] notes two words per point under the names `u
 //! of point` and `v of point`. The [`KernelTap`] takes the same patches through the front end and
@@ -32,13 +32,14 @@
 //! keeps from run to run must change nothing. If word 9 of patch 2 differs, the message has the
 //! entry, the level, the round, `v of point 4`, both words, and the patch as a case that `tess`
 //! reads.
+//!
 //! # Adding one
 //!
 //! 1. Give the kernel a variant of `Kernel` and an arm in `src/kernels/kernel_taps`, which is
 //!    compiled for each level.
-//! 2. Write in `references` what the model gives, in the order in which `KernelTap::words` lists
 //! 2. Write the model's answer in `references`, in the order in which `KernelTap::words` lists the
-//! output.
+//!    output.
+//! 3. Add a line to [`TABLE`]. A kernel without one fails the test.
 //! 4. Plant a fault in the kernel and see the test name it.
 
 pub(crate) mod inputs;

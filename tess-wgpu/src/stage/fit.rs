@@ -64,8 +64,8 @@
 //!   then still agree, so no crack opens.
 //! - A factor stays on its side of 0, and one above 1 stays at least 1. A culled patch stays culled
 //!   and a drawn one stays drawn.
-//! - Factors above 64 count as 64 before they are scaled, because the tessellator clamps them to
-//!   64. Otherwise infinity would never become smaller.
+//! - Factors above 64 count as 64 before they are scaled, because the tessellator clamps them.
+//!   Otherwise infinity would never become smaller.
 //! - A workgroup's sum stays below 2^32 (64 patches of at most 8192 primitives), so only the totals
 //!   need two words.
 //! - Every frame copies the room into `terms` again. A single copy would be lost with an encoder
