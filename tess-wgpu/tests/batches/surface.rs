@@ -27,8 +27,8 @@ fn evaluate(@builtin(global_invocation_id) id: vec3u) {
 /// The largest difference between two evaluations of one point, in units in the last place (ulps)
 /// of the control net's extent E: its largest coordinate, well below the next power of two.
 ///
-/// A point is six levels of interpolation deep, three along u and three along v. Each level,
-/// `a + (b - a) t` with 0 <= t <= 1, passes on at most the larger error of a and b, and adds those of
+/// A point is six levels of interpolation deep, three along u and three along v. Each level, `a +
+/// (b - a) t` with 0 <= t <= 1, passes on at most the larger error of a and b, and adds those of
 /// its own operations: b - a and its product with t are at most 2 E, so rounding to nearest adds at
 /// most 1 ulp each; the sum is at most E and adds half an ulp; fusing omits one of these errors.
 /// That makes 6 * 2.5 = 15 ulps on the CPU. WGSL leaves the direction of rounding open, which
