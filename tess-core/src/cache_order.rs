@@ -23,7 +23,7 @@
 //! The numbers are the steps of each stitch. A column cuts a run of steps out of each stitch, so
 //! the whole order is a list of ranges of the specification's triangle numbers
 //! ([`CacheOrder::runs`]), and the place of a triangle is a sum of borders in closed form
-//! (`CacheOrder::position`).
+//! (`CacheOrder::cache_position`).
 //!
 //! # One patch
 //!
@@ -46,7 +46,7 @@
 //!
 //! - Every triangle up to the innermost ring is in exactly one run: borders grow with the column,
 //!   begin at 0 and end at the stitch's size. Otherwise triangles would be lost or drawn twice.
-//! - `position` is the inverse of the list of runs. Backends use one or the other.
+//! - `cache_position` is the inverse of the list of runs. Backends use one or the other.
 //! - Triangles inside the innermost ring come last and keep their numbers. `runs` leaves them out.
 //! - Points keep their numbers, so both orders have the same points.
 //!
@@ -106,14 +106,14 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
 
     /// The place of a triangle in this order. `origin` and `t` are its origin and its number in the
     /// specification's order.
-    fn position(&self, origin: PrimitiveOrigin, t: u32) -> u32 {
+    fn cache_position(&self, origin: PrimitiveOrigin, t: u32) -> u32 {
         let (ring, edge, step) = match origin {
             PrimitiveOrigin::Transition { edge, step } => (1, edge as usize, step),
             PrimitiveOrigin::Ring { ring, edge, step } => (ring, edge as usize, step),
             _ => return t,
         };
         let before: u32 = self.sectors[..edge].iter().map(Sector::size).sum();
-        before + self.sectors[edge].position(ring, step)
+        before + self.sectors[edge].triangles_before(ring, step)
     }
 
     /// Sends the triangles of all stitches to `emit`, in this order, as ranges of their numbers in
@@ -196,7 +196,7 @@ impl Sector {
     }
 
     /// How many triangles of the sector come before this one.
-    fn position(&self, ring: u32, step: u32) -> u32 {
+    fn triangles_before(&self, ring: u32, step: u32) -> u32 {
         let column = self.column(ring, step);
         let columns_before = self.border(1, column) + self.borders(self.end, column);
         let begin = self.border(ring, column);
@@ -210,16 +210,16 @@ impl Sector {
 }
 
 /// The place of triangle `t` in the vertex-cache order: `t` itself, unless the patch has rings.
-pub(crate) fn position(patch: &ProcessedPatch, origin: PrimitiveOrigin, t: u32) -> u32 {
+pub(crate) fn cache_position(patch: &ProcessedPatch, origin: PrimitiveOrigin, t: u32) -> u32 {
     match patch {
         ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => {
             let outer = factors.outer().map(|factor| factor.context.points);
-            CacheOrder::new(outer, [factors.inside.context.points; 2]).position(origin, t)
+            CacheOrder::new(outer, [factors.inside.context.points; 2]).cache_position(origin, t)
         }
         ProcessedPatch::Regular(PatchFactors::Quad(factors)) => {
             let outer = factors.outer().map(|factor| factor.context.points);
             let inside = factors.inside().map(|factor| factor.context.points);
-            CacheOrder::new(outer, inside).position(origin, t)
+            CacheOrder::new(outer, inside).cache_position(origin, t)
         }
         _ => t,
     }

@@ -151,7 +151,7 @@ impl Patch {
     /// has no such primitive. Constant time.
     #[must_use]
     pub fn cache_position(&self, t: u32) -> Option<u32> {
-        Some(cache_order::position(&self.processed, self.locate_primitive(t)?, t))
+        Some(cache_order::cache_position(&self.processed, self.locate_primitive(t)?, t))
     }
 
     /// All points in order, each by random access.

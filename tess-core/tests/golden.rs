@@ -120,9 +120,9 @@ fn contexts_and_locations() {
         let highest = (64 - parity.odd()) << 16;
         let contexts = (first..=(first | 0xFFFF).min(highest))
             .map(|bits| FactorContext::new(FixedFactor::from_bits(bits), parity, split));
-        let numbers = contexts
-            .clone()
-            .flat_map(|c| [c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split, c.points]);
+        let numbers = contexts.clone().flat_map(|c| {
+            [c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split_position, c.points]
+        });
         assert_eq!(digest(numbers), fields[3], "contexts of {row}");
         let locations = contexts.flat_map(|c| (0..c.points).map(move |p| place(&c, p).to_bits()));
         assert_eq!(digest(locations), fields[4], "locations of {row}");

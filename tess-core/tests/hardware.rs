@@ -68,9 +68,17 @@ fn every_context(mut see: impl FnMut(FixedFactor, &FactorContext)) {
 fn contexts_have_the_widths_that_the_specification_says() {
     let mut ranges = [Range::NONE; 7];
     every_context(|factor, context| {
-        let FactorContext { inv_floor, inv_ceil, fraction, half_points, split, points, .. } =
-            *context;
-        let values = [factor.to_bits(), fraction, half_points, split, inv_floor, inv_ceil, points];
+        let FactorContext {
+            inv_floor,
+            inv_ceil,
+            fraction,
+            half_points,
+            split_position,
+            points,
+            ..
+        } = *context;
+        let values =
+            [factor.to_bits(), fraction, half_points, split_position, inv_floor, inv_ceil, points];
         for (range, value) in ranges.iter_mut().zip(values) {
             range.see(value);
         }

@@ -187,7 +187,7 @@ impl PackedPoint {
 pub const fn pack_context(context: &FactorContext) -> [u32; 2] {
     let low = context.inv_floor
         | context.half_points << 17
-        | context.split << 23
+        | context.split_position << 23
         | context.parity.odd() << 29
         | context.inv_ceil >> 16 << 30;
     [low, context.inv_ceil & 0xFFFF | context.fraction << 16]
@@ -204,7 +204,7 @@ pub const fn unpack_context([low, high]: [u32; 2]) -> FactorContext {
         inv_ceil: high & 0xFFFF | (low >> 30 & 1) << 16,
         fraction: high >> 16,
         half_points,
-        split: low >> 23 & 63,
+        split_position: low >> 23 & 63,
         points: 2 * half_points + 1 - odd,
     }
 }

@@ -245,7 +245,7 @@ fn packed_words_are_read_alike() {
             ("inv_ceil_of", rest),
             ("fraction_of", context.fraction),
             ("half_points_of", context.half_points),
-            ("split_of", context.split),
+            ("split_of", context.split_position),
             ("odd_of", context.parity.odd()),
         ] {
             assert_eq!(shaders(name), expected, "{name} of {words:x?}");

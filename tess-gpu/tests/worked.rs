@@ -75,7 +75,7 @@ fn contexts() {
             let [low, high] = pack_context(&c);
             format!(
                 "{raw} half_points {} split {} inv_floor {:5} inv_ceil {:5} fraction {:5}: {low:#010x} {high:#010x}",
-                c.half_points, c.split, c.inv_floor, c.inv_ceil, c.fraction
+                c.half_points, c.split_position, c.inv_floor, c.inv_ceil, c.fraction
             )
         })
         .collect();

@@ -68,11 +68,10 @@ impl Case {
         Patch::new(self.config, self.factors)
     }
 
-    /// The same case with another factor at `position`.
-    pub(crate) fn with_factor(&self, position: usize, factor: f32) -> Self {
+    /// The same case with another factor `number`, from 0.
+    pub(crate) fn with_factor(&self, number: usize, factor: f32) -> Self {
         let mut at = 0..;
-        let factors =
-            self.factors.map(|own| if at.next() == Some(position) { factor } else { own });
+        let factors = self.factors.map(|own| if at.next() == Some(number) { factor } else { own });
         Self { factors, ..*self }
     }
 

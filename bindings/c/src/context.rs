@@ -1,4 +1,4 @@
-//! Contexts that callers pass in, and the steps that place a point with a context.
+//! Contexts that callers pass in, and the signals that place a point with a context.
 
 use crate::status::{TESS_NOT_A_CONTEXT, TESS_OUT_OF_RANGE, TessStatus};
 use crate::types::{TessContext, parity};
@@ -37,14 +37,14 @@ pub(crate) fn checked(given: TessContext) -> Result<FactorContext, TessStatus> {
 /// - the place in the finer subdivision; 0 in the exact middle,
 /// - the location on the half edge, rounded; one half in the exact middle,
 /// - the location, 0..0x10000.
-pub(crate) fn place_steps(context: &FactorContext, p: u32) -> Result<[u32; 6], TessStatus> {
+pub(crate) fn place_signals(context: &FactorContext, p: u32) -> Result<[u32; 6], TessStatus> {
     if p >= context.points {
         return Err(TESS_OUT_OF_RANGE);
     }
-    let steps = place::placement(context, p);
-    let (coarse, fine) = steps.blend.map_or((0, 0), |blend| (blend.coarse, blend.fine));
-    let (flip, location) = (u32::from(steps.flip), steps.location.to_bits());
-    Ok([flip, steps.position, coarse, fine, steps.half_location, location])
+    let placement = place::placement(context, p);
+    let (coarse, fine) = placement.blend.map_or((0, 0), |blend| (blend.coarse, blend.fine));
+    let (flip, location) = (u32::from(placement.flip), placement.location.to_bits());
+    Ok([flip, placement.position, coarse, fine, placement.half_location, location])
 }
 
 #[cfg(test)]
@@ -90,24 +90,24 @@ mod tests {
         assert!(altered_seen > 10_000, "only {altered_seen} contexts");
     }
 
-    /// The formula of section 5, applied to the steps, gives the model's location.
+    /// The formula of section 5, applied to the signals, gives the model's location.
     #[test]
     fn steps_lead_to_the_location() {
         for context in contexts() {
             for p in 0..context.points {
-                let steps = place_steps(&context, p).expect("a point of this edge");
-                let [flip, position, coarse, fine, half_location, location] = steps;
+                let signals = place_signals(&context, p).expect("a point of this edge");
+                let [flip, position, coarse, fine, half_location, location] = signals;
                 let blend = if position == context.half_points {
                     HALF
                 } else {
                     let weighted = coarse * (ONE - context.fraction) + fine * context.fraction;
                     (weighted + HALF) >> 16
                 };
-                assert_eq!(half_location, blend, "{context:?}, p = {p}: {steps:?}");
+                assert_eq!(half_location, blend, "{context:?}, p = {p}: {signals:?}");
                 let placed = if flip == 1 { ONE - blend } else { blend };
-                assert_eq!(location, placed, "{context:?}, p = {p}: {steps:?}");
+                assert_eq!(location, placed, "{context:?}, p = {p}: {signals:?}");
             }
-            let beyond = place_steps(&context, context.points);
+            let beyond = place_signals(&context, context.points);
             assert_eq!(beyond, Err(TESS_OUT_OF_RANGE), "{context:?}");
         }
     }

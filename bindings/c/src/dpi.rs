@@ -11,7 +11,7 @@
 pub mod held;
 
 use crate::boundary;
-use crate::context::place_steps;
+use crate::context::place_signals;
 use crate::probe::TessPrimitive;
 use crate::process::TessProcessedPatch;
 use crate::status::{TESS_OUT_OF_RANGE, TessStatus, answer};
@@ -63,7 +63,7 @@ pub unsafe extern "C" fn tess_dpi_place(
     location: *mut u32,
 ) -> TessStatus {
     answer(|| {
-        let values = place_steps(&context(factor, parity_number, split_order)?, p)?;
+        let values = place_signals(&context(factor, parity_number, split_order)?, p)?;
         let pointers = [flip, position, coarse, fine, half_location, location];
         // SAFETY: every pointer is writable, as the caller promises.
         unsafe { write_each(pointers, values) }

@@ -122,10 +122,17 @@ impl From<DomainPoint> for TessPoint {
 
 impl From<FactorContext> for TessContext {
     fn from(context: FactorContext) -> Self {
-        let FactorContext { parity, inv_floor, inv_ceil, fraction, half_points, split, points } =
-            context;
+        let FactorContext {
+            parity,
+            inv_floor,
+            inv_ceil,
+            fraction,
+            half_points,
+            split_position,
+            points,
+        } = context;
         let parity = parity.odd();
-        Self { parity, inv_floor, inv_ceil, fraction, half_points, split, points }
+        Self { parity, inv_floor, inv_ceil, fraction, half_points, split: split_position, points }
     }
 }
 

@@ -18,8 +18,8 @@ pub struct FactorContext {
     /// Points on a half edge, without the midpoint of an even edge, in 1..=32.
     pub half_points: u32,
     /// The position on the half edge that is splitting: later positions are one lower in the
-    /// coarser subdivision. `half_points + 1` if no position splits.
-    pub split: u32,
+    /// coarser subdivision. `half_points + 1` if no position splits. The specification's `split`.
+    pub split_position: u32,
     /// Points on the whole edge, both ends included, in 2..=65.
     pub points: u32,
 }
@@ -43,14 +43,14 @@ impl FactorContext {
             inv_ceil: segment_length(2 * ceil_points - odd),
             fraction: half - floor(half),
             half_points: ceil_points,
-            split: split_position(floor_points, ceil_points, parity, split_order),
+            split_position: split_position(floor_points, ceil_points, parity, split_order),
             points: point_count(rounded_half, parity),
         }
     }
 
     /// Positions of the half edge that a transition visits: [`Self::half_points`], less one if odd.
     #[must_use]
-    pub const fn half_steps(&self) -> u32 {
+    pub const fn visited_positions(&self) -> u32 {
         self.half_points - self.parity.odd()
     }
 }

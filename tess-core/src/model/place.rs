@@ -37,7 +37,7 @@ impl Blend {
     ///
     /// No overflow: `p < 32` and reciprocals are at most `ONE`, so both products stay below 2^21.
     const fn new(context: &FactorContext, p: u32) -> Self {
-        let coarse_position = if p > context.split { p - 1 } else { p };
+        let coarse_position = if p > context.split_position { p - 1 } else { p };
         Self {
             coarse: coarse_position * context.inv_floor,
             fine: p * context.inv_ceil,

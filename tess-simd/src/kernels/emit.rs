@@ -151,7 +151,7 @@ pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
             let base = numbering.base(range.first_point);
             if patch.is_compact() {
                 let Caches { tables, templates } = &mut *caches;
-                let template = templates.find(patch, (settings, tables), M::kept);
+                let template = templates.find(patch, (settings, tables), M::stored);
                 let template = templates.get(template);
                 points_of(patch, template, &mut out.points, compact_points);
                 indices_of::<_, W, M>(patch, template, base, &mut out.indices);
@@ -199,7 +199,7 @@ pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
         return false;
     }
     templates.make_room();
-    let template = templates.find(patch, (settings, tables), M::kept);
+    let template = templates.find(patch, (settings, tables), M::stored);
     let template = templates.get(template);
     points_of(patch, template, points, compact_points);
     indices_of::<_, W, M>(patch, template, 0, &mut Writer::new(indices));
@@ -221,7 +221,7 @@ fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     let mut starts = [Start::default(); LANES];
     let lanes = ranges.iter().enumerate().filter(|(_, range)| range.points != 0);
     for (lane, _) in lanes.clone() {
-        starts[lane] = templates.find(packet.patch(lane), (settings, tables), M::kept);
+        starts[lane] = templates.find(packet.patch(lane), (settings, tables), M::stored);
     }
     // Separate loops, so that neither keeps the other's constants in registers.
     if packet.patch(0).integer() {

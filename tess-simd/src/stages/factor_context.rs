@@ -13,7 +13,7 @@ pub(crate) struct PlainContext {
     pub(crate) inv_ceil: u32,
     pub(crate) fraction: u32,
     pub(crate) half_points: u32,
-    pub(crate) split: u32,
+    pub(crate) split_position: u32,
     pub(crate) points: u32,
 }
 
@@ -43,7 +43,7 @@ impl PlainContext {
         let half = half(fixed, odd);
         let floor = half >> 16;
         let ceil = (half + 0xFFFF) >> 16;
-        let split = match order {
+        let split_position = match order {
             // An odd factor below 3 has no points to rank; then the position is 0, not 1.
             SplitOrder::Ruler => {
                 let points = floor - odd;
@@ -57,7 +57,7 @@ impl PlainContext {
             inv_ceil: reciprocal(2 * ceil - odd),
             fraction: half & 0xFFFF,
             half_points: ceil,
-            split: if floor == ceil { ceil + 1 } else { split },
+            split_position: if floor == ceil { ceil + 1 } else { split_position },
             points: 2 * ceil + 1 - odd,
         }
     }
@@ -83,18 +83,40 @@ const fn drop_most_significant_bit(x: u32) -> u32 {
 
 impl From<&FactorContext> for PlainContext {
     fn from(context: &FactorContext) -> Self {
-        let FactorContext { parity, inv_floor, inv_ceil, fraction, half_points, split, points } =
-            *context;
-        Self { odd: parity.odd(), inv_floor, inv_ceil, fraction, half_points, split, points }
+        let FactorContext {
+            parity,
+            inv_floor,
+            inv_ceil,
+            fraction,
+            half_points,
+            split_position,
+            points,
+        } = *context;
+        Self {
+            odd: parity.odd(),
+            inv_floor,
+            inv_ceil,
+            fraction,
+            half_points,
+            split_position,
+            points,
+        }
     }
 }
 
 impl From<&PlainContext> for FactorContext {
     fn from(context: &PlainContext) -> Self {
-        let PlainContext { odd, inv_floor, inv_ceil, fraction, half_points, split, points } =
-            *context;
+        let PlainContext {
+            odd,
+            inv_floor,
+            inv_ceil,
+            fraction,
+            half_points,
+            split_position,
+            points,
+        } = *context;
         let parity = if odd == 1 { Parity::Odd } else { Parity::Even };
-        Self { parity, inv_floor, inv_ceil, fraction, half_points, split, points }
+        Self { parity, inv_floor, inv_ceil, fraction, half_points, split_position, points }
     }
 }
 

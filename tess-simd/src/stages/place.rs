@@ -22,7 +22,7 @@ pub(crate) struct Spacing {
     /// Points of the edge.
     pub(crate) points: u32,
     /// The last position before the split.
-    pub(crate) split: u32,
+    pub(crate) split_position: u32,
     pub(crate) step: u32,
     pub(crate) lag: u32,
 }
@@ -31,17 +31,17 @@ impl Spacing {
     /// The spacing of a context's points.
     #[inline(always)]
     pub(crate) const fn new(context: &PlainContext) -> Self {
-        let PlainContext { inv_floor, inv_ceil, fraction, split, points, .. } = *context;
+        let PlainContext { inv_floor, inv_ceil, fraction, split_position, points, .. } = *context;
         let lag = inv_floor.wrapping_mul(ONE - fraction);
         let step = lag.wrapping_add(inv_ceil.wrapping_mul(fraction));
-        Self { points, split, step, lag }
+        Self { points, split_position, step, lag }
     }
 }
 
 /// The spacings of a packet of fractional factors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spacings {
-    split: Column,
+    split_position: Column,
     step: Column,
     lag: Column,
 }
@@ -49,7 +49,7 @@ pub(crate) struct Spacings {
 impl Spacings {
     pub(crate) const NONE: Self = {
         const NONE: Column = [[0; LANES]; MAX_FACTORS];
-        Self { split: NONE, step: NONE, lag: NONE }
+        Self { split_position: NONE, step: NONE, lag: NONE }
     };
 
     /// Keeps the spacings of all lanes or of one; returns the point counts.
@@ -61,13 +61,13 @@ impl Spacings {
         order: SplitOrder,
     ) -> [[u32; L]; F] {
         let spacing = |i| Spacing::new(&PlainContext::new(at(fixed, i), at(odd, i), order));
-        let [mut points, mut split, mut step, mut lag] = [[[0; L]; F]; 4];
+        let [mut points, mut split_position, mut step, mut lag] = [[[0; L]; F]; 4];
         if L == LANES {
             // Written in place: copies would take a tenth of the front end's time.
             for i in 0..L * F {
                 let spacing = spacing(i);
                 *at_mut(&mut points, i) = spacing.points;
-                self.split.as_flattened_mut()[i] = spacing.split;
+                self.split_position.as_flattened_mut()[i] = spacing.split_position;
                 self.step.as_flattened_mut()[i] = spacing.step;
                 self.lag.as_flattened_mut()[i] = spacing.lag;
             }
@@ -75,10 +75,10 @@ impl Spacings {
         }
         for i in 0..F {
             let spacing = spacing(i);
-            (points[i][0], split[i][0]) = (spacing.points, spacing.split);
+            (points[i][0], split_position[i][0]) = (spacing.points, spacing.split_position);
             (step[i][0], lag[i][0]) = (spacing.step, spacing.lag);
         }
-        set_rows(&mut self.split, lane, &split);
+        set_rows(&mut self.split_position, lane, &split_position);
         set_rows(&mut self.step, lane, &step);
         set_rows(&mut self.lag, lane, &lag);
         points
@@ -87,9 +87,10 @@ impl Spacings {
     /// The spacing of a factor with this many points.
     #[inline(always)]
     pub(crate) const fn get(&self, factor: usize, lane: usize, points: u32) -> Spacing {
-        let Self { split, step, lag } = self;
-        let (split, step, lag) = (split[factor][lane], step[factor][lane], lag[factor][lane]);
-        Spacing { points, split, step, lag }
+        let Self { split_position, step, lag } = self;
+        let (split_position, step, lag) =
+            (split_position[factor][lane], step[factor][lane], lag[factor][lane]);
+        Spacing { points, split_position, step, lag }
     }
 }
 
@@ -150,8 +151,8 @@ pub(crate) fn place(spacing: &Spacing, p: u32) -> u32 {
 /// of branches.
 #[inline(always)]
 pub(crate) const fn place_in_half(spacing: &Spacing, position: u32) -> u32 {
-    let Spacing { points, split, step, lag } = *spacing;
-    let is_behind = position.cast_signed() > split.cast_signed();
+    let Spacing { points, split_position, step, lag } = *spacing;
+    let is_behind = position.cast_signed() > split_position.cast_signed();
     let sum = position.wrapping_mul(step).wrapping_sub(if is_behind { lag } else { 0 });
     let x = sum.wrapping_add(HALF) >> 16;
     let is_middle = position.wrapping_mul(2).wrapping_add(1) == points;

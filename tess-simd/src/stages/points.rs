@@ -57,8 +57,8 @@ pub(crate) trait CompactPoints<W> {
     const LONG_BLOCKS: bool;
 
     /// The form in which a template stores a coordinate's code.
-    fn kept(domain: Domain, code: u16) -> u16;
+    fn stored(domain: Domain, code: u16) -> u16;
 
     /// Writes the points of a patch from the codes in its template.
-    fn emit(&mut self, patch: PacketPatch<'_>, kept: &[Code], out: &mut W);
+    fn emit(&mut self, patch: PacketPatch<'_>, stored: &[Code], out: &mut W);
 }

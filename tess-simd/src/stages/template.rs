@@ -58,7 +58,7 @@
 //! - The number of a set is the upper bits of one number. When the number of sets grows, a new set
 //!   therefore gets topologies of only one old set, and all of them find a slot.
 //! - Anything that changes templates without changing the topology (the order of triangles,
-//!   [`Kept`]) is constant for a tessellator, or `Workspaces::forget` is called when it changes.
+//!   [`Stored`]) is constant for a tessellator, or `Workspaces::forget` is called when it changes.
 //! - An index of a compact patch is below 256, because the patch has at most 16 by 16 points.
 //!
 //! # The simpler form
@@ -121,8 +121,8 @@ struct MadePatch {
 /// its code.
 pub(crate) type CompactPoint = [u16; 2];
 
-/// Turns a code into the form that a template stores: see [`points::CompactPoints::kept`].
-pub(crate) type Kept = fn(Domain, u16) -> u16;
+/// Turns a code into the form that a template stores: see [`points::CompactPoints::stored`].
+pub(crate) type Stored = fn(Domain, u16) -> u16;
 
 /// The settings and tables that templates are made with.
 type Making<'a> = (&'a Settings, &'a mut LocationTables);
@@ -164,18 +164,23 @@ impl Templates {
     /// The start of the template of a compact patch that is not culled. Makes the template if there
     /// is none.
     #[inline(always)]
-    pub(crate) fn find(&mut self, patch: PacketPatch<'_>, with: Making<'_>, kept: Kept) -> Start {
+    pub(crate) fn find(
+        &mut self,
+        patch: PacketPatch<'_>,
+        with: Making<'_>,
+        stored: Stored,
+    ) -> Start {
         match self.small.get(patch.small_topology()) {
             Some(&start) if start != Start::NONE => start,
-            _ => self.find_in_sets(patch, with, kept),
+            _ => self.find_in_sets(patch, with, stored),
         }
     }
 
     #[inline(always)]
-    fn find_in_sets(&mut self, patch: PacketPatch<'_>, with: Making<'_>, kept: Kept) -> Start {
+    fn find_in_sets(&mut self, patch: PacketPatch<'_>, with: Making<'_>, stored: Stored) -> Start {
         let start = match self.compact.find(patch.topology()) {
             Some(start) => start,
-            None => self.make_compact(patch, with, kept),
+            None => self.make_compact(patch, with, stored),
         };
         if let Some(small) = self.small.get_mut(patch.small_topology()) {
             *small = start;
@@ -223,7 +228,7 @@ impl Templates {
 
     #[cold]
     #[inline(never)]
-    fn make_compact(&mut self, patch: PacketPatch<'_>, with: Making<'_>, kept: Kept) -> Start {
+    fn make_compact(&mut self, patch: PacketPatch<'_>, with: Making<'_>, stored: Stored) -> Start {
         let (settings, domain) = (with.0, patch.domain());
         self.made.make(patch, with);
         let to = &mut self.compact.points.free(patch.points() as usize)[..patch.points() as usize];
@@ -239,7 +244,7 @@ impl Templates {
             } else {
                 points::codes(domain, &patch.edges(), to);
             }
-            to.as_flattened_mut().iter_mut().for_each(|code| *code = kept(domain, *code));
+            to.as_flattened_mut().iter_mut().for_each(|code| *code = stored(domain, *code));
         }
         let start = self.made.keep(&mut self.compact, settings, patch, patch.points());
         if self.compact.has_many() {

@@ -49,7 +49,7 @@ fn contexts() -> String {
         let c = factor.context;
         format!(
             "{:>9} {:>8} {:>8} {:>11} {:>5} {:>6}",
-            c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split, c.points
+            c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split_position, c.points
         )
     });
     head.to_string() + &lines
@@ -130,7 +130,7 @@ fn packet_lines() -> String {
             "{:>7}  {:>6} {:>5} {:#010X} {:#010X}",
             factor * LANES,
             s.points,
-            s.split,
+            s.split_position,
             s.step,
             s.lag
         );
@@ -144,8 +144,8 @@ fn code_lines() -> String {
 }
 
 fn entries() -> String {
-    let kept = |code| <Lookup as CompactPoints<Writer<'_, [f32; 2]>>>::kept(Domain::Quad, code);
-    numbered(&all_codes(), 8, |&[u, v]| format!("{:>2},{:>2}", kept(u), kept(v)))
+    let stored = |code| <Lookup as CompactPoints<Writer<'_, [f32; 2]>>>::stored(Domain::Quad, code);
+    numbered(&all_codes(), 8, |&[u, v]| format!("{:>2},{:>2}", stored(u), stored(v)))
 }
 
 fn tessellated(patches: &[QuadFactors]) -> Output<[f32; 2], u32> {

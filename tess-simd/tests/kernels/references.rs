@@ -78,7 +78,7 @@ pub(crate) fn contexts(case: &Case, words: &mut Words) {
     words.each(&["inv_ceil"], all.iter().map(|context| context.inv_ceil));
     words.each(&["fraction"], all.iter().map(|context| context.fraction));
     words.each(&["half_points"], all.iter().map(|context| context.half_points));
-    words.each(&["split"], all.iter().map(|context| context.split));
+    words.each(&["split"], all.iter().map(|context| context.split_position));
     words.each(&["points"], all.iter().map(|context| context.points));
 }
 
@@ -146,10 +146,10 @@ pub(crate) fn packets(case: &Case, words: &mut Words) {
 /// The point count, and the coefficients of the sum that [`place`] rounds, as a function of the
 /// position.
 fn spacing(context: &FactorContext) -> [u32; 4] {
-    let FactorContext { inv_floor, inv_ceil, fraction, split, points, .. } = *context;
+    let FactorContext { inv_floor, inv_ceil, fraction, split_position, points, .. } = *context;
     // Both modulo 2^32: positions are small enough for the rest.
     let lag = inv_floor.wrapping_mul(ONE - fraction);
-    [points, split, lag.wrapping_add(inv_ceil.wrapping_mul(fraction)), lag]
+    [points, split_position, lag.wrapping_add(inv_ceil.wrapping_mul(fraction)), lag]
 }
 
 pub(crate) fn totals(case: &Case, words: &mut Words) {

@@ -111,7 +111,7 @@ fn context_fields(context: &FactorContext) -> [(&'static str, u32); 7] {
         ("inv_ceil", context.inv_ceil),
         ("fraction", context.fraction),
         ("half_points", context.half_points),
-        ("split", context.split),
+        ("split", context.split_position),
         ("points", context.points),
     ]
 }

@@ -126,7 +126,7 @@ fn location(context: &FactorContext, p: u32) -> u32 {
     if p == mirrored {
         return HALF;
     }
-    let coarse_position = position - u32::from(position > context.split);
+    let coarse_position = position - u32::from(position > context.split_position);
     let coarse = f64::from(coarse_position) * f64::from(context.inv_floor);
     let fine = f64::from(position) * f64::from(context.inv_ceil);
     let mean = coarse + (fine - coarse) * (f64::from(context.fraction) / 65536.0);

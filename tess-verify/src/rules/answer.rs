@@ -96,11 +96,11 @@ impl Answer {
         })
     }
 
-    /// Positions of the vertices on outer edge `edge`, ascending; see [`position`].
+    /// [`distance_along`] of each vertex on outer edge `edge`, ascending.
     pub(super) fn along(&self, edge: usize) -> Vec<u32> {
         let domain = self.case.domain();
         let mut along: Vec<u32> =
-            self.places.iter().filter_map(|&place| position(domain, edge, place)).collect();
+            self.places.iter().filter_map(|&place| distance_along(domain, edge, place)).collect();
         along.sort_unstable();
         along
     }
@@ -113,13 +113,13 @@ impl Answer {
     /// Whether a place is on some outer edge.
     pub(super) fn is_on_outline(&self, place: Place) -> bool {
         let domain = self.case.domain();
-        (0..domain.outer_factors()).any(|edge| position(domain, edge, place).is_some())
+        (0..domain.outer_factors()).any(|edge| distance_along(domain, edge, place).is_some())
     }
 }
 
 /// The distance of a place along an outer edge, from the edge's start in a clockwise walk; `None`
 /// if the place is not on the edge. The only outer edge of isolines is u = 0.
-pub(super) fn position(domain: Domain, edge: usize, [u, v]: Place) -> Option<u32> {
+pub(super) fn distance_along(domain: Domain, edge: usize, [u, v]: Place) -> Option<u32> {
     match (domain, edge) {
         (_, 0) => (u == 0).then(|| ONE.checked_sub(v)).flatten(),
         (Domain::Isoline, _) => None,

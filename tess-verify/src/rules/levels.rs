@@ -16,18 +16,18 @@ pub(super) struct Level {
 }
 
 impl Level {
-    /// Outer level `position`; `None` if it is NaN. The number of isolines always has equal
+    /// Outer level `number`; `None` if it is NaN. The number of isolines always has equal
     /// spacing.
-    pub(super) fn outer(case: &Case, position: usize) -> Option<Self> {
-        let raw = case.factors.outer().nth(position).filter(|level| !level.is_nan())?;
-        let is_density = case.domain() == Domain::Isoline && position == 0;
+    pub(super) fn outer(case: &Case, number: usize) -> Option<Self> {
+        let raw = case.factors.outer().nth(number).filter(|level| !level.is_nan())?;
+        let is_density = case.domain() == Domain::Isoline && number == 0;
         let spacing = if is_density { Partitioning::Integer } else { case.config.partitioning };
         Some(Self { raw, spacing, is_inner: false })
     }
 
-    /// Inner level `position`; `None` if it is NaN.
-    pub(super) fn inner(case: &Case, position: usize) -> Option<Self> {
-        let raw = case.factors.inside().nth(position).filter(|level| !level.is_nan())?;
+    /// Inner level `number`; `None` if it is NaN.
+    pub(super) fn inner(case: &Case, number: usize) -> Option<Self> {
+        let raw = case.factors.inside().nth(number).filter(|level| !level.is_nan())?;
         Some(Self { raw, spacing: case.config.partitioning, is_inner: true })
     }
 

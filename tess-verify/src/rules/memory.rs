@@ -1,7 +1,7 @@
 //! Rules that compare a patch with earlier ones.
 
 use super::Judgement;
-use super::answer::{Answer, Place, position};
+use super::answer::{Answer, Place, distance_along};
 use super::edge::{TOLERANCE, shorter};
 use super::levels::{Level, is_minimum, may_touch_outline};
 use super::lines::{Line, inner_lines, outer_lines};
@@ -191,7 +191,7 @@ impl Memory {
     fn transition(&mut self, answer: &Answer) -> Vec<Judgement> {
         let domain = answer.case.domain();
         let each = |edge| {
-            let is_on = |place: &&Place| position(domain, edge, **place).is_some();
+            let is_on = |place: &&Place| distance_along(domain, edge, **place).is_some();
             let is_at = |triangle: &[Place; 3]| triangle.iter().filter(is_on).count() >= 2;
             let digest = triangles(answer.triangles().filter(is_at));
             let (name, level) = (domain.factor_names()[edge], level(&answer.case, edge));

@@ -1,7 +1,7 @@
 //! Rules about the primitives of one patch.
 
 use super::Judged;
-use super::answer::{Answer, Place, position, show};
+use super::answer::{Answer, Place, distance_along, show};
 use super::edge::TOLERANCE;
 use super::levels::may_touch_outline;
 use super::standard::Specification;
@@ -49,8 +49,9 @@ pub(super) fn cover(answer: &Answer) -> Judged {
     let domain = answer.case.domain();
     let mut outline = vec![BTreeMap::<u32, i32>::new(); domain.outer_factors()];
     for (&[from, to], &count) in &net {
-        let on =
-            |edge: &usize| Some((position(domain, *edge, from)?, position(domain, *edge, to)?));
+        let on = |edge: &usize| {
+            Some((distance_along(domain, *edge, from)?, distance_along(domain, *edge, to)?))
+        };
         let Some((edge, (start, end))) =
             (0..domain.outer_factors()).find_map(|edge| Some((edge, on(&edge)?)))
         else {

@@ -7,7 +7,7 @@
 //! be a triangle.
 
 use super::Judged;
-use super::answer::{Answer, Place, position, show};
+use super::answer::{Answer, Place, distance_along, show};
 use super::edge::segments;
 use super::inside::inner_levels;
 use super::levels::{Level, is_minimum, may_touch_outline};
@@ -75,7 +75,8 @@ fn outline(answer: &Answer) -> Spots {
     for edge in 0..domain.outer_factors() {
         let along = answer.along(edge);
         for &place in &answer.places {
-            let found = position(domain, edge, place).and_then(|x| along.binary_search(&x).ok());
+            let found =
+                distance_along(domain, edge, place).and_then(|x| along.binary_search(&x).ok());
             let spot = found.map(|index| Spot { edge, ring: 0, index });
             spots.entry(place).or_default().extend(spot);
         }

@@ -195,7 +195,7 @@ fn of_factor(factor: &ProcessedFactor) -> Vec<(Signal, u32)> {
         (FRACTION, context.fraction),
         (HALF_POINTS, context.half_points),
         (FACTOR_POINTS, context.points),
-        (SPLIT, context.split),
+        (SPLIT, context.split_position),
         (INV_FLOOR, context.inv_floor),
         (INV_CEIL, context.inv_ceil),
     ]

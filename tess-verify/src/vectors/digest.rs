@@ -44,7 +44,7 @@ impl Fnv1a {
             context.inv_ceil,
             context.fraction,
             context.half_points,
-            context.split,
+            context.split_position,
             context.points,
         ]);
     }

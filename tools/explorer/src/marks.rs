@@ -30,10 +30,10 @@ pub(crate) fn points(patch: &Patch) -> Vec<u8> {
 
 fn mark(patch: &Patch, i: u32) -> Option<u8> {
     let (context, p) = edge(patch, i)?;
-    let steps = place::placement(&context, p);
-    Some(match steps.blend {
+    let placement = place::placement(&context, p);
+    Some(match placement.blend {
         None => 1,
-        Some(_) if steps.position == context.split => 2,
+        Some(_) if placement.position == context.split_position => 2,
         Some(_) => 0,
     })
 }

@@ -156,7 +156,7 @@ pub(super) fn context(context: FactorContext) -> TessContext {
         inv_ceil: context.inv_ceil,
         fraction: context.fraction,
         half_points: context.half_points,
-        split: context.split,
+        split: context.split_position,
         points: context.points,
     }
 }

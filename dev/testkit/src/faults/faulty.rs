@@ -170,7 +170,7 @@ fn damaged_context(mut context: FactorContext, field: ContextField) -> FactorCon
         ContextField::InvCeil => &mut context.inv_ceil,
         ContextField::Fraction => &mut context.fraction,
         ContextField::HalfPoints => &mut context.half_points,
-        ContextField::Split => &mut context.split,
+        ContextField::Split => &mut context.split_position,
         ContextField::Points => &mut context.points,
     };
     *number ^= 1;

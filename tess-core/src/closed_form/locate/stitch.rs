@@ -38,8 +38,8 @@ use crate::model::stitch::Triangle;
 struct HalfEdge(u32);
 
 impl HalfEdge {
-    fn new(split: SplitOrder, half_steps: u32) -> Self {
-        let bits = (1..=32).filter(|&k| has_point(split, k, half_steps)).map(|k| 1 << (k - 1));
+    fn new(split: SplitOrder, half: u32) -> Self {
+        let bits = (1..=32).filter(|&k| has_point(split, k, half)).map(|k| 1 << (k - 1));
         Self(bits.sum())
     }
 
@@ -80,9 +80,9 @@ pub(crate) fn transition_triangle(
     split: SplitOrder,
     t: u32,
 ) -> Triangle {
-    let outer = HalfEdge::new(split, outer_edge.half_steps());
-    let inner = HalfEdge::new(split, inside.half_steps());
-    let first = outer_edge.half_steps().min(1); // 1 if there is an outer step from the corner
+    let outer = HalfEdge::new(split, outer_edge.visited_positions());
+    let inner = HalfEdge::new(split, inside.visited_positions());
+    let first = outer_edge.visited_positions().min(1); // 1 if there is an outer step from the corner
     let outer_half = first + outer.points_up_to(32);
     let inner_half = inner.points_up_to(32);
     let half = outer_half + inner_half;

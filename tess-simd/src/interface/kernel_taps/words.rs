@@ -92,8 +92,8 @@ fn patch_words(patch: PacketPatch<'_>) -> Vec<u32> {
     words.extend(flags.into_iter().chain(halves));
     for factor in 0..patch.domain().factors() {
         words.push(patch.edge_points(factor));
-        let Spacing { split, step, lag, .. } = patch.spacing(factor);
-        words.extend([split, step, lag]);
+        let Spacing { split_position, step, lag, .. } = patch.spacing(factor);
+        words.extend([split_position, step, lag]);
     }
     words.iter_mut().for_each(|word| *word *= u32::from(shown));
     words

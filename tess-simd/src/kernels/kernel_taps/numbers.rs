@@ -34,9 +34,16 @@ pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) 
         Kernel::PointCount => columns(numbers, words, |fixed| [point_count(fixed, odd)]),
         Kernel::Context => columns(numbers, words, |fixed| {
             let made = PlainContext::new(fixed, odd, split);
-            let PlainContext { inv_floor, inv_ceil, fraction, half_points, split, points, .. } =
-                made;
-            [inv_floor, inv_ceil, fraction, half_points, split, points]
+            let PlainContext {
+                inv_floor,
+                inv_ceil,
+                fraction,
+                half_points,
+                split_position,
+                points,
+                ..
+            } = made;
+            [inv_floor, inv_ceil, fraction, half_points, split_position, points]
         }),
         Kernel::Place => locations(&work.contexts, words),
         Kernel::PlaceInHalf => {

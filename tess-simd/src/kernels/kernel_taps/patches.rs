@@ -132,7 +132,7 @@ fn compact_points<'a, M: CompactPoints<Writer<'a, DomainPoint>>>(
     let mut out = Writer::new(points);
     for patch in work.patches() {
         templates.make_room();
-        let start = templates.find(patch, (&work.settings, tables), M::kept);
+        let start = templates.find(patch, (&work.settings, tables), M::stored);
         make.emit(patch, templates.get(start).points, &mut out);
     }
 }

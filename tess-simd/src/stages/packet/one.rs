@@ -35,7 +35,7 @@
 //!   the separately stored factors arrive: 7 to 17 % of a call.
 //! - [`OnePatch`] is the only writer of its packet, so the packet is still right when equal factors
 //!   come again.
-//! - [`kept`] has everything that the packet and the sizes depend on: if it is equal, the rest is
+//! - [`key`] has everything that the packet and the sizes depend on: if it is equal, the rest is
 //!   skipped.
 
 use super::Packet;
@@ -51,8 +51,8 @@ pub(crate) struct OnePatch {
     /// The packet of the patch that was processed last; nothing else writes to it.
     packet: Packet,
     raw: RawPairs,
-    /// [`kept`] of the patch's processed factors, which the packet and the sizes depend on.
-    kept: [u32; ROWS],
+    /// [`key`] of the patch's processed factors, which the packet and the sizes depend on.
+    key: [u32; ROWS],
     domain: Domain,
     counts: Counts,
 }
@@ -72,7 +72,7 @@ impl OnePatch {
     pub(crate) const CULLED: Self = Self {
         packet: Packet::EMPTY,
         raw: [0; _],
-        kept: [0; ROWS],
+        key: [0; ROWS],
         domain: Domain::Quad,
         counts: Counts { points: 0, primitives: 0, indices: 0 },
     };
@@ -125,7 +125,7 @@ impl OnePatch {
     /// Whether the patch is a minimum patch and not culled.
     #[inline(always)]
     const fn is_minimum(&self) -> bool {
-        self.kept[0] != 0 && self.packet.patch(0).is_minimum()
+        self.key[0] != 0 && self.packet.patch(0).is_minimum()
     }
 
     /// Makes the packet from raw factors, unless it was made from the same processed factors.
@@ -135,10 +135,10 @@ impl OnePatch {
             return;
         }
         let processed = process(config.partitioning, domain, raw);
-        let kept = kept(&processed);
-        let differences = (0..ROWS).fold(0, |any, i| any | (kept[i] ^ self.kept[i]));
+        let key = key(&processed);
+        let differences = (0..ROWS).fold(0, |any, i| any | (key[i] ^ self.key[i]));
         if differences != 0 || other {
-            self.kept = kept;
+            self.key = key;
             self.counts = self.packet.keep_one(config, domain, 0, &processed);
         }
     }
@@ -155,7 +155,7 @@ fn are_at_most_one(raw: &[[f32; 1]]) -> bool {
 /// because processed factors are at least 1. Within one configuration and domain, the parities and
 /// whether it is a minimum patch depend only on these.
 #[inline(always)]
-fn kept(processed: &Processed<1, ROWS>) -> [u32; ROWS] {
+fn key(processed: &Processed<1, ROWS>) -> [u32; ROWS] {
     let mask = 0_u32.wrapping_sub(processed.alive[0]);
     processed.fixed.map(|[factor]| factor & mask)
 }

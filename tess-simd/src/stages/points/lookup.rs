@@ -35,7 +35,7 @@
 //!
 //! # What must hold
 //!
-//! - A template's entries were made by [`Lookup::kept`] and are read by [`Lookup::emit`];
+//! - A template's entries were made by [`Lookup::stored`] and are read by [`Lookup::emit`];
 //!   [`CompactPoints`] keeps the two together.
 //! - Entries are below 256, so that `% ENTRIES` costs nothing and no check remains in the loop.
 //! - Rows that a patch does not fill have values of earlier patches. No entry of the patch's
@@ -119,7 +119,7 @@ fn triangle_entry(number: usize, factor: usize, position: usize) -> (usize, usiz
 impl<W: PointWriter> CompactPoints<W> for Lookup {
     const LONG_BLOCKS: bool = false;
 
-    fn kept(domain: Domain, code: u16) -> u16 {
+    fn stored(domain: Domain, code: u16) -> u16 {
         entry_of(domain, code)
     }
 
@@ -220,9 +220,10 @@ mod tests {
     #[test]
     fn the_worked_patch() {
         let packet = tour::packet();
-        let kept =
-            |code| <Lookup as CompactPoints<Writer<'_, DomainPoint>>>::kept(Domain::Quad, code);
-        let entries: Vec<Code> = tour::all_codes().into_iter().map(|code| code.map(kept)).collect();
+        let stored =
+            |code| <Lookup as CompactPoints<Writer<'_, DomainPoint>>>::stored(Domain::Quad, code);
+        let entries: Vec<Code> =
+            tour::all_codes().into_iter().map(|code| code.map(stored)).collect();
         assert_eq!([entries[0], entries[1], entries[5]], [[0, 48], [0, 49], [9, 0]], "entries");
         let mut table = Lookup::new();
         let mut points = [[0.0_f32; 2]; 43];

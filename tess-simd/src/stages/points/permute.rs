@@ -87,7 +87,7 @@ impl<W, F: Fn(PacketPatch<'_>, &[Code], &mut W)> CompactPoints<W> for Permutes<F
     const LONG_BLOCKS: bool = true;
 
     /// Returns the code itself.
-    fn kept(_: Domain, code: u16) -> u16 {
+    fn stored(_: Domain, code: u16) -> u16 {
         code
     }
 
@@ -192,7 +192,7 @@ with_avx512! {
         };
         let positions = must_cast(POSITIONS);
         let sums = _mm512_mullo_epi32(positions, both(one.step, other.step));
-        let behind = _mm512_cmpgt_epu32_mask(positions, both(one.split, other.split));
+        let behind = _mm512_cmpgt_epu32_mask(positions, both(one.split_position, other.split_position));
         let sums = _mm512_mask_sub_epi32(sums, behind, sums, both(one.lag, other.lag));
         let half = _mm512_set1_epi32(HALF.cast_signed());
         let rounded = _mm512_srli_epi32::<16>(_mm512_add_epi32(sums, half));

@@ -79,19 +79,19 @@ pub(super) struct Context {
     pub(super) inv_floor: u32,
     pub(super) inv_ceil: u32,
     pub(super) points: u32,
-    pub(super) half_steps: u32,
+    pub(super) visited_positions: u32,
 }
 
 impl From<&FactorContext> for Context {
     fn from(context: &FactorContext) -> Self {
         Self {
             half_points: context.half_points,
-            split: context.split,
+            split: context.split_position,
             fraction: context.fraction,
             inv_floor: context.inv_floor,
             inv_ceil: context.inv_ceil,
             points: context.points,
-            half_steps: context.half_steps(),
+            visited_positions: context.visited_positions(),
         }
     }
 }

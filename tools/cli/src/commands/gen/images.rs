@@ -3,7 +3,7 @@
 //! Each is a text with one hex word per line, after a comment that describes the layout of the
 //! word.
 
-use super::stages::{position, raw_factors};
+use super::stages::{number_of, raw_factors};
 use std::io::{self, Write};
 use tess_core::Config;
 use tess_verify::Case;
@@ -102,8 +102,8 @@ fn number(first: u64) -> io::Result<u32> {
 /// The four digits of a case's configuration: its positions in the lists of the specification.
 fn configuration(case: &Case) -> String {
     let Config { partitioning, output, split } = case.config;
-    let [domain, partitioning] = [position(case.domain()), position(partitioning)];
-    format!("{domain:x}{partitioning:x}{:x}{:x}", position(output), position(split))
+    let [domain, partitioning] = [number_of(case.domain()), number_of(partitioning)];
+    format!("{domain:x}{partitioning:x}{:x}{:x}", number_of(output), number_of(split))
 }
 
 fn factors(case: &Case) -> String {

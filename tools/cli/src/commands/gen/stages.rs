@@ -87,9 +87,15 @@ pub(super) fn rows(block: StageBlock, cases: impl Iterator<Item = Case>) -> BTre
             }
             StageBlock::Context => rows.extend(contexts(&case).map(|(input, context)| {
                 let FactorContext {
-                    inv_floor, inv_ceil, fraction, half_points, split, points, ..
+                    inv_floor,
+                    inv_ceil,
+                    fraction,
+                    half_points,
+                    split_position,
+                    points,
+                    ..
                 } = context;
-                let numbers = [inv_floor, inv_ceil, fraction, half_points, split, points];
+                let numbers = [inv_floor, inv_ceil, fraction, half_points, split_position, points];
                 [&input[..], &numbers].concat()
             })),
             StageBlock::Place => rows.extend(contexts(&case).flat_map(|(input, context)| {
@@ -102,8 +108,8 @@ pub(super) fn rows(block: StageBlock, cases: impl Iterator<Item = Case>) -> BTre
     rows
 }
 
-/// The position of a value in the list of the specification.
-pub(super) fn position<T: Named>(value: T) -> u32 {
+/// The number of a value in the list of the specification.
+pub(super) fn number_of<T: Named>(value: T) -> u32 {
     let found = T::NAMES.iter().zip(0..).find(|((_, named), _)| *named == value);
     found.map_or(0, |(_, number)| number)
 }
@@ -120,7 +126,7 @@ fn factors(case: &Case) -> Vec<u32> {
         ProcessedPatch::Minimum(_) => 1,
         ProcessedPatch::Regular(_) => 2,
     };
-    let mut row = vec![position(case.domain()), position(case.config.partitioning)];
+    let mut row = vec![number_of(case.domain()), number_of(case.config.partitioning)];
     row.extend(raw_factors(case));
     row.push(outcome);
     let processed = patch.processed().factors().into_iter().flat_map(|all| all.iter());
@@ -141,7 +147,7 @@ fn contexts(case: &Case) -> impl Iterator<Item = ([u32; 3], FactorContext)> {
         .collect();
     let split = case.config.split;
     all.into_iter().map(move |(fixed, parity)| {
-        let input = [position(split), parity.odd(), fixed.to_bits()];
+        let input = [number_of(split), parity.odd(), fixed.to_bits()];
         (input, FactorContext::new(fixed, parity, split))
     })
 }
@@ -160,7 +166,7 @@ fn stitches(case: &Case, rows: &mut BTreeSet<Vec<u32>>) {
         stitch.steps(split, |step| steps.push(step));
         let last = steps.len().saturating_sub(1);
         for ((number, step), at) in (0..).zip(&steps).zip(0..) {
-            let input = [position(split), kind, middle_turned];
+            let input = [number_of(split), kind, middle_turned];
             let points = [stitch.outer_points, stitch.inner_points, number];
             let Step { outer, inner, advances, begins } = *step;
             let side = |side: Side| u32::from(side == Side::Outer);
