@@ -38,7 +38,7 @@ const PARTS: &[(&str, Pack)] = &[
 ///
 /// # Errors
 /// A part does not exist, a program is missing or fails, two packings differ, or an archive does
-/// not work. not serve.
+/// not work.
 pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     let (tries, names) = match words {
         ["--try", names @ ..] => (true, names),

@@ -21,7 +21,7 @@ use std::collections::HashMap;
 
 /// How the next answer, the next asked case, or both are accounted for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Step {
+pub(super) enum Pairing {
     /// The answer is to this case.
     Same,
     /// The answer is to another case and takes the place of this one.
@@ -36,7 +36,7 @@ pub(super) enum Step {
 /// asked cases.
 type Bits = Vec<u64>;
 
-/// The smallest number of steps that explain `answers` to the `asked` cases. Where there is a
+/// The smallest number of pairings that explain `answers` to the `asked` cases. Where there is a
 /// choice, an answer takes the place of the next case. With `whole`, every case that is left over
 /// is missing. Otherwise cases after the last answer cost nothing, because their answers are still
 /// to come.
@@ -47,7 +47,7 @@ pub(super) fn align(
     asked: &[Case],
     whole: bool,
     said: &mut Said,
-) -> Vec<Step> {
+) -> Vec<Pairing> {
     let words = asked.len().div_ceil(64);
     // The positions of each case that was answered. Other cases are not stored, and an answer that
     // was not asked for allocates nothing.
@@ -108,9 +108,9 @@ impl Row {
     }
 }
 
-/// The steps, starting with the first answer and case.
-fn trace(answers: &[Option<Case>], asked: &[Case], whole: bool, said: &Said) -> Vec<Step> {
-    let mut steps = Vec::with_capacity(answers.len());
+/// The pairings, starting with the first answer and case.
+fn trace(answers: &[Option<Case>], asked: &[Case], whole: bool, said: &Said) -> Vec<Pairing> {
+    let mut pairings = Vec::with_capacity(answers.len());
     let (mut i, mut j) = (0, 0);
     while i < answers.len() {
         let row = (answers.len() - 1 - i) * asked.len().div_ceil(64);
@@ -118,24 +118,24 @@ fn trace(answers: &[Option<Case>], asked: &[Case], whole: bool, said: &Said) -> 
             let bit = asked.len() - 1 - j;
             bits[row + bit / 64] >> (bit % 64) & 1 == 1
         };
-        let step = if j == asked.len() {
-            Step::Extra
+        let pairing = if j == asked.len() {
+            Pairing::Extra
         } else if answers[i] == Some(asked[j]) {
-            Step::Same
+            Pairing::Same
         } else if !is_set(&said.diagonal) {
-            Step::Replaced
+            Pairing::Replaced
         } else if is_set(&said.up) {
-            Step::Missing
+            Pairing::Missing
         } else {
-            Step::Extra
+            Pairing::Extra
         };
-        i += usize::from(step != Step::Missing);
-        j += usize::from(step != Step::Extra);
-        steps.push(step);
+        i += usize::from(pairing != Pairing::Missing);
+        j += usize::from(pairing != Pairing::Extra);
+        pairings.push(pairing);
     }
     let left = if whole { asked.len() - j } else { 0 };
-    steps.extend(std::iter::repeat_n(Step::Missing, left));
-    steps
+    pairings.extend(std::iter::repeat_n(Pairing::Missing, left));
+    pairings
 }
 
 #[cfg(test)]
@@ -164,21 +164,24 @@ mod tests {
         row[0]
     }
 
-    /// The number of edits among the steps; each step is checked.
-    fn edits(steps: &[Step], answers: &[Option<Case>], asked: &[Case], whole: bool) -> usize {
+    /// The number of edits among the pairings; each pairing is checked.
+    fn edits(pairings: &[Pairing], answers: &[Option<Case>], asked: &[Case], whole: bool) -> usize {
         let (mut i, mut j) = (0, 0);
-        for step in steps {
-            match step {
-                Step::Same => assert_eq!(answers[i], Some(asked[j]), "{steps:?}"),
-                Step::Replaced => assert_ne!(answers[i], Some(asked[j]), "{steps:?}"),
-                Step::Extra | Step::Missing => {}
+        for pairing in pairings {
+            match pairing {
+                Pairing::Same => assert_eq!(answers[i], Some(asked[j]), "{pairings:?}"),
+                Pairing::Replaced => assert_ne!(answers[i], Some(asked[j]), "{pairings:?}"),
+                Pairing::Extra | Pairing::Missing => {}
             }
-            i += usize::from(*step != Step::Missing);
-            j += usize::from(*step != Step::Extra);
+            i += usize::from(*pairing != Pairing::Missing);
+            j += usize::from(*pairing != Pairing::Extra);
         }
-        assert_eq!(i, answers.len(), "every answer: {steps:?}");
-        assert!(if whole { j == asked.len() } else { j <= asked.len() }, "every case: {steps:?}");
-        steps.iter().filter(|step| **step != Step::Same).count()
+        assert_eq!(i, answers.len(), "every answer: {pairings:?}");
+        assert!(
+            if whole { j == asked.len() } else { j <= asked.len() },
+            "every case: {pairings:?}"
+        );
+        pairings.iter().filter(|pairing| **pairing != Pairing::Same).count()
     }
 
     /// Sequences of few and of many distinct cases, shorter and longer than a word, with long equal
@@ -205,9 +208,9 @@ mod tests {
                 }
             }
             let answers: Vec<Option<Case>> = answered.into_iter().map(Some).collect();
-            let steps = align(&answers, &asked, whole, &mut said);
-            let found = edits(&steps, &answers, &asked, whole);
-            assert_eq!(found, fewest(&answers, &asked, whole), "round {round}: {steps:?}");
+            let pairings = align(&answers, &asked, whole, &mut said);
+            let found = edits(&pairings, &answers, &asked, whole);
+            assert_eq!(found, fewest(&answers, &asked, whole), "round {round}: {pairings:?}");
         }
     }
 }

@@ -10,11 +10,10 @@
 //! and twice as many cases are read, and the smallest number of edits that explains these answers
 //! is found (`alignment`). Only the first half of the edits is settled, because the best
 //! explanation of the rest depends on what follows. So fewer than [`WINDOW`] missing cases can be
-//! bridged, and the comparison resumes at a case only if what follows agrees. on from only if what
-//! follows agrees.
+//! bridged, and the comparison resumes at a case only if what follows agrees.
 
 use super::Known;
-use super::alignment::{Said, Step, align};
+use super::alignment::{Pairing, Said, align};
 use super::findings::{Findings, Found};
 use crate::case::Case;
 use crate::check::compare::{Element, Mismatch, SpecStage};
@@ -46,8 +45,8 @@ pub(super) struct Expected<'a> {
     /// The error at which the answers end early; it is reported once the answers before it are
     /// settled.
     malformed: Option<VectorError>,
-    /// The settled steps of the first answers and cases.
-    steps: VecDeque<Step>,
+    /// The settled pairings of the first answers and cases.
+    pairings: VecDeque<Pairing>,
     said: Said,
     known: &'a Known,
     missing: Findings,
@@ -63,7 +62,7 @@ impl<'a> Expected<'a> {
             ahead: VecDeque::new(),
             answers_end: false,
             malformed: None,
-            steps: VecDeque::new(),
+            pairings: VecDeque::new(),
             said: Said::default(),
             missing: Findings::default(),
         }
@@ -78,25 +77,25 @@ impl<'a> Expected<'a> {
         file: &mut VectorFile<R>,
     ) -> Result<Option<(Record, Option<Mismatch>)>, VectorError> {
         loop {
-            if self.steps.is_empty() {
+            if self.pairings.is_empty() {
                 self.read_answers(file, 1);
                 self.read_cases(1)?;
                 let Some(record) = self.ahead.front() else {
                     return self.malformed.take().map_or(Ok(None), Err);
                 };
                 if record.case().is_some() && record.case() == self.next.front().copied() {
-                    self.steps.push_back(Step::Same);
+                    self.pairings.push_back(Pairing::Same);
                 } else {
                     self.settle(file)?;
                 }
             }
-            let step = self.steps.pop_front();
-            if step == Some(Step::Missing) {
+            let pairing = self.pairings.pop_front();
+            if pairing == Some(Pairing::Missing) {
                 self.miss();
             } else if let Some(record) = self.ahead.pop_front() {
                 let expected = self.next.front().copied();
-                let is_wrong = step != Some(Step::Same);
-                if step != Some(Step::Extra) {
+                let is_wrong = pairing != Some(Pairing::Same);
+                if pairing != Some(Pairing::Extra) {
                     self.next.pop_front();
                     self.due += 1;
                 }
@@ -106,7 +105,7 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// Settles the steps of at least one answer.
+    /// Settles the pairings of at least one answer.
     fn settle<R: BufRead>(&mut self, file: &mut VectorFile<R>) -> Result<(), VectorError> {
         self.read_answers(file, WINDOW);
         self.read_cases(2 * WINDOW)?;
@@ -115,18 +114,18 @@ impl<'a> Expected<'a> {
         // More answers may follow a malformed one.
         let is_cut = self.malformed.is_some();
         let whole = self.answers_end && !is_cut || cases_end;
-        let steps = align(&answers, self.next.make_contiguous(), whole, &mut self.said);
+        let pairings = align(&answers, self.next.make_contiguous(), whole, &mut self.said);
         let settled = if is_cut || self.answers_end && cases_end {
             answers.len()
         } else {
             answers.len().div_ceil(2)
         };
         let mut taken = 0;
-        self.steps = steps
+        self.pairings = pairings
             .into_iter()
-            .take_while(|step| {
+            .take_while(|pairing| {
                 let is_settled = taken < settled;
-                taken += usize::from(*step != Step::Missing);
+                taken += usize::from(*pairing != Pairing::Missing);
                 is_settled
             })
             .collect();

@@ -182,7 +182,7 @@ impl Known {
     /// # Errors
     /// - A line is malformed.
     /// - A subject is on two lines, and at least one of them has terms.
-    /// - The file has neither a line nor a remark. without a line or remark.
+    /// - The file has neither a line nor a remark.
     pub fn read(
         name: &str,
         reader: impl BufRead,

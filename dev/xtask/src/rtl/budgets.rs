@@ -4,7 +4,7 @@
 //! `rtl/fpga/tess_registered.sv` has a register at each port: the cell to which its pad is wired.
 //! For an input, the longest path from that register to one of the circuit counts; for an output,
 //! the longest path from a register of the circuit. The rest of a clock period is left to the user:
-//! for a register, for logic and for the wire to the port. its logic and the wire to the port.
+//! for a register, for logic and for the wire to the port.
 //!
 //! ```text
 //! register of point_ready -> wire -> LUT -> wire -> register of the circuit      6.2 ns: 3.8 ns of 10 are left

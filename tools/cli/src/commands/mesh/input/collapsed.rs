@@ -2,7 +2,6 @@
 //!
 //! A triangle with two corners in the same place is an edge. If it is dropped, the faces on its two
 //! sides meet at that edge. A quad with one collapsed edge becomes a triangle. Faces whose distinct
-//! corners are on one line are dropped too, but the edges around them are then open. whose distinct
 //! corners are on one line are dropped too, but the edges around them are then open.
 
 use super::draft::Draft;
