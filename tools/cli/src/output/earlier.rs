@@ -13,141 +13,97 @@
 use super::distinct::Role;
 use super::file::{Destination, is_gone};
 use crate::failure::Failure;
+use clap_lex::OsStrExt;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// A kind of file, recognized by its beginning.
-#[derive(Clone, Copy, Debug)]
-struct TrustedForm {
+/// An output that others trust once the run has ended. A file to which a command adds, such as that
+/// of `--coverage`, is not one of them: it stays unchanged.
+struct Trusted {
     option: &'static str,
     name: &'static str,
-    /// The file begins with this,
+    /// Its file begins with this,
     begins: &'static str,
     /// and contains this in its first bytes.
     has: &'static str,
 }
 
+const TRUSTED: [Trusted; 4] = [
+    Trusted { option: "--report", name: "report", begins: "{", has: "\"tess-report " },
+    Trusted { option: "--junit", name: "JUnit file", begins: "<", has: "<testsuite" },
+    Trusted { option: "--failures", name: "vector file", begins: "# tess-vectors", has: "" },
+    Trusted { option: "--merged", name: "coverage file", begins: "<?xml", has: "<UCIS" },
+];
+
 /// The number of bytes that are examined.
 const BEGINNING: u64 = 4096;
 
-const fn form(
-    option: &'static str,
-    name: &'static str,
-    [begins, has]: [&'static str; 2],
-) -> TrustedForm {
-    TrustedForm { option, name, begins, has }
-}
-
-const UCIS: [&str; 2] = ["<?xml", "<UCIS"];
-const REPORT: TrustedForm = form("--report", "report", ["{", "\"tess-report "]);
-const JUNIT: TrustedForm = form("--junit", "JUnit file", ["<", "<testsuite"]);
-const CHECK: [TrustedForm; 3] =
-    [REPORT, JUNIT, form("--failures", "vector file", ["# tess-vectors", ""])];
-const MERGE: [TrustedForm; 1] = [JUNIT];
-const COVERAGE: [TrustedForm; 1] = [form("--merged", "coverage file", UCIS)];
-
-/// The outputs of a command that others trust once it has ended. A file to which a command adds,
-/// such as that of `--coverage` of other commands, is not one of them: it stays unchanged.
-fn trusted(command: &OsStr) -> &'static [TrustedForm] {
-    match command.to_str() {
-        Some("check") => &CHECK,
-        Some("merge") => &MERGE,
-        Some("coverage") => &COVERAGE,
-        _ => &[REPORT, JUNIT],
-    }
-}
-
-/// A trusted output that the words name.
-struct Named {
-    form: TrustedForm,
-    path: PathBuf,
-    /// The index of the word that has the path.
-    at: usize,
-}
-
-/// Removes the outputs of earlier runs that these words of a command line name; the first word is
-/// the program. Errors: the first file that is kept because it is of another kind, or that cannot
-/// be removed. The remaining ones are removed nevertheless.
+/// Removes the outputs of earlier runs that these words of a command line name; the first two words
+/// are the program and its command. Errors: the first file that is kept because it is of another
+/// kind, or that cannot be removed. The remaining ones are removed nevertheless.
 pub(crate) fn remove_earlier(words: &[OsString]) -> Result<(), Failure> {
-    let forms = words.get(1).map_or(&[][..], |command| trusted(command));
-    // After `--` there are no more options.
-    let end = words.iter().position(|word| word == "--").unwrap_or(words.len());
-    let named: Vec<Named> = (2..end).flat_map(|at| named(&words[..end], at, forms)).collect();
+    let (outputs, others) = named(words.get(2..).unwrap_or_default());
     let mut removed = Ok(());
-    for output in &named {
-        let others = (2..words.len()).filter(|at| named.iter().all(|output| output.at != *at));
-        let others = others.flat_map(|at| [Some(&*words[at]), value(&words[at])]).flatten();
-        removed = removed.and(output.remove(others));
+    for (output, path) in outputs {
+        removed = removed.and(output.remove(path, &others));
     }
     removed
 }
 
-/// The outputs that a word names, by itself or through the next word.
-fn named(words: &[OsString], at: usize, forms: &'static [TrustedForm]) -> Vec<Named> {
-    let named = |form: &TrustedForm| {
-        if words[at] == form.option {
-            let path = words.get(at + 1)?.into();
-            return Some(Named { form: *form, path, at: at + 1 });
+/// The trusted outputs with their paths, and all words and values that may be paths of others.
+fn named(words: &[OsString]) -> (Vec<(&'static Trusted, &Path)>, Vec<&OsStr>) {
+    let (mut outputs, mut others) = (Vec::new(), Vec::new());
+    let mut words = words.iter().map(OsString::as_os_str).peekable();
+    while let Some(word) = words.next() {
+        if word == "--" {
+            others.extend(words.by_ref()); // no options follow
         }
-        let is_option = words[at].as_encoded_bytes().starts_with(form.option.as_bytes());
-        let path = value(&words[at])
-            .filter(|value| is_option && words[at].len() == form.option.len() + 1 + value.len())?;
-        Some(Named { form: *form, path: path.into(), at })
-    };
-    forms.iter().filter_map(named).collect()
+        let (option, value) = word.split_once("=").map_or((word, None), |(o, v)| (o, Some(v)));
+        match TRUSTED.iter().find(|output| option == output.option) {
+            Some(output) => {
+                let next = || words.next_if(|next| !next.starts_with("--"));
+                let path = value.or_else(next);
+                outputs.extend(path.map(|path| (output, Path::new(path))));
+            }
+            None => others.extend([Some(word), value].into_iter().flatten()),
+        }
+    }
+    (outputs, others)
 }
 
-/// The text after the first `=` of a word.
-#[cfg(unix)]
-fn value(word: &OsStr) -> Option<&OsStr> {
-    use std::os::unix::ffi::OsStrExt;
-    let bytes = word.as_bytes();
-    let equals = bytes.iter().position(|byte| *byte == b'=')?;
-    Some(OsStr::from_bytes(&bytes[equals + 1..]))
-}
-
-#[cfg(not(unix))]
-fn value(word: &OsStr) -> Option<&OsStr> {
-    word.to_str()?.split_once('=').map(|(_, value)| value.as_ref())
-}
-
-impl Named {
-    fn remove<'a>(&self, mut others: impl Iterator<Item = &'a OsStr>) -> Result<(), Failure> {
-        let Self { form, path, .. } = self;
-        let own = Role::output(form.option, path);
+impl Trusted {
+    /// Removes the file of an earlier run, unless one of the other words names it too.
+    fn remove(&self, path: &Path, others: &[&OsStr]) -> Result<(), Failure> {
         // The command itself refuses a path that is not a file, with a better reason, or writes to
         // it as it is.
         let found = Destination::of(path).map_err(|error| Failure::write(path, error))?;
         let Destination::File(file) = found else { return Ok(()) };
-        let is_own = |other: &Role<'_>| own.is_same_file(other);
-        let standard = Path::new("-");
-        if !file.exists()
-            || [Role::input("", standard), Role::output("", standard)].iter().any(is_own)
-            || others.any(|other| is_own(&Role::input("", other.as_ref())))
-        {
+        let (own, standard) = (Role::output(self.option, path), Path::new("-"));
+        let others = others.iter().map(|other| Role::input("", other.as_ref()));
+        let mut others = others.chain([Role::input("", standard), Role::output("", standard)]);
+        if !file.exists() || others.any(|other| own.is_same_file(&other)) {
             return Ok(());
         }
         // Another run may remove the same file meanwhile.
-        let fits =
-            form.fits(&file).or_else(|error| if is_gone(&error) { Ok(true) } else { Err(error) });
-        if !fits.map_err(|error| Failure::file("read", path, &error))? {
-            return Err(Failure::bad_input(format!(
-                "{} {} exists and is not a {}, so it is kept; give another file, or remove it",
-                form.option,
-                path.display(),
-                form.name
-            )));
+        match self.fits(&file) {
+            Ok(false) => {
+                let Self { option, name, .. } = self;
+                return Err(Failure::bad_input(format!(
+                    "{option} {} exists and is not a {name}, so it is kept; give another file, or remove it",
+                    path.display()
+                )));
+            }
+            Err(error) if !is_gone(&error) => return Err(Failure::file("read", path, &error)),
+            _ => {}
         }
         match fs::remove_file(file) {
             Err(error) if !is_gone(&error) => Err(Failure::file("replace", path, &error)),
             _ => Ok(()),
         }
     }
-}
 
-impl TrustedForm {
     /// Whether a file has such a beginning. An empty file may become anything.
     fn fits(&self, file: &Path) -> io::Result<bool> {
         let mut bytes = Vec::new();
