@@ -134,7 +134,7 @@ impl Baseline {
                 let first =
                     Some(First { case: None, difference: fault.clone(), ..First::default() });
                 let name = "baseline".to_owned();
-                report.add_parts([ReportPart { name, cases: number, mismatches: number, first }]);
+                report.add_part(ReportPart { name, cases: number, mismatches: number, first });
             }
         });
         if faults.is_empty() || exit != Exit::Done { exit } else { Exit::Different }

@@ -6,6 +6,9 @@ use std::collections::BTreeMap;
 /// The name and version of the report's format.
 pub(crate) const FORMAT: &str = "tess-report 1";
 
+/// The largest number of shards of a campaign. `tess merge` has an entry for each.
+const MAX_SHARDS: u64 = 1_000_000;
+
 /// A run of a command on one shard.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -132,35 +135,21 @@ pub(crate) struct ReportPart {
 }
 
 impl Report {
-    /// Adds parts to the report and to its sums.
-    pub(crate) fn add_parts(&mut self, parts: impl IntoIterator<Item = ReportPart>) {
-        for part in parts {
-            self.add(&part);
-            if self.first.is_none() {
-                self.first.clone_from(&part.first);
-            }
-            self.parts.push(part);
+    /// Adds to the part with this name, which may be new, and to the report's own sums. They
+    /// saturate, because another program's report may hold any numbers.
+    pub(crate) fn add_part(&mut self, more: ReportPart) {
+        self.cases = self.cases.saturating_add(more.cases);
+        self.mismatches = self.mismatches.saturating_add(more.mismatches);
+        if self.first.is_none() {
+            self.first.clone_from(&more.first);
         }
-    }
-
-    /// Adds a part to the sums. They saturate, because another program's report may hold any
-    /// numbers.
-    fn add(&mut self, part: &ReportPart) {
-        self.cases = self.cases.saturating_add(part.cases);
-        self.mismatches = self.mismatches.saturating_add(part.mismatches);
-    }
-
-    /// Adds to the part with this name, and to the sums.
-    pub(crate) fn add_to_part(&mut self, name: &str, more: ReportPart) {
-        self.add(&more);
-        let known = self.parts.iter_mut().find(|part| part.name == name);
-        match known {
+        match self.parts.iter_mut().find(|part| part.name == more.name) {
             Some(part) => {
                 part.cases = part.cases.saturating_add(more.cases);
                 part.mismatches = part.mismatches.saturating_add(more.mismatches);
                 part.first = part.first.take().or(more.first);
             }
-            None => self.parts.push(ReportPart { name: name.to_owned(), ..more }),
+            None => self.parts.push(more),
         }
     }
 
@@ -202,15 +191,18 @@ impl Report {
         if *shard == 0 || shard > shards {
             return Some(format!("shard {shard} of {shards}: shards are counted from 1"));
         }
+        if *shards > MAX_SHARDS {
+            return Some(format!("{shards} shards: a campaign has at most {MAX_SHARDS}"));
+        }
         if mismatches > cases && self.command != "check" {
             return Some(format!("{mismatches} mismatches of {cases} cases"));
         }
         let sum = |number: fn(&ReportPart) -> u64| {
             self.parts.iter().map(number).fold(0, u64::saturating_add)
         };
-        let sums = (sum(|part| part.cases), sum(|part| part.mismatches));
-        (!self.parts.is_empty() && sums != (*cases, *mismatches)).then(|| {
-            let (of_cases, of_mismatches) = sums;
+        let (of_cases, of_mismatches) = (sum(|part| part.cases), sum(|part| part.mismatches));
+        let is_sum = (of_cases, of_mismatches) == (*cases, *mismatches);
+        (!self.parts.is_empty() && !is_sum).then(|| {
             format!(
                 "{cases} cases and {mismatches} mismatches, but the parts add up to {of_cases} and \
                  {of_mismatches}"

@@ -41,7 +41,7 @@ pub(crate) fn conclude(
         let (name, mismatches) = (format!("{tested} {name}"), if is_known { 0 } else { *broken });
         let part =
             ReportPart { name, cases: *judged, mismatches, first: first.filter(|_| !is_known) };
-        recorder.update(|record| record.add_parts([part]));
+        recorder.update(|record| record.add_part(part));
     }
     Ok(exit)
 }

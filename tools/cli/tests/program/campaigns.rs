@@ -273,6 +273,7 @@ fn what_is_no_report() {
         (own.replacen("report 1", "report 2", 1), "the format is `tess-report 2`"),
         (own.replacen("\"shard\":2", "\"shard\":0", 1), "shards are counted from 1"),
         (own.replacen("\"shard\":2", "\"shard\":4", 1), "shard 4 of 3"),
+        (own.replacen("\"shards\":3", "\"shards\":1000001", 1), "has at most 1000000"),
         (own.replacen("\"cases\":17", "\"cases\":18", 1), "the parts add up to 17"),
         (own.replacen("\"cases\"", "\"case\"", 1), "unknown field `case`"),
         (own.clone() + "{}\n", "bad.jsonl:2: no report"),

@@ -17,9 +17,8 @@ fn part_of(case: Option<Case>) -> String {
 /// Adds records as they are checked.
 pub(super) fn add(report: &mut Report, checked: Checked<'_>) {
     for (record, different) in checked.records.iter().zip(checked.different) {
-        let part =
-            ReportPart { cases: 1, mismatches: u64::from(*different), ..ReportPart::default() };
-        report.add_to_part(&part_of(record.case()), part);
+        let (name, mismatches) = (part_of(record.case()), u64::from(*different));
+        report.add_part(ReportPart { name, cases: 1, mismatches, first: None });
     }
 }
 
@@ -28,20 +27,17 @@ const OTHERS: &str = "missing answers, answers to other cases, contradictions";
 
 /// Adds the final results: stages, differences, and mismatches that no single record shows.
 pub(super) fn finish(report: &mut Report, found: &check::Report) {
-    let others = ReportPart {
-        cases: found.cases.saturating_sub(report.cases),
-        mismatches: found.mismatches.saturating_sub(report.mismatches),
-        ..ReportPart::default()
-    };
-    if others.cases > 0 || others.mismatches > 0 {
-        report.add_to_part(OTHERS, others);
+    let cases = found.cases.saturating_sub(report.cases);
+    let mismatches = found.mismatches.saturating_sub(report.mismatches);
+    if cases > 0 || mismatches > 0 {
+        report.add_part(ReportPart { name: OTHERS.to_owned(), cases, mismatches, first: None });
     }
     for difference in &found.differences {
         let is_other = difference.mismatch.stage == SpecStage::Answer;
         let name = if is_other { OTHERS.to_owned() } else { part_of(difference.case) };
         if report.parts.iter().any(|part| part.name == name) {
             let first = Some(first(difference));
-            report.add_to_part(&name, ReportPart { first, ..ReportPart::default() });
+            report.add_part(ReportPart { name, first, ..ReportPart::default() });
         }
     }
     // The threads of a check finish in any order.

@@ -64,7 +64,7 @@ pub(super) fn run(
         let (cases, mismatches) = (answers.cases, answers.mismatches);
         let first = answers.differences.first().map(record::first);
         let name = "listings answers".to_owned();
-        recorder.update(|record| record.add_parts([ReportPart { name, cases, mismatches, first }]));
+        recorder.update(|record| record.add_part(ReportPart { name, cases, mismatches, first }));
         answers.differences.iter().try_for_each(|difference| print(&format!("{difference}\n")))?;
         print(&format!("{answers} of answers\n"))?;
     }

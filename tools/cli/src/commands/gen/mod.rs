@@ -118,7 +118,7 @@ fn generate(args: &GenCommand, placed: Placed, recorder: &Recorder) -> Result<Ex
     };
     bar.finish_and_clear();
     written?;
-    recorder.update(|report| report.add_parts([part(count)]));
+    recorder.update(|report| report.add_part(part(count)));
     Ok(Exit::Done)
 }
 
@@ -165,7 +165,7 @@ impl GenCommand {
         let rows = stages::rows(block, bar.wrap_iter(self.cases(placed)));
         bar.finish_and_clear();
         self.output.stream(|out| write(out, block, &rows))?;
-        recorder.update(|report| report.add_parts([part(count)]));
+        recorder.update(|report| report.add_part(part(count)));
         Ok(Exit::Done)
     }
 
@@ -183,7 +183,7 @@ impl GenCommand {
         let bar = self.progress(count);
         coverage.record_stream(None, bar.wrap_iter(self.cases(placed)));
         bar.finish_and_clear();
-        recorder.update(|report| report.add_parts([part(count)]));
+        recorder.update(|report| report.add_part(part(count)));
         // The file may also have hits of other configurations.
         let Selection { domain, partitioning, output, split, .. } = self.selection();
         let outside = Exclusions::outside(configurations_among(

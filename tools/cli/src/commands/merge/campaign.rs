@@ -8,10 +8,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The reports of one campaign, and those of others.
 #[derive(Debug)]
 pub(super) struct Campaign {
-    /// By shard; a shard that ran several times has several.
-    shards: BTreeMap<u64, Vec<FoundReport>>,
-    /// The number of shards.
-    pub(super) of: u64,
+    /// The first report, with which all others must agree.
+    pub(super) sample: Report,
+    /// Every shard by its number, from 1. It is proved by a single report, of a run that ended.
+    pub(super) shards: BTreeMap<u64, Shard>,
     /// The place of each report of another campaign, and how it differs from the first report.
     pub(super) strangers: Vec<(String, String)>,
     /// The sums over all shards that ended: cases and mismatches, also by stage and by part, and
@@ -19,15 +19,9 @@ pub(super) struct Campaign {
     pub(super) sum: Report,
 }
 
-/// A shard that is not proved.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct ShardFault {
-    pub(super) shard: u64,
-    /// For example `is missing`.
-    pub(super) what: String,
-    /// The places of its reports.
-    pub(super) places: String,
-}
+/// The reports of a shard.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shard(Vec<FoundReport>);
 
 /// Everything in which the reports of a campaign must agree, by name.
 fn identity(report: &Report) -> BTreeMap<String, String> {
@@ -65,105 +59,63 @@ fn strangeness(report: &Report, usual: &BTreeMap<String, String>, place: &str) -
     Some(format!("{name} is {own}; in {place} it is {usual}"))
 }
 
+impl Shard {
+    /// The report, if it proves the shard. Errors: why it does not, such as `is missing`.
+    pub(super) fn proof(&self) -> Result<&FoundReport, String> {
+        let [one] = &*self.0 else {
+            return Err(if self.0.is_empty() { "is missing" } else { "is duplicated" }.to_owned());
+        };
+        match one.report.state {
+            RunState::Done => Ok(one),
+            RunState::Interrupted => Err("was interrupted".to_owned()),
+            RunState::Failed => {
+                let why = one.report.message.as_deref().unwrap_or("for an unknown reason");
+                Err(format!("failed: {why}"))
+            }
+        }
+    }
+
+    /// The places of its reports.
+    pub(super) fn places(&self) -> String {
+        self.0.iter().map(|one| &*one.place).collect::<Vec<_>>().join(", ")
+    }
+
+    /// A report of a run that ended.
+    pub(super) fn ended(&self) -> Option<&FoundReport> {
+        self.0.iter().find(|one| one.report.state == RunState::Done)
+    }
+}
+
 impl Campaign {
     /// The campaign to which the first report belongs.
     ///
     /// # Errors
     /// There are no reports.
     pub(super) fn of(reports: Vec<FoundReport>) -> Result<Self, Failure> {
-        let mut reports = reports.into_iter();
-        let Some(first) = reports.next() else {
+        let Some(FoundReport { place, report: sample }) = reports.first().cloned() else {
             return Err(Failure::bad_input("there is no report to merge"));
         };
-        let (mut strangers, mut own) = (Vec::new(), Vec::new());
+        let usual = identity(&sample);
+        let mut shards: BTreeMap<u64, Shard> =
+            (1..=sample.shards).map(|number| (number, Shard::default())).collect();
+        let mut strangers = Vec::new();
         let mut baselines = BTreeMap::new();
-        other_baseline(&mut baselines, &first);
-        let usual = identity(&first.report);
         for found in reports {
-            let why = strangeness(&found.report, &usual, &first.place)
-                .or_else(|| other_baseline(&mut baselines, &found));
+            let why = strangeness(&found.report, &usual, &place)
+                .or_else(|| other_baseline(&mut baselines, &found.report));
             match why {
                 Some(why) => strangers.push((found.place, why)),
-                None => own.push(found),
+                None => shards.entry(found.report.shard).or_default().0.push(found),
             }
         }
-        let of = first.report.shards;
-        let mut shards: BTreeMap<u64, Vec<FoundReport>> = BTreeMap::new();
-        for found in std::iter::once(first).chain(own) {
-            shards.entry(found.report.shard).or_default().push(found);
-        }
-        let mut campaign = Self { shards, of, strangers, sum: Report::default() };
-        campaign.sum = campaign.added_up();
-        Ok(campaign)
-    }
-
-    /// Any report of the campaign.
-    pub(super) fn sample(&self) -> Option<&Report> {
-        self.shards.values().flatten().next().map(|one| &one.report)
-    }
-
-    /// One report of each shard that ended.
-    pub(super) fn done(&self) -> impl Iterator<Item = &FoundReport> {
-        let done = |one: &&FoundReport| one.report.state == RunState::Done;
-        self.shards.values().filter_map(move |found| found.iter().find(done))
-    }
-
-    /// The report of each shard that ran exactly once and ended.
-    pub(super) fn once(&self) -> impl Iterator<Item = &FoundReport> {
-        self.done().filter(|one| self.shards[&one.report.shard].len() == 1)
-    }
-
-    /// The faults of the shards, in the order of the shards.
-    pub(super) fn faults(&self) -> impl Iterator<Item = ShardFault> {
-        (1..=self.of).filter_map(|shard| self.fault(shard))
-    }
-
-    fn fault(&self, shard: u64) -> Option<ShardFault> {
-        let found = self.shards.get(&shard).map_or(&[][..], Vec::as_slice);
-        let what = match found {
-            [] => "is missing".to_owned(),
-            [one] => match one.report.state {
-                RunState::Done => return None,
-                RunState::Interrupted => "was interrupted".to_owned(),
-                RunState::Failed => {
-                    let why = one.report.message.as_deref();
-                    format!("failed: {}", why.unwrap_or("for an unknown reason"))
-                }
-            },
-            _ => "is duplicated".to_owned(),
-        };
-        let places: Vec<&str> = found.iter().map(|one| one.place.as_str()).collect();
-        Some(ShardFault { shard, what, places: places.join(", ") })
+        let sum = added_up(shards.values().filter_map(Shard::ended).map(|one| &one.report));
+        Ok(Self { sample, shards, strangers, sum })
     }
 
     /// Whether every shard ran exactly once, and at least one case was compared.
     pub(super) fn is_complete(&self) -> bool {
-        self.strangers.is_empty() && self.faults().next().is_none() && self.sum.cases > 0
-    }
-
-    fn added_up(&self) -> Report {
-        let mut sum = Report::default();
-        let mut parts: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
-        for FoundReport { report, .. } in self.done() {
-            // Sums saturate instead of wrapping around.
-            sum.cases = sum.cases.saturating_add(report.cases);
-            sum.mismatches = sum.mismatches.saturating_add(report.mismatches);
-            sum.milliseconds = sum.milliseconds.saturating_add(report.milliseconds);
-            sum.add_stages(report.stages.iter().map(|(stage, more)| (stage, *more)));
-            for part in &report.parts {
-                let (cases, mismatches) = parts.entry(&part.name).or_default();
-                *cases = cases.saturating_add(part.cases);
-                *mismatches = mismatches.saturating_add(part.mismatches);
-            }
-        }
-        let part = |(name, (cases, mismatches)): (&str, _)| ReportPart {
-            name: name.to_owned(),
-            cases,
-            mismatches,
-            first: None,
-        };
-        sum.parts = parts.into_iter().map(part).collect();
-        sum
+        let all = self.shards.values().all(|shard| shard.proof().is_ok());
+        all && self.strangers.is_empty() && self.sum.cases > 0
     }
 
     /// The number of different baselines, and their outcome in all shards; `None` if there was no
@@ -172,7 +124,8 @@ impl Campaign {
         let mut digests = BTreeSet::new();
         let mut gone = BTreeSet::new();
         let mut sum = KnownCases::default();
-        for known in self.done().filter_map(|one| one.report.known.as_ref()) {
+        let ended = self.shards.values().filter_map(Shard::ended);
+        for known in ended.filter_map(|one| one.report.known.as_ref()) {
             if digests.insert(&known.digest) {
                 sum.entries = sum.entries.saturating_add(known.entries);
             }
@@ -184,11 +137,35 @@ impl Campaign {
     }
 }
 
+fn added_up<'a>(reports: impl Iterator<Item = &'a Report>) -> Report {
+    let mut sum = Report::default();
+    let mut parts: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
+    for report in reports {
+        // Sums saturate instead of wrapping around.
+        sum.cases = sum.cases.saturating_add(report.cases);
+        sum.mismatches = sum.mismatches.saturating_add(report.mismatches);
+        sum.milliseconds = sum.milliseconds.saturating_add(report.milliseconds);
+        sum.add_stages(report.stages.iter().map(|(stage, more)| (stage, *more)));
+        for part in &report.parts {
+            let (cases, mismatches) = parts.entry(&part.name).or_default();
+            *cases = cases.saturating_add(part.cases);
+            *mismatches = mismatches.saturating_add(part.mismatches);
+        }
+    }
+    let parts = parts.into_iter().map(|(name, (cases, mismatches))| ReportPart {
+        name: name.to_owned(),
+        cases,
+        mismatches,
+        first: None,
+    });
+    Report { parts: parts.collect(), ..sum }
+}
+
 /// How the baseline of a report differs from an earlier one of the same name; `None` if it does
 /// not.
 fn other_baseline(
     baselines: &mut BTreeMap<String, Option<String>>,
-    FoundReport { report, .. }: &FoundReport,
+    report: &Report,
 ) -> Option<String> {
     let KnownCases { file, digest, .. } = report.known.clone()?;
     let file = file?;

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const MAX_BYTES: u64 = 1 << 28;
 
 /// A report, and its file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct FoundReport {
     pub(super) place: String,
     pub(super) report: Report,

@@ -1,34 +1,37 @@
 //! A campaign as text and as `JUnit` XML.
 
-use super::campaign::{Campaign, ShardFault};
+use super::campaign::{Campaign, Shard};
 use super::read::FoundReport;
 use crate::campaign::junit::{JunitCase, JunitSuite, Outcome, seconds};
 use crate::campaign::report::Report;
 use crate::output::counted;
 use std::fmt::Write;
 
-/// The largest number of shards of a kind that the text shows.
-const SHOWN: usize = 100;
-
-/// The largest number of faults that the `JUnit` file lists. A report may claim more shards than
-/// fit into memory.
-const LISTED: usize = 1_000_000;
-
-/// The table, the differences, the faults, and the shards to run again.
+/// The table, the differences, the faults, and the command line of a shard if some must run again.
 pub(super) fn text(campaign: &Campaign) -> String {
     let mut text = String::new();
     // Writing to a String does not fail, so the results of `write!` are dropped throughout.
-    if let Some(Report { command, version, commit, options, .. }) = campaign.sample() {
-        let options: String =
-            options.iter().map(|(name, values)| format!(" {name}={}", values.join(","))).collect();
-        _ = writeln!(text, "tess {command}:{options}\ntess {version}, commit {commit}");
-    }
+    let Report { command, version, commit, options, .. } = &campaign.sample;
+    let options: String =
+        options.iter().map(|(name, values)| format!(" {name}={}", values.join(","))).collect();
+    _ = writeln!(text, "tess {command}:{options}\ntess {version}, commit {commit}");
     table(&mut text, campaign);
-    differing(&mut text, campaign);
-    faults(&mut text, campaign);
+    for FoundReport { place, report } in campaign.shards.values().filter_map(Shard::ended) {
+        let Report { shard, shards, cases, mismatches, .. } = report;
+        if *mismatches > 0 {
+            _ = writeln!(text, "shard {shard}/{shards} differs: {mismatches} of {cases} ({place})");
+            report.first.iter().for_each(|first| _ = writeln!(text, "  {}", first.text("\n  ")));
+        }
+    }
+    for (place, why) in &campaign.strangers {
+        _ = writeln!(text, "{place} is of another campaign: {why}");
+    }
+    let once = faults(&mut text, campaign);
     let Report { cases, mismatches, milliseconds, .. } = &campaign.sum;
-    let (once, of) = (campaign.once().count(), counted(campaign.of, "shard"));
-    let time = seconds(*milliseconds);
+    if *cases == 0 {
+        _ = writeln!(text, "no case was compared");
+    }
+    let (of, time) = (counted(campaign.sample.shards, "shard"), seconds(*milliseconds));
     _ = writeln!(
         text,
         "{once} of {of} ran once: {cases} cases, {mismatches} mismatches, {time} s of all shards"
@@ -54,36 +57,20 @@ fn table(text: &mut String, campaign: &Campaign) {
     }
 }
 
-fn differing(text: &mut String, campaign: &Campaign) {
-    let mut differing = campaign.done().filter(|one| one.report.mismatches > 0);
-    for FoundReport { place, report } in differing.by_ref().take(SHOWN) {
-        let Report { shard, shards, cases, mismatches, .. } = report;
-        _ = writeln!(text, "shard {shard}/{shards} differs: {mismatches} of {cases} ({place})");
-        report.first.iter().for_each(|first| _ = writeln!(text, "  {}", first.text("\n  ")));
+/// The shards that are not proved, and how to run them again. Returns the number of the others.
+fn faults(text: &mut String, campaign: &Campaign) -> usize {
+    let Report { shard, shards, words, .. } = &campaign.sample;
+    let mut once = 0;
+    for (number, found) in &campaign.shards {
+        let Err(what) = found.proof() else {
+            once += 1;
+            continue;
+        };
+        let places = Some(found.places()).filter(|places| !places.is_empty());
+        let places = places.map(|places| format!(" ({places})")).unwrap_or_default();
+        _ = writeln!(text, "shard {number}/{shards} {what}{places}");
     }
-    more(text, differing.count(), "differing shard");
-}
-
-fn faults(text: &mut String, campaign: &Campaign) {
-    for (place, why) in campaign.strangers.iter().take(SHOWN) {
-        _ = writeln!(text, "{place} is of another campaign: {why}");
-    }
-    more(text, campaign.strangers.len().saturating_sub(SHOWN), "report of another campaign");
-    let mut faults = campaign.faults();
-    let mut has_faults = false;
-    for ShardFault { shard, what, places } in faults.by_ref().take(SHOWN) {
-        has_faults = true;
-        let places = if places.is_empty() { places } else { format!(" ({places})") };
-        _ = writeln!(text, "shard {shard}/{} {what}{places}", campaign.of);
-    }
-    if faults.next().is_some() {
-        _ = writeln!(text, "and more shards");
-    }
-    if campaign.sum.cases == 0 {
-        _ = writeln!(text, "no case was compared");
-    }
-    if let Some(sample) = campaign.sample().filter(|_| has_faults) {
-        let Report { shard, shards, words, .. } = sample;
+    if once < campaign.shards.len() {
         let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
         _ = writeln!(
             text,
@@ -91,12 +78,7 @@ fn faults(text: &mut String, campaign: &Campaign) {
             words.join(" ")
         );
     }
-}
-
-fn more(text: &mut String, hidden: usize, one: &str) {
-    if hidden > 0 {
-        _ = writeln!(text, "and {} more", counted(hidden as u64, one));
-    }
+    once
 }
 
 /// A word, quoted for a shell.
@@ -110,37 +92,29 @@ fn quoted(word: &str) -> String {
 
 /// One test case per shard, and one per report of another campaign.
 pub(super) fn junit(campaign: &Campaign) -> String {
-    let command = campaign.sample().map_or("", |report| &report.command);
-    let case = |name: String, milliseconds, outcome| JunitCase {
+    let Report { command, shards, .. } = &campaign.sample;
+    let case = |name, milliseconds, outcome| JunitCase {
         class: format!("tess.{command}"),
         name,
         milliseconds,
         outcome,
     };
-    let shard = |shard: u64| format!("shard {shard}/{}", campaign.of);
-    let mut tests: Vec<(u64, JunitCase)> = campaign
-        .once()
-        .map(|FoundReport { report, .. }| {
-            let counts = (report.mismatches, report.cases);
-            let outcome = Outcome::of(counts, report.first.as_ref(), report.period);
-            (report.shard, case(shard(report.shard), Some(report.milliseconds), outcome))
-        })
-        .collect();
-    let mut faults = campaign.faults();
-    tests.extend(faults.by_ref().take(LISTED).map(|fault| {
-        let error = Outcome::Error(fault.what, fault.places);
-        (fault.shard, case(shard(fault.shard), None, error))
-    }));
-    tests.sort_by_key(|(shard, _)| *shard);
-    let more = faults.next().map(|_| {
-        let why = format!("more than {LISTED} are not listed");
-        case("more shards".to_owned(), None, Outcome::Error("are missing".to_owned(), why))
-    });
+    let of_shard = |(number, shard): (&u64, &Shard)| {
+        let (milliseconds, outcome) = match shard.proof() {
+            Ok(FoundReport { report, .. }) => {
+                let counts = (report.mismatches, report.cases);
+                let outcome = Outcome::of(counts, report.first.as_ref(), report.period);
+                (Some(report.milliseconds), outcome)
+            }
+            Err(what) => (None, Outcome::Error(what, shard.places())),
+        };
+        case(format!("shard {number}/{shards}"), milliseconds, outcome)
+    };
     let strangers = campaign.strangers.iter().map(|(place, why)| {
-        let error = Outcome::Error("of another campaign".to_owned(), why.clone());
-        case(place.clone(), None, error)
+        let outcome = Outcome::Error("of another campaign".to_owned(), why.clone());
+        case(place.clone(), None, outcome)
     });
-    let tests = tests.into_iter().map(|(_, test)| test).chain(more).chain(strangers).collect();
+    let tests = campaign.shards.iter().map(of_shard).chain(strangers).collect();
     let (name, milliseconds) = (format!("tess {command}"), campaign.sum.milliseconds);
     JunitSuite { name, milliseconds, tests }.to_xml()
 }

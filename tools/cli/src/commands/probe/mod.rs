@@ -241,12 +241,15 @@ fn note_parts(record: &mut Report, report: &ProbeReport) {
         difference: difference.clone(),
         passes_alone,
     };
-    record.add_parts(report.rows.iter().map(|row| ReportPart {
-        name: format!("{} {} {}", row.domain, row.partitioning, row.output),
-        cases: row.patches,
-        mismatches: row.different,
-        first: report.first_different.as_ref().filter(|first| is_of(row, &first.case)).map(first),
-    }));
+    for row in &report.rows {
+        let shown = report.first_different.as_ref().filter(|first| is_of(row, &first.case));
+        record.add_part(ReportPart {
+            name: format!("{} {} {}", row.domain, row.partitioning, row.output),
+            cases: row.patches,
+            mismatches: row.different,
+            first: shown.map(first),
+        });
+    }
     record.add_stages(report.stages.iter().map(|(stage, more)| (stage, *more)));
 }
 

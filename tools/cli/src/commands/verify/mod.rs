@@ -203,7 +203,7 @@ fn record(report: &mut Report, table: &[SubjectRow]) {
         });
         let name = format!("{} {}", row.subject.name(), row.backend);
         let (cases, mismatches) = (row.compared, row.mismatches);
-        report.add_parts([ReportPart { name, cases, mismatches, first }]);
+        report.add_part(ReportPart { name, cases, mismatches, first });
         report.add_stages(row.stages.iter().map(|(stage, more)| (stage, *more)));
     }
 }
