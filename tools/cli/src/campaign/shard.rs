@@ -89,8 +89,6 @@ impl ShardArgs {
 const BAZEL: &str = "TEST_SHARD_INDEX";
 const SLURM: &str = "SLURM_ARRAY_TASK_ID";
 const KUBERNETES: &str = "JOB_COMPLETION_INDEX";
-/// The number of shards, for a batch system that does not provide it.
-const TOTAL: &str = "TESS_SHARDS";
 
 /// The values of environment variables that are set and not empty.
 type Environment<'a> = &'a dyn Fn(&str) -> Option<String>;
@@ -111,19 +109,21 @@ fn from_environment(value: Environment<'_>) -> Result<Placed, String> {
 /// The part from Bazel or googletest, which count from 0.
 fn bazel(value: Environment<'_>) -> Result<Option<Shard>, String> {
     const OF: &str = "TEST_TOTAL_SHARDS";
-    match number(value, BAZEL)? {
-        None if number(value, OF)?.is_some() => Err(format!("{OF} is set, but {BAZEL} is not")),
-        None => Ok(None),
-        Some(part) => part_of(BAZEL, part, OF, other(value, BAZEL, OF)?).map(Some),
+    if number(value, OF)?.is_some() {
+        other(value, OF, BAZEL)?;
     }
+    from_zero(value, BAZEL, OF)
 }
 
-/// The part from Kubernetes, which counts from 0 and does not provide the number of parts.
+/// The part from Kubernetes, which counts from 0. The manifest has to set the number of parts.
 fn kubernetes(value: Environment<'_>) -> Result<Option<Shard>, String> {
-    let Some(part) = number(value, KUBERNETES)? else { return Ok(None) };
-    let of = other(value, KUBERNETES, TOTAL)
-        .map_err(|why| format!("{why}: set it to the completions of the Job"))?;
-    part_of(KUBERNETES, part, TOTAL, of).map(Some)
+    from_zero(value, KUBERNETES, "TESS_SHARDS")
+        .map_err(|why| format!("{why}; set TESS_SHARDS to the completions of the Job"))
+}
+
+fn from_zero(value: Environment<'_>, index: &str, total: &str) -> Result<Option<Shard>, String> {
+    let Some(part) = number(value, index)? else { return Ok(None) };
+    part_of(index, part, total, other(value, index, total)?).map(Some)
 }
 
 /// The value of a variable that must be set together with another one.
@@ -215,7 +215,7 @@ mod tests {
             ("TEST_TOTAL_SHARDS=8", "TEST_SHARD_INDEX is not"),
             ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=8", "selects part 8, counted from 0"),
             ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=-1", "which is not a number"),
-            ("JOB_COMPLETION_INDEX=0", "set it to the completions of the Job"),
+            ("JOB_COMPLETION_INDEX=0", "set TESS_SHARDS to the completions of the Job"),
             ("JOB_COMPLETION_INDEX=3 TESS_SHARDS=3", "selects part 3, counted from 0"),
             ("SLURM_ARRAY_TASK_ID=3", "SLURM_ARRAY_TASK_MIN is not"),
             (
