@@ -13,7 +13,7 @@
 //! >>>
 //! ```
 //!
-//! `in` and `seen by` apply until the next one. Both texts may have several lines, and the new one
+//! `in` and `seen by` apply until the next one, and a `seen by` has at least one fault. Both texts may have several lines, and the new one
 //! may be empty. A line that starts with `#` is a comment. `cargo xtask mutants planted`, the
 //! circuit's benches and the tests of the shaders read such lists.
 
@@ -56,15 +56,22 @@ impl ListedFault {
 /// The number of the first line that does not have the form.
 pub fn parse(list: &str) -> Result<Vec<ListedFault>, String> {
     let (mut folder, mut seen_by, mut faults) = (None, None, Vec::new());
+    // The line of a `seen by` that has no fault yet.
+    let mut unused = None;
+    let is_used = |unused: Option<u32>| {
+        unused.map_or(Ok(()), |line| Err(format!("line {line}: no fault follows this `seen by`")))
+    };
     let mut lines = (1..).zip(list.lines()).peekable();
     while let Some((number, line)) = lines.next() {
         let wrong = |what: &str| format!("line {number}: {what}");
         if let Some(path) = line.strip_prefix("in ") {
             folder = Some(path.to_owned());
         } else if let Some(words) = line.strip_prefix("seen by ") {
+            is_used(unused.replace(number))?;
             let mut words = words.split(' ').map(str::to_owned);
             seen_by = words.next().map(|tests| (tests, words.collect::<Vec<_>>()));
         } else if let Some(fault) = line.strip_prefix("fault ") {
+            unused = None;
             let reason = lines.next_if(|(_, line)| line.starts_with("equivalent: "));
             let block = lines.by_ref().map(|(_, line)| line);
             let (right, new) =
@@ -83,7 +90,7 @@ pub fn parse(list: &str) -> Result<Vec<ListedFault>, String> {
             return Err(wrong(&format!("`{line}` is neither `in`, `seen by` nor `fault`")));
         }
     }
-    Ok(faults)
+    is_used(unused).map(|()| faults)
 }
 
 /// The two texts of a block, which ends with `>>>`.

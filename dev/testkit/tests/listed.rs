@@ -59,6 +59,8 @@ fn a_line_of_another_form_is_refused_with_its_number() {
         ("in src\nfault a\n<<<\nx\n===\ny\n>>>\n", 2),
         ("in src\nseen by t\nfault a\nx\n===\ny\n>>>\n", 3),
         ("in src\nseen by t\nfault a\n<<<\nx\n>>>\n", 3),
+        ("in src\nseen by t\n", 2),
+        ("in src\nseen by t\nseen by u\nfault a\n<<<\nx\n===\ny\n>>>\n", 2),
         ("\nwhat", 2),
     ] {
         let message = parse(wrong).expect_err(wrong);
