@@ -160,6 +160,28 @@ fn what_is_another_file_is_kept() {
     assert!(fs::read(folder.join("mine")).is_ok_and(|now| now == before), "help removes nothing");
 }
 
+/// A file that the command reads is no earlier result, whichever way it is named.
+#[test]
+fn what_is_read_is_kept() {
+    let folder = directory("what_is_read_is_kept");
+    shell("$TESS gen --level 3 --count 2 --format listing -o f.txt", &folder).exits(0);
+    let before = fs::read(folder.join("f.txt")).expect("vectors");
+    for command in [
+        "check f.txt --failures f.txt",
+        "check ./f.txt --failures=f.txt",
+        "check - --failures f.txt < f.txt",
+        "check --failures f.txt -- f.txt",
+        "check other.txt --cases=f.txt --failures f.txt",
+        "check missing.txt --failures f.txt > f.txt",
+    ] {
+        shell(&format!("$TESS {command}"), &folder).exits(2);
+        let now = fs::read(folder.join("f.txt"));
+        let is_there = now.is_ok_and(|now| now == before || command.contains("> f.txt"));
+        assert!(is_there, "{command}");
+        fs::write(folder.join("f.txt"), &before).expect("written");
+    }
+}
+
 /// After `--` come files, not options.
 #[test]
 fn what_follows_two_dashes_is_read() {
