@@ -1,5 +1,5 @@
 //! Times every kernel of the CPU backend at every level, and the model's stage: the table of
-//! `tess-simd/tests/kernels`.
+//! `dev/testkit/src/kernels.rs`.
 //!
 //! Each entry runs its inputs of four rounds: integer and fractional-even factors, random and
 //! extreme. A table follows Criterion's own report: the nanoseconds per element (a point, an index,
@@ -8,9 +8,6 @@
 //! other work on the machine has little effect.
 #![expect(clippy::float_arithmetic, reason = "times are divided")]
 
-#[path = "../../tess-simd/tests/kernels/table.rs"]
-mod table;
-
 use criterion::measurement::WallTime;
 use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
@@ -18,8 +15,8 @@ use criterion::{
 use std::hint::black_box;
 use std::io::Write as _;
 use std::time::{Duration, Instant};
-use table::TABLE;
 use tess_simd::Level;
+use tess_testkit::kernels::TABLE;
 
 /// The rounds that are timed.
 const ROUNDS: [u32; 4] = [16, 17, 22, 23];

@@ -7,6 +7,8 @@ pub mod circuit;
 pub mod faults;
 #[cfg(feature = "kit")]
 pub mod invariants;
+#[cfg(feature = "kernels")]
+pub mod kernels;
 #[cfg(feature = "levels")]
 pub mod levels;
 pub mod listed;

@@ -13,9 +13,10 @@
 //! >>>
 //! ```
 //!
-//! `in` and `seen by` apply until the next one, and a `seen by` has at least one fault. Both texts may have several lines, and the new one
-//! may be empty. A line that starts with `#` is a comment. `cargo xtask mutants planted`, the
-//! circuit's benches and the tests of the shaders read such lists.
+//! `in` and `seen by` apply until the next one, and a `seen by` has at least one fault. Both texts
+//! may have several lines, and the new one may be empty. A line that starts with `#` is a comment.
+//! `cargo xtask mutants planted`, the circuit's benches and the tests of the shaders read such
+//! lists.
 
 /// A fault of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]

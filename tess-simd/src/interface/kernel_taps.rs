@@ -1,5 +1,5 @@
 //! Taps: they run a single stage or kernel over any input, for comparison and for timing. See
-//! `tests/kernels/table.rs`.
+//! `dev/testkit/src/kernels.rs` of the repository.
 
 mod words;
 

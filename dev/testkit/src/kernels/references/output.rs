@@ -1,8 +1,8 @@
 //! Points, indices and ranges.
 
 use super::places;
-use crate::table::Case;
-use crate::table::words::{Words, coordinates};
+use crate::kernels::Case;
+use crate::kernels::words::{Words, coordinates};
 use tess_core::fixed_point::ONE;
 use tess_core::row::Row;
 use tess_core::stitch::{self, Diagonals};

@@ -6,8 +6,8 @@
 //! A wrong word in a batch shows only that something between raw factors and the output is wrong: a
 //! patch goes through a dozen stages, each compiled for three CPU levels. So each stage also runs
 //! separately, at each level, and its words are compared with those of the same stage of
-//! `tess-core`. `tests/kernels.rs` does that; `benches/benches/kernels.rs` times the same entries
-//! on the same inputs.
+//! `tess-core`. `tess-simd/tests/kernels.rs` does that; `benches/benches/kernels.rs` times the same
+//! entries on the same inputs.
 //!
 //! # An entry
 //!
@@ -26,7 +26,7 @@
 //! # One entry at work
 //!
 //! `stages/points/quad` in round 6 takes regular quads of fractional-even factors. For each of them
-//! the model walks its points, and [`Words::points`] notes two words per point under the names `u
+//! the model walks its points, and `Words::points` notes two words per point under the names `u
 //! of point` and `v of point`. The [`KernelTap`] takes the same patches through the front end and
 //! lets `stages/points` write them into a buffer of exactly that size, twice: the state that it
 //! keeps from run to run must change nothing. If word 9 of patch 2 differs, the message has the
@@ -35,16 +35,18 @@
 //!
 //! # Adding one
 //!
-//! 1. Give the kernel a variant of `Kernel` and an arm in `src/kernels/kernel_taps`, which is
-//!    compiled for each level.
+//! 1. Give the kernel a variant of `Kernel` and an arm in `tess-simd/src/kernels/kernel_taps`,
+//!    which is compiled for each level.
 //! 2. Write the model's answer in `references`, in the order in which `KernelTap::words` lists the
 //!    output.
 //! 3. Add a line to [`TABLE`]. A kernel without one fails the test.
 //! 4. Plant a fault in the kernel and see the test name it.
 
-pub(crate) mod inputs;
+mod inputs;
 mod references;
-pub(crate) mod words;
+mod words;
+
+pub use words::{Difference, Words};
 
 use Domain::{Isoline, Quad, Triangle};
 use Kernel as K;
@@ -53,18 +55,18 @@ use inputs::{Draw, Patches, numbers as draw};
 use references as the;
 use tess_core::{Config, Domain, Order, OutputPrimitive, Parity, Partitioning, Patch, SplitOrder};
 use tess_simd::{Format, Input, Kernel, KernelTap, Level};
-use words::{Difference, Words};
 
 /// The seed of all inputs.
-pub(crate) const SEED: u64 = 0x7E55_1A7E;
+pub const SEED: u64 = 0x7E55_1A7E;
 
 /// A kernel and its reference.
-#[derive(Clone, Copy)]
-pub(crate) struct Entry {
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
     /// The file of the kernel and perhaps its function.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     name_at_avx512: &'static str,
-    pub(crate) kernel: Kernel,
+    /// What [`KernelTap`] runs.
+    pub kernel: Kernel,
     format: Format,
     takes: Takes,
     expected: Expected,
@@ -74,7 +76,7 @@ pub(crate) struct Entry {
 type Expected = fn(&Case, &mut Words);
 
 /// The inputs of an entry.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum Takes {
     /// Numbers that this function draws.
     Numbers(fn(&mut Draw) -> Vec<u32>),
@@ -83,14 +85,14 @@ enum Takes {
 
 /// An entry's input in one round.
 #[derive(Debug)]
-pub(crate) struct Case {
-    pub(crate) input: Input,
+pub struct Case {
+    input: Input,
     /// The patches as the model processes them.
-    pub(crate) patches: Vec<Patch>,
+    patches: Vec<Patch>,
 }
 
 /// Every kernel, in the order in which data goes through them.
-pub(crate) const TABLE: &[Entry] = &[
+pub const TABLE: &[Entry] = &[
     numbers("stages/reciprocal", K::Reciprocal, draw::divisors, the::reciprocals),
     numbers("stages/factors clamp", K::Clamp, draw::raw, the::clamped),
     numbers("stages/factors ceil", K::Ceil, draw::in_range, the::ceilings),
@@ -207,14 +209,14 @@ impl Entry {
     }
 
     /// The file of the kernel at a level.
-    pub(crate) const fn name_at(&self, level: Level) -> &'static str {
+    pub const fn name_at(&self, level: Level) -> &'static str {
         if matches!(level, Level::Avx512) { self.name_at_avx512 } else { self.name }
     }
 }
 
 impl Entry {
     /// The input of a round.
-    pub(crate) fn case(&self, round: u32) -> Case {
+    pub fn case(&self, round: u32) -> Case {
         let mut draw = Draw::new(SEED, round);
         let turn = round as usize / 2;
         let (output, split) = (OutputPrimitive::ALL[turn / 4 % 4], SplitOrder::ALL[turn / 16 % 2]);
@@ -248,7 +250,7 @@ impl Entry {
     }
 
     /// The model's words for a case; sets the case's sizes to those of this output.
-    pub(crate) fn expected(&self, case: &mut Case) -> Words {
+    pub fn expected(&self, case: &mut Case) -> Words {
         let mut words = Words::default();
         (self.expected)(case, &mut words);
         case.input.sizes = words.sizes();
@@ -256,7 +258,10 @@ impl Entry {
     }
 
     /// The tap of a case, whose sizes are known.
-    pub(crate) fn tap(&self, case: &Case, level: Level) -> KernelTap {
+    ///
+    /// # Panics
+    /// This machine lacks the level.
+    pub fn tap(&self, case: &Case, level: Level) -> KernelTap {
         KernelTap::new(self.kernel, level, &case.input).unwrap_or_else(|error| panic!("{error}"))
     }
 
@@ -265,12 +270,7 @@ impl Entry {
     ///
     /// # Errors
     /// The first difference.
-    pub(crate) fn compare(
-        &self,
-        case: &Case,
-        expected: &Words,
-        level: Level,
-    ) -> Result<(), Difference> {
+    pub fn compare(&self, case: &Case, expected: &Words, level: Level) -> Result<(), Difference> {
         let mut tap = self.tap(case, level);
         for _ in 0..2 {
             tap.run();

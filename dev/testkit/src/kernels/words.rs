@@ -7,7 +7,7 @@ use tess_verify::Case as Line;
 
 /// The model's answer: words, and what each of them is.
 #[derive(Debug, Default)]
-pub(crate) struct Words {
+pub struct Words {
     values: Vec<u32>,
     marks: Vec<Mark>,
     points: usize,
@@ -65,15 +65,14 @@ impl Words {
         [self.points, self.indices]
     }
 
-    #[allow(dead_code, reason = "the bench counts elements")]
-    pub(crate) fn len(&self) -> usize {
+    /// The number of words.
+    pub fn count(&self) -> usize {
         self.values.len()
     }
 
     /// The number of elements that a stage makes: points and indices, or if there are none,
     /// locations, patches or numbers.
-    #[allow(dead_code, reason = "for the bench")]
-    pub(crate) fn elements(&self) -> usize {
+    pub fn elements(&self) -> usize {
         match (self.points + self.indices, self.marks.last()) {
             (0, Some(Mark { input: None, .. })) => self.marks[0].end,
             (0, Some(Mark { names: [_], .. })) => self.values.len(),
@@ -83,8 +82,7 @@ impl Words {
     }
 
     /// Changes one bit of a word.
-    #[allow(dead_code, reason = "the bench plants no faults")]
-    pub(crate) fn spoil(&mut self, word: usize) {
+    pub fn spoil(&mut self, word: usize) {
         self.values[word] ^= 1;
     }
 
@@ -130,7 +128,7 @@ fn shown(case: &Case, input: usize) -> String {
 
 /// The first difference between an output and the model's.
 #[derive(Debug)]
-pub(crate) struct Difference {
+pub struct Difference {
     what: String,
     input: String,
     expected: Option<u32>,

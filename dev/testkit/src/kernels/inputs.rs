@@ -75,7 +75,7 @@ fn from_fixed(bits: u32) -> f32 {
 }
 
 /// Which patches an entry takes.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Patches {
     pub(crate) domains: &'static [Domain],
     pub(crate) class: Class,
@@ -84,7 +84,7 @@ pub(crate) struct Patches {
 }
 
 /// A property that all patches of an input have.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Class {
     Any,
     /// Neither culled nor minimum patches.
