@@ -258,7 +258,7 @@ def here(arguments):
     with tempfile.TemporaryDirectory() as folder:
         run(argparse.Namespace(set=arguments.set, folder=folder, programs=ROOT / "target/release", only=None))
         commit = output("git", "rev-parse", "--short=10", "HEAD").strip()
-        take(argparse.Namespace(folder=folder, commit=commit, machine=None))
+        take(argparse.Namespace(folders=[folder], commit=commit, machine=None))
 
 
 def output(*words):
@@ -331,12 +331,29 @@ def record_of(name, measured, commit):
     return {**head, **columns, "rows": measured["rows"]}
 
 
+def speed(row):
+    return row["patches_per_s"] if "patches_per_s" in row else 1 / float(row["ns a vertex"])
+
+
+def fastest(runs):
+    """Of several runs, each row from the one in which it was fastest, as other work on a machine only slows. Tables of several speeds a row
+    are the first run's."""
+    try:
+        return [max(rows, key=speed) for rows in zip(*runs, strict=True)]
+    except KeyError:
+        return runs[0]
+
+
 def take(arguments):
-    """Makes records of the rows that `run` wrote to a folder."""
-    for path in sorted(Path(arguments.folder).glob("*.json")):
-        measured = json.loads(path.read_text())
+    """Makes records of the rows that `run` wrote to folders."""
+    for name in sorted({path.name for folder in arguments.folders for path in Path(folder).glob("*.json")}):
+        paths = [path for folder in arguments.folders if (path := Path(folder) / name).exists()]
+        runs = [json.loads(path.read_text()) for path in paths]
+        if len(machines := {run["machine"] for run in runs}) > 1 and not arguments.machine:
+            sys.exit(f"{name}: runs of one record are of one machine, not of {sorted(machines)}")
+        measured = {**runs[0], "rows": fastest([run["rows"] for run in runs])}
         measured["machine"] = arguments.machine or measured["machine"]
-        (RECORDS / path.name).write_text(text_of(record_of(path.stem, measured, arguments.commit)))
+        (RECORDS / name).write_text(text_of(record_of(Path(name).stem, measured, arguments.commit)))
     performance()
 
 
@@ -351,7 +368,7 @@ def main(words):
     running.add_argument("--programs", default=ROOT / "target/release", help="folder of tess, gpu, tess-examples, surface")
     running.add_argument("--only", nargs="+", choices=sorted(MEASUREMENTS), help="run only these measurements of the set")
     taking = commands.add_parser("take", help="make records of the rows that `run` wrote")
-    taking.add_argument("folder")
+    taking.add_argument("folders", nargs="+", metavar="folder", help="of one run, or of several: each row is then the fastest")
     taking.add_argument("--commit", required=True, help="the commit from which the programs were built")
     taking.add_argument("--machine", help="the machine, instead of the one that `run` found")
     for one, does in ((whole, here), (running, run), (taking, take)):

@@ -1,6 +1,6 @@
 """Tests of the tables and charts of records, and of faults that must be detected."""
 
-from measure import MEASUREMENTS, of_ablation, of_crossover, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
+from measure import MEASUREMENTS, fastest, of_ablation, of_crossover, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
 from records import code_in, digits, svg, table, with_tables
 
 
@@ -71,6 +71,17 @@ def test_a_record_has_its_command():
     assert record["command"].startswith("cargo run --release -- bench --json --backend simd --threads N --frame 64"), record
     assert list(record) == ["command", "machine", "date", "commit", "columns", "rows"]
     assert all(record_of(name, measured, "abc")["command"] for name in MEASUREMENTS)
+
+
+def test_each_row_is_the_fastest():
+    def run(*speeds):
+        return [{"workload": name, "patches_per_s": speed} for name, speed in zip("ab", speeds, strict=True)]
+
+    assert fastest([run(3, 5), run(4, 1)]) == run(4, 5)
+    vertices = [[{"ns a vertex": "20.0"}], [{"ns a vertex": "9.5"}]]
+    assert fastest(vertices) == vertices[1], "the least time"
+    tables = [[{"1": "9 / 0.8"}], [{"1": "11 / 0.9"}]]
+    assert fastest(tables) == tables[0], "no single speed: the first run"
 
 
 def fails(function, *arguments):
