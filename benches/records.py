@@ -124,25 +124,30 @@ COLOURS = ["#4477aa", "#ee8866", "#44aa77"]
 LEFT, LONGEST, WIDTH, BAR, GAP, HEAD = 180, 500, 760, 13, 9, 62
 
 
+def card_of(name):
+    """The GPU that a record was measured on, as its machine names it: `NVIDIA H100` of `NVIDIA H100 80GB HBM3, driver ...`."""
+    return " ".join(read(name)["machine"].split(",")[0].split()[:2])
+
+
 def charts():
     """The file, title, scale and series of each chart, and for each label the values of the series; None if missing."""
     cpu = {row["workload"]: row for row in read("simd")["rows"]}
     gpu = {row["workload"]: row for row in read("gpu")["rows"]}
     of_both = lambda key: {name: [cpu[name].get(key), gpu.get(name, {}).get(key)] for name in cpu}
-    series = ["CPU: tess-simd, one thread, AVX-512, cache", "GPU: tess-gpu, H200, stream"]
+    series = ["CPU: tess-simd, one thread, AVX-512, cache", f"GPU: tess-gpu, {card_of('gpu')}, stream"]
     title = "Speed of writing the output, as a fraction of a fill of as many bytes"
     yield "fill", title, False, series, of_both("fill_ratio")
     yield "core", "Patches per second, as a multiple of the model's on one thread", True, series, of_both("core_ratio")
 
     keys = ["stage_drawn", "compute_drawn", "in_vertex_cache_order_drawn"]
     bars = {row["workload"]: [float(row[key]) for key in keys] for row in read("drawn")["rows"]}
-    title = "Factors to pixels on an H200, billions of triangles per second"
+    title = f"Factors to pixels on an {card_of('drawn')}, billions of triangles per second"
     yield "drawn", title, False, ["fixed-function stage", "compute", "compute, vertex-cache order"], bars
 
     bars = {}
     for row in read("stage")["rows"]:
         bars.setdefault(f"{digits(row['triangles'] / 1e6)} M triangles", []).append(row["G_triangles/s"])
-    title = "Terrain by the stage of tess-wgpu on an H200, billions of triangles per second"
+    title = f"Terrain by the stage of tess-wgpu on an {card_of('stage')}, billions of triangles per second"
     yield "pixels", title, False, ["points stored", "points pulled", "pulled without indices"], bars
 
 
