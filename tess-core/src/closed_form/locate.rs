@@ -26,11 +26,11 @@
 //! # One patch
 //!
 //! The quad (3, 4.5, 5, 6; 4, 7), fractional even, has 5, 7, 7, 7 points on its edges, and u = 5, v
-//! = 9. Its outer ring has 4 + 6 + 6 + 6 = 22 points, ring 1 has 6 + 2 + 6 + 2 = 16, the centre row
-//! 5. Point 30 is number 8 of the interior. That is ring 1, past the 6 + 2 points of edges 0 and 1:
-//!    the first point of edge 2. The transitions have 10, 8, 12 and 8 triangles, ring 2 has 10, 2,
-//!    10 and 2. Triangle 45 is number 7 after the 38 of the transitions: ring 2, edge 0, step 7.
-//!    The test `the_worked_patch` checks these numbers.
+//! = 9. Its outer ring has 4 + 6 + 6 + 6 = 22 points, ring 1 has 6 + 2 + 6 + 2 = 16, and the centre
+//! row has 5. Point 30 is number 8 of the interior. That is ring 1, past the 6 + 2 points of edges
+//! 0 and 1: the first point of edge 2. The transitions have 10, 8, 12 and 8 triangles, ring 2 has
+//! 10, 2, 10 and 2. Triangle 45 is number 7 after the 38 of the transitions: ring 2, edge 0, step
+//! 7. The test `the_worked_patch` checks these numbers.
 //!
 //! # What holds
 //!

@@ -64,7 +64,7 @@ impl QuadFactors<ProcessedFactor> {
 
 /// Processes the raw factors of one patch. Total: every bit pattern is valid.
 ///
-/// Spec section 3, whose steps the functions below are named after.
+/// The functions below name the steps of spec section 3.
 #[must_use]
 pub fn process(config: Config, raw: PatchFactors) -> ProcessedPatch {
     if is_culled(raw.outer()) {

@@ -118,7 +118,7 @@ impl Stitch {
     /// Sends the steps to `to`, in order.
     pub fn steps(&self, split: SplitOrder, to: impl FnMut(Step)) {
         match self.kind {
-            // An edge of ring 1 has two points less than the inside factor's context.
+            // An edge of ring 1 has two points fewer than the inside factor's context.
             StitchKind::Transition { .. } => {
                 transition(split, self.outer_points, self.inner_points + 2, to);
             }
@@ -175,7 +175,7 @@ impl<F: FnMut(Step)> Walk<F> {
 /// unrelated, so the positions of both half edges are merged. Spec section 7.2.
 ///
 /// `outer_points` and `inside_points` are the `points` of the contexts of the outer factor (2..=65)
-/// and of the inside factor along the same axis (3..=65); the ring's edge has two points less than
+/// and of the inside factor along the same axis (3..=65); the ring's edge has two points fewer than
 /// that. There are `outer_points + inside_points - 4` steps.
 pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: impl FnMut(Step)) {
     let outer_half = outer_points.saturating_sub(1) / 2;
@@ -239,7 +239,7 @@ pub fn ring(inner_points: u32, to: impl FnMut(Step)) {
 pub enum Diagonals {
     /// All forward.
     Forward,
-    /// Forward except middle: that of quad `quads / 2` runs the other way.
+    /// All forward, except that of quad `quads / 2`, which runs the other way.
     ForwardExceptMiddle,
 }
 

@@ -22,12 +22,12 @@
 //! ```
 //!
 //! `a` counts up from the ring's first index, or from its second where the strip runs along u; `b`
-//! counts down from the index before `a(0)`. Both wrap around at the ring's size.
+//! counts down from the index before `a(0)`, modulo the ring's size.
 //!
 //! # What holds
 //!
 //! - `size` is at least 4, the size of the smallest ring that goes round, so `(size - 2) / 4` is
-//!   its middle quad.
+//!   the strip's middle quad.
 //! - All diagonals of a strip along u run the same way. A strip along v whose longer factor is odd
 //!   has its middle quad's diagonal turned (spec section 7.4).
 //! - `t` is below `size - 2`, the number of triangles.

@@ -110,8 +110,8 @@ pub(crate) const fn quad_points_before(inside: &Inside<'_>, ring: u32) -> u32 {
     2 * (ring - 1) * (inside.u.points + inside.v.points - 2 - 2 * ring)
 }
 
-/// The point at a location that [`locate`] gave for this patch; `None` for a location of another
-/// kind of patch.
+/// The point of an origin that [`locate`] gave for this patch; `None` for an origin of another kind
+/// of patch.
 pub(crate) fn point(patch: &ProcessedPatch, location: PointOrigin) -> Option<DomainPoint> {
     match (patch, location) {
         (ProcessedPatch::Minimum(factors), PointOrigin::Corner { corner }) => {

@@ -53,8 +53,8 @@ pub(crate) fn locate(config: Config, patch: &ProcessedPatch, t: u32) -> Primitiv
     }
 }
 
-/// The primitive at a location that [`locate`] gave for this patch; `None` for a location of
-/// another output or kind of patch.
+/// The primitive of an origin that [`locate`] gave for this patch; `None` for an origin of another
+/// output or kind of patch.
 pub(crate) fn primitive(
     config: Config,
     patch: &ProcessedPatch,
@@ -91,7 +91,7 @@ fn isoline_segment(
     Primitive::Line([p, p + 1])
 }
 
-/// The triangle at a location, clockwise.
+/// The triangle of an origin, clockwise.
 fn triangle(config: Config, patch: &ProcessedPatch, location: PrimitiveOrigin) -> Option<[u32; 3]> {
     match (patch, location) {
         (ProcessedPatch::Minimum(factors), PrimitiveOrigin::Minimum { step }) => {

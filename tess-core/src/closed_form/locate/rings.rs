@@ -129,7 +129,7 @@ pub(crate) fn locate<const EDGES: usize>(
     PrimitiveOrigin::Ring { ring, edge, step }
 }
 
-/// The triangle at a location that [`locate`] gave, clockwise; `None` for another kind of location.
+/// The triangle of an origin that [`locate`] gave, clockwise; `None` for another kind of origin.
 pub(crate) fn triangle<const EDGES: usize>(
     patch: &impl ClosedForms<EDGES>,
     split: SplitOrder,

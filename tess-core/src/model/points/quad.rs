@@ -1,5 +1,5 @@
-//! Quad points: the outer ring, the interior rings, then a row of points if one inside factor
-//! is even (spec section 6).
+//! Quad points: the outer ring, the interior rings, then a row of points if the shorter axis is
+//! even (spec section 6).
 
 use crate::model::factor_context::FactorContext;
 use crate::model::factors::ProcessedFactor;
