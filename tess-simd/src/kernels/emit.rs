@@ -177,7 +177,7 @@ pub(crate) struct OneWriters<'a, W, I> {
 }
 
 /// Takes one patch ([`pairs`](crate::stages::packet::pairs)) through the front end, and writes it
-/// if it is compact, not culled, and has room. Indices count from the patch's first point. Returns
+/// if it is compact, not culled, and fits. Indices count from the patch's first point. Returns
 /// whether it was written.
 ///
 /// [`emit`] would give the same output, but sets up state that only large patches use.

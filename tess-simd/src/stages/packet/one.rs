@@ -26,7 +26,7 @@
 //! one_counts             a patch that is only counted: no packet
 //! ```
 //!
-//! All three take the same way: `pairs`, `apart`, `process`. They differ in the result that they
+//! All three take the same path: `pairs`, `apart`, `process`. They differ in the result that they
 //! keep, and one call takes only one of them.
 //!
 //! # What must hold
@@ -259,8 +259,8 @@ mod tests {
         patches
     }
 
-    /// The counts do not depend on the previous patch, even if that was a minimum patch that was
-    /// culled or had other factors.
+    /// The counts do not depend on the previous patch, even if that was culled, or was a minimum
+    /// patch of other factors.
     #[test]
     fn minimum_patches_follow_from_their_factors() {
         use Partitioning::{FractionalEven, FractionalOdd, Integer, Pow2};
