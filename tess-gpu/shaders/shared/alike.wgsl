@@ -10,8 +10,8 @@
 //     tile's patches              first_patch ... last_patch: the blocks between must agree          read here
 //     scratch                     the elements of one patch, at most SCRATCH, or two to an entry     written and read by a tile
 //
-// Element e of the tile stands at position e + before, where `before` counts the elements of the first patch that
-// lie in front of the tile. Its patch is position / size, by a multiplication with the inverse. The quad patch (3,
+// Element e of the tile has position e + before, where `before` counts the elements of the first patch that
+// precede the tile. Its patch is position / size, by a multiplication with the inverse. The quad patch (3,
 // 4.5, 5, 6; 4, 7) has 62 triangles:
 //
 //   size 62, inverse 33826: position 100 is triangle 38 of patch 1
@@ -19,12 +19,12 @@
 // What must hold:
 // - position <= 2046 + size and size <= 640, so that the product stays below 2^32 and the quotient is exact
 //   (src/sizes.rs asserts the sizes, tests/worked.rs divides every position by every size).
-// - Equal topologies have equal triangles always, but equal points only with integer factors or in a minimum patch
+// - Equal topologies always have equal triangles, but equal points only with integer factors or in a minimum patch
 //   (`has_same_points` in shared/point_tile.wgsl).
 // - A culled block has no elements to copy.
 //
-// The simpler form expands each patch. On an H200 it takes 571 microseconds for `uniform-16` instead of 445, and
-// halves the rate of `uniform-1` (docs/experiments.md, variant `no copies` and the table without copies).
+// The simpler form expands each patch. On an H100 it takes 684 microseconds for `uniform-16` instead of 460, and 1.7
+// times as long for `uniform-1` (benches/records: gpu-ablation.json, shaders `no copies`, and gpu-no-copies.json).
 
 struct Repeat {
     topology: vec2<u32>,

@@ -15,8 +15,8 @@ fn process(patch_index: u32) -> Processed {
     return process_quad(outer, raw_factors[at + 2u]);
 }
 
-// Only what later stages read: contexts of regular patches, as many as the domain has factors, and
-// none of integers (see variants/place_evenly.wgsl).
+// Writes the contexts of a regular patch, one for each factor of the domain. Integer factors need
+// none (variants/place_evenly.wgsl).
 fn write_contexts(patch_index: u32, processed: Processed) {
     let at = patch_index;
     let step = job.stride;
@@ -46,7 +46,7 @@ struct BlockSums {
     all: vec2<u32>,
 }
 
-// Processes a block, as tests/twins/block.rs says. Called in uniform control flow by all threads of a workgroup of
+// Processes a block; tests/twins/block.rs is the same in Rust. Called in uniform control flow by all threads of a workgroup of
 // BLOCK.
 fn process_block(block: u32, thread: u32) -> BlockSums {
     let patch_index = block * BLOCK + thread;

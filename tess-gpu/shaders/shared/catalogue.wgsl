@@ -3,7 +3,7 @@
 //
 // Neighbouring patches with different topologies cannot be copied from each other (shared/alike.wgsl), but a batch
 // has few topologies if its factors are small. So each topology gets a slot of a hash table, `list` expands every
-// slot once, and the expansions look elements up. Three entry points use one buffer, one behind the other:
+// slot once, and the expansions look elements up. The entry points use one buffer, one after the other:
 //
 //     word                    what                                    written by      read by
 //     0 .. SLOTS              key of each slot, 0 if free             factors, list   factors, list
@@ -32,8 +32,8 @@
 // - The slot's number travels in bits 14.. of the topology's second word (layout/topology.wgsl), where 0 means
 //   none. A patch without a slot is computed, so a full table costs speed but never a bit.
 //
-// The simpler form computes every patch of such a tile. On an H200 it takes 1047 microseconds for `character`
-// instead of 653, and 656 instead of 552 for `terrain` (docs/experiments.md, variant `no catalogue`).
+// The simpler form computes every patch of such a tile. On an H100 it takes 1053 microseconds for `character`
+// instead of 709, and 655 instead of 584 for `terrain` (benches/records/gpu-ablation.json, shaders `no catalogue`).
 
 // A key has the points along each edge and inside axis, less 2, in 5 bits each, and the state in bits 30..31.
 fn key_of(topology: vec2<u32>) -> u32 {

@@ -10,19 +10,19 @@
 //                of the constant                                   run's constant       places the point
 //
 // A run is a row of points along which one coordinate is constant (stages/points.wgsl). Factors have the
-// specification's order: the outer edges, then inside u and inside v. Form says how the two values become (u, v).
+// specification's order: the outer edges, then inside u and inside v. `form` decides how the two values become (u, v).
 //
-// Point 31 of the quad patch (3, 4.5, 5, 6; 4, 7) lies on ring 1, edge 2, step 1. Inside v, factor 5, places it at
+// Point 31 of the quad patch (3, 4.5, 5, 6; 4, 7) is on ring 1, edge 2, step 1. Inside v, factor 5, places it at
 // position 2; its constant is inside u, factor 4, at ring 1 and measured from the far side:
 //
 //   point 31: 0x001020a5
 //
 // What must hold:
 // - Position fits 7 bits (0..=64), ring 5 bits (0..=31), a factor 3 bits (0..=5).
-// - A description depends on the topology alone. Nothing here reads a context; `context_of` of
+// - A description depends only on the topology. Nothing here reads a context; `context_of` of
 //   variants/no_contexts.wgsl stands in for it when `list` is compiled.
 //
-// The simpler form stores points themselves. It serves integer factors alone, where equal topologies have equal
+// The simpler form stores points themselves. It serves only integer factors, where equal topologies have equal
 // points (`POINT_WORDS` in layout/setup.wgsl is 2 there).
 
 // Point i of a patch that is not culled.

@@ -1,14 +1,14 @@
 // needs: {catalogue}, shared/offsets, layout/setup, shared/tile, layout/topology; bindings: job, offsets, topologies
 // Shared by the tiles of points and of primitives: the patches of a tile, a round at a time.
 //
-// A tile is 2^tile_bits consecutive elements of the output, and `tiles` says with which patch it begins. Its
+// A tile is 2^tile_bits consecutive elements of the output, and `tiles` has the patch that it begins with. Its
 // patches begin at arbitrary elements, so each thread has to find the patch of its element. The workgroup loads up
 // to ROUND patches together, and a thread searches among those.
 //
 //     tile      |<------------------ 2048 elements ------------------>|
 //     patches  ...p|   p+1   |  p+2  | ...                       | p+n ...
 //     begins    -20     23      66     ...      where each patch begins, counted from the tile's base; negative for a
-//                                               patch that begins in front of it
+//                                               patch that begins before it
 //     scratch   topology of each patch          (or, in shared/alike.wgsl, the elements of one patch)
 //     listed    where the patch's elements are in the catalogue, less where they begin; index of its first point
 //
@@ -24,12 +24,13 @@
 // - `begins` is ascending. Culled patches begin where the next one does, and the search takes the last, which has
 //   elements.
 // - Every thread of the workgroup calls `load_round`, because it has barriers.
-// - `load_patch` reads patches of this portion alone: the caller's last_patch comes from the same portion's table.
+// - `load_patch` reads only patches of this portion: the caller's last_patch comes from the same portion's table.
 // - is_listed is the same for all threads, so that a round is looked up or computed as a whole.
 //
 // The simpler form is a loop. naga adds a counter to every loop, which costs more than the steps of a binary search
 // (docs/experiments.md), so the steps are written out. Rounds of 256 patches would need more workgroup memory, so
-// fewer tiles would run at once: 658 microseconds for `terrain` instead of 552, 784 for `character` instead of 653.
+// fewer tiles would run at once: on an H100, 669 microseconds for `terrain` instead of 584, and 819 for `character`
+// instead of 709 (benches/records/gpu-ablation.json).
 
 // Patches of the tile that are expanded together: `count` of them from `first`, and the elements
 // begin..end of the tile, counted from its base, that they have.
@@ -54,7 +55,7 @@ var<workgroup> listed: array<vec2<u32>, ROUND>;
 // Whether the catalogue lacks a patch of the round.
 var<workgroup> is_missing: atomic<u32>;
 
-// Where in the catalogue the elements of a patch are, 0 if nowhere.
+// Where a patch's elements are in the catalogue; 0 if it has none there.
 fn place_of(patch_index: u32, topology: vec2<u32>, kind: u32) -> u32 {
     var slot = listed_slot(topology);
     if slot == 0u {
@@ -128,7 +129,7 @@ fn nearer_patch(found: u32, reach: u32, last: u32, element: u32) -> u32 {
     return select(found, next, begins[next] <= i32(element));
 }
 
-// The same for an element that belongs to patch `number` or to one behind it.
+// The same for an element that belongs to patch `number` or to a later one.
 fn next_patch(round: Round, number: u32, element: u32) -> u32 {
     var found = number;
     while found + 1u < round.count && begins[found + 1u] <= i32(element) {

@@ -29,7 +29,7 @@ fn slots() -> u32 {
     return 1u + job.point_windows + job.primitive_windows;
 }
 
-// None if the output does not fit.
+// The workgroups of a dispatch; none if the output does not fit.
 fn workgroups_of(slot: u32, range: Range, is_overflow: u32) -> u32 {
     if is_overflow != 0u {
         return 0u;
@@ -48,7 +48,7 @@ fn workgroups_of(slot: u32, range: Range, is_overflow: u32) -> u32 {
         slot - 1u - job.point_windows, job.primitive_window_tiles);
 }
 
-// Overflow flags of so many points and primitives, in two words each: bit 0 points, bit 1 indices.
+// Overflow flags of these many points and primitives, in two words each: bit 0 points, bit 1 indices.
 fn overflow(low: vec2<u32>, high: vec2<u32>) -> u32 {
     let points = high.x != 0u || low.x > job.point_capacity;
     let primitives = high.y != 0u || low.y > job.primitive_capacity;

@@ -2,16 +2,16 @@
 // A tile of points: a workgroup writes 2048 consecutive domain points of the batch, or fewer for a short batch. The entry
 // points `expand_points` and `expand_short` call `write_point_tile`.
 //
-// Thread t takes the pair of elements 2t and 2t + 1, then the pair 2 THREADS further on. A point follows from its number
-// alone:
+// Thread t takes the pair of elements 2t and 2t + 1, then the pair 2 THREADS further on. A point follows from only its
+// number:
 //
 //     element --find_patch--> patch --location_of_point--> ring, edge, step --run_at--> run --point_of_run--> u, v
 //
-// A run is a row of points with one coordinate held, so the second point of a pair is its next step, or begins the next
+// A run is a row of points with one constant coordinate, so the second point of a pair is its next step, or begins the next
 // run (`first_run`). Three ways to fill a tile, the first that can be taken:
 //
 //     copy_points           all patches have the same points, at most SCRATCH: one patch is kept in `scratch`, then copied
-//     write_listed_points   every patch of the round is in the catalogue, which has points (integer factors) or codes
+//     write_listed_points   every patch of the round is in the catalogue, which has points (integer factors) or descriptions
 //     write_points          any other points
 //
 // Patches like (3, 4.5, 5, 6; 4, 7) have 43 points each: begins = [0, 43, 86].
@@ -26,7 +26,7 @@
 // - All threads of a workgroup call `write_point_tile`: `load_round` and `copy_points` have barriers.
 //
 // The simpler form, one point for each thread, takes 15 % longer with integer factors; without copies `uniform-16` takes
-// 571 microseconds on an H200 instead of 445 (docs/experiments.md).
+// 684 microseconds on an H100 instead of 460 (docs/experiments.md, benches/records/gpu-ablation.json).
 
 // The patch that points are taken from.
 struct PointSource {
@@ -101,7 +101,7 @@ fn write_points(round: Round, thread: u32, out: u32) {
     }
 }
 
-// The run that an element begins, the one behind a location or the first of a patch.
+// The run that begins with an element: the one after a location, or the first of a patch.
 fn first_run(round: Round, source: PointSource, location: RingLocation, is_next_patch: bool, element: u32) -> PointRun {
     if DOMAIN == ISOLINE {
         return run_at(round, source, RingLocation(0u, 0u, element - source.begin));

@@ -1,7 +1,7 @@
 // needs: nothing
 // Prefix sums within a workgroup of SUMMED threads, which are 256, in a tree of fours.
 
-// Where the sums of 4, 16 and 64 numbers lie, and the sum of all.
+// Where the sums of 4, 16 and 64 numbers are, and the sum of all.
 const FOURS = SUMMED;
 const SIXTEENS = FOURS + SUMMED / 4u;
 const SIXTY_FOURS = SIXTEENS + SUMMED / 16u;
@@ -16,7 +16,7 @@ struct Sums {
     all: vec2<u32>,
 }
 
-// Four numbers to the sums before each, and their whole sum.
+// Replaces four numbers by the sum before each, and stores the sum of all four.
 fn add_four(from_at: u32, to_at: u32) {
     let first = sums[from_at];
     let second = first + sums[from_at + 1u];

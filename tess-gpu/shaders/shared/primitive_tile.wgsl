@@ -2,15 +2,15 @@
 // A tile of primitives: a workgroup writes the indices of 2048 consecutive primitives of the batch, or of fewer for a
 // short batch. The entry points `expand_primitives` and `expand_short` call `write_primitive_tile`.
 //
-// Thread t takes the pair of elements 2t and 2t + 1, then the pair 2 THREADS further on. A primitive follows from its
-// number alone:
+// Thread t takes the pair of elements 2t and 2t + 1, then the pair 2 THREADS further on. A primitive follows from only
+// its number:
 //
 //     element --find_patch--> patch --location_of--> ring, edge, step --stitch_from--> rows --stitch_triangles--> indices
 //
 // The second of a pair is the next step of the same stitch, or begins the next edge or patch (`first_triangle`). Four ways
 // to fill a tile, the first that can be taken:
 //
-//     copy_triangles           all patches alike, of at most 256 triangles: one is kept in `scratch`, then copied
+//     copy_triangles           all patches alike, of at most 2 SCRATCH triangles: one is kept in `scratch`, then copied
 //     write_listed_triangles   every patch of the round is in the catalogue
 //     write_triangles          any other triangles
 //     write_sequences          points and lines
@@ -28,10 +28,10 @@
 //   bits they are three words. Indices are stored in variants/indices_u32.wgsl and variants/indices_u16.wgsl.
 // - An element outside of round.begin..round.end is not written: it is another round's or portion's.
 // - All threads of a workgroup call `write_primitive_tile`: `load_round` and `copy_triangles` have barriers.
-// - In the vertex-cache order the next element is no next step, so `drawn_next` finds it.
+// - In the vertex-cache order the next element may not be the next step, so `drawn_next` finds it.
 //
-// The simpler form computes each triangle. On an H200 `uniform-16` takes 571 microseconds without copies instead of 445,
-// `character` 1047 without the catalogue instead of 653 (docs/experiments.md, "What limits it").
+// The simpler form computes each triangle. On an H100 `uniform-16` takes 684 microseconds without copies instead of 460,
+// `character` 1053 without the catalogue instead of 709 (benches/records/gpu-ablation.json).
 
 // The patch that elements are taken from.
 struct Source {
@@ -93,8 +93,8 @@ fn write_triangles(round: Round, thread: u32, out: u32) {
     }
 }
 
-// The triangle of an element that begins a stitch, the one behind a location or the first of a patch; in the
-// vertex-cache order, of any element.
+// The triangle of an element that begins a stitch: the one after a location, or the first of a patch. In the
+// vertex-cache order, the triangle of any element.
 fn first_triangle(round: Round, before: Source, location: RingLocation, element: u32) -> vec3<u32> {
     var source = before;
     var next = RingLocation(1u, 0u, 0u);
@@ -109,7 +109,7 @@ fn first_triangle(round: Round, before: Source, location: RingLocation, element:
     return stitch_triangles(stitch_from(source, next), next.step).first;
 }
 
-// The location of an element, in the vertex-cache order, behind the one at another location of its patch.
+// In the vertex-cache order, the location of the element after the one at a location of the same patch.
 fn drawn_next(source: Source, location: RingLocation, element: u32) -> RingLocation {
     if source.is_regular {
         let next = drawn_behind(source.rings, location);
@@ -212,7 +212,7 @@ fn kept_index(repeat: Repeat, it: Corner) -> u32 {
     return vertex + select(0u, repeat.base + it.number * repeat.points, NUMBERING == PER_BATCH);
 }
 
-// Two indices at a time, whichever triangles they are of.
+// Writes two indices at a time, even if they belong to two triangles.
 fn copy_triangles(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
     keep_triangles(repeat, thread);
     workgroupBarrier();

@@ -54,7 +54,7 @@ fn entry_of(number: u32, begin: u32, end: u32, kind: u32) -> u32 {
     return patch_of(clamp(element, begin, end - 1u), kind);
 }
 
-// Entry `number` of the table of tiles: those of the points, then those of the primitives.
+// Writes entry `number` of the table of tiles: those of the points, then those of the primitives.
 fn write_entry(number: u32, range: Range) {
     let point_entries = entries(range.points_begin, range.points_end);
     let primitive_entries = entries(range.primitives_begin, range.primitives_end);

@@ -3,13 +3,13 @@
 //
 // The specification walks each ring around the patch, so a vertex is used again only a ring later. This order cuts
 // the rings along each outer edge into columns of COLUMN cells and walks each column inwards.
-// `tess_core::cache_order` says what the order is and has the same functions the other way round; `connect.wgsl`
-// calls this if the setup asks for it.
+// `tess_core::cache_order` defines the order and has the inverse functions; `connect.wgsl` calls this if the setup
+// asks for it.
 //
 //     outer edge   o---o---o---o---o---o---o---o---o     one sector: all stitches along one edge
-//     transition   | / | / | / | / | \ | \ | \ | \ |     (transition_border says where a column begins in it)
+//     transition   | / | / | / | / | \ | \ | \ | \ |     (a column begins in it at transition_border)
 //     ring 1         o---o---o---o---o---o---o
-//     ring 2         | / | / | / | \ | \ | \ |           (ring_border the same for a ring)
+//     ring 2         | / | / | / | \ | \ | \ |           (a column begins in a ring at ring_border)
 //                      o---o---o---o---o
 //                  column 0        | column 1            then the next edge's sector; last, the centre
 //
@@ -27,9 +27,9 @@
 // - The dividend of `transition_border` is below 2^14, so that its multiplication divides exactly.
 // - Only the order changes: each triangle keeps its three indices and their rotation.
 //
-// The specification's order is simpler. Drawn by an H200 it makes 1.504 thousand million triangles a second at
-// factor 64; columns of four make 1.634. Columns of two, three, five or more and strips make less
-// (docs/experiments.md, table orders-h200).
+// The specification's order is simpler. An H200 draws it at 1.504 billion triangles per second at factor 64, and
+// columns of four at 1.634. Columns of other widths gain at most 1 % and lose up to 15 %; strips lose 1 to 8 %
+// (docs/experiments.md, "The order in which triangles are drawn").
 
 // The stitches along one outer edge.
 struct Sector {
@@ -51,7 +51,7 @@ fn sector_of(rings: Rings, edge: u32) -> Sector {
         (0x1fffffu + regular) / regular);
 }
 
-// The sum of the sectors' triangles before this edge, at most EDGES.
+// The triangles of all sectors before that of `edge`, which is at most EDGES.
 fn sectors_before(rings: Rings, edge: u32) -> u32 {
     let end = stitch_ring_end(rings);
     let outer = select(outer_sum(rings, edge), rings.boundary + EDGES, edge == EDGES);
@@ -92,7 +92,7 @@ fn nearer_column(sector: Sector, column: u32, reach: u32, t: u32) -> u32 {
     return column + select(0u, reach, columns_before(sector, column + reach) <= t);
 }
 
-// The location of triangle t of a column, counted from the first behind those of the transition.
+// The location of triangle t of a column, counted from the first after those of the transition.
 fn location_in_column(sector: Sector, column: u32, t: u32) -> RingLocation {
     var ring = 2u;
     if sector.end > 10u {
@@ -112,8 +112,8 @@ fn nearer_in_column(sector: Sector, column: u32, ring: u32, reach: u32, t: u32) 
     return select(ring, next, is_there);
 }
 
-// The triangle behind the one at a location, if that is neither the last of its column nor in the centre; or
-// else its ring is NEVER.
+// The location of the triangle after the one at a location. Its ring is NEVER if that one is the last of its column
+// or in the centre.
 fn drawn_behind(rings: Rings, location: RingLocation) -> RingLocation {
     if location.ring == stitch_ring_end(rings) {
         return RingLocation(NEVER, 0u, 0u);
@@ -138,12 +138,12 @@ fn columns_before(sector: Sector, column: u32) -> u32 {
     return transition_border(sector, column) + borders(sector, sector.end, column);
 }
 
-// Triangles of a column in the rings from 2 to the one before this.
+// Triangles of a column in the rings 2..ring.
 fn rings_before(sector: Sector, column: u32, ring: u32) -> u32 {
     return borders(sector, ring, column + 1u) - borders(sector, ring, column);
 }
 
-// The first step of a stitch that is in a column or behind it.
+// The first step of a stitch that is in a column or a later one.
 fn border(sector: Sector, ring: u32, column: u32) -> u32 {
     if ring == 1u {
         return transition_border(sector, column);

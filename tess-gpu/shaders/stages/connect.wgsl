@@ -30,9 +30,9 @@
 // - `first_of_ring` counts the points of all rings before, as stages/points.wgsl places them.
 // - The last edge of a ring is the one that closes it, in both rows.
 //
-// The simpler form walks the stitches from the patch's first triangle, one thread a patch. It is 1.7 to 12.5 times
-// slower on an H200 (docs/performance.md, table one-thread-h200). A stitch's steps come from a table instead of the
-// specification's cases: transitions, ring stitches and strips then differ in their numbers alone.
+// The simpler form walks the stitches from the patch's first triangle, one thread per patch. It takes 1.7 to 13
+// times as long on an H100 (docs/performance.md, table gpu-one-thread). A stitch's steps come from a table instead of
+// the specification's cases: transitions, ring stitches and strips then differ only in their numbers.
 
 // Where triangle t of a regular patch is, in the order of the setup.
 fn triangle_location(rings: Rings, t: u32) -> RingLocation {
@@ -109,7 +109,8 @@ fn ring_stitch(rings: Rings, location: RingLocation, base: u32) -> Stitch {
         inner_ring, inner_ring + skip - location.edge);
 }
 
-// A stitch between two rings that begin at these vertices, and on them from others on.
+// The stitch between two rows that begin at `outer` and `inner`, on rings that begin at `outer_ring` and
+// `inner_ring`.
 fn rows(
     rings: Rings, ring: u32, edge: u32, size: u32, number: u32,
     outer_ring: u32, outer: u32, inner_ring: u32, inner: u32,
@@ -129,7 +130,7 @@ fn straight(size: u32, number: u32, outer: u32, inner: u32) -> Stitch {
     return Stitch(size, steps_of(number), outer, inner, false, 0u, 0u, 0u, 0u);
 }
 
-// Two triangles of a quad, or one, around their last vertex.
+// The two triangles of a minimum quad, or the one of a minimum triangle, around their last vertex.
 fn minimum_stitch(base: u32) -> Stitch {
     return straight(EDGES - 2u, FAN_STITCH, base, base + EDGES - 1u);
 }

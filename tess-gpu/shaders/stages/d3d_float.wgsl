@@ -1,6 +1,6 @@
 // needs: nothing
-// Comparison, clamping and rounding of binary32 factors by their bits alone. As unsigned numbers,
-// positive floats are in order, and NaN and everything with a sign bit lie above infinity.
+// Comparison, clamping and rounding of binary32 factors by their bits. As unsigned numbers, positive
+// floats are in order, and NaN and everything with a sign bit are above infinity.
 
 const INFINITY = 0x7f800000u;
 

@@ -6,7 +6,7 @@ fn reciprocal(n: u32) -> u32 {
     return tables[RECIPROCALS_AT + n - 1u];
 }
 
-// Half of a factor, with the half step that an odd edge has and factor 1 that counts as even.
+// Half of a factor, rounded up; plus HALF if the edge is odd, or if it is even and the factor is 1.
 fn half_factor(factor: u32, odd: u32) -> u32 {
     let rounded = (factor + 1u) >> 1u;
     return rounded + select(0u, HALF, odd == 1u || rounded == HALF);

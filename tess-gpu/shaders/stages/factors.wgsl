@@ -113,7 +113,7 @@ fn process_quad(raw: vec4<u32>, raw_inside: vec2<u32>) -> Processed {
     return out;
 }
 
-// Step 8, and the points along everything. An unused fourth edge contributes nothing that is read.
+// Step 8, and the numbers of points along all edges and axes. A triangle's fourth edge stays 0.
 fn make_topology(processed: Processed, is_culled: bool, is_minimum: bool) -> vec2<u32> {
     let f = processed.outer;
     let odd = processed.outer_odd;

@@ -1,13 +1,13 @@
 // needs: stages/connect, stages/fixed_point, stages/points, layout/setup; bindings: topologies
-// Random access: any point or primitive of a patch from its number alone, in constant time.
+// Random access: any point or primitive of a patch from its number, in constant time.
 
-// Point i of a patch, which has that many: u and v, 16.16.
+// Point i, which the patch must have: u and v, 16.16.
 fn tess_point(patch_index: u32, i: u32) -> vec2<u32> {
     let run = run_at_point(patch_index, topologies[patch_index], i);
     return point_of_run(run, run.step);
 }
 
-// The same as binary32, exactly: the bits are made of integers.
+// The same as binary32, exactly: integers make the bits.
 fn tess_location(patch_index: u32, i: u32) -> vec2<f32> {
     let point = tess_point(patch_index, i);
     return vec2<f32>(
@@ -16,7 +16,7 @@ fn tess_location(patch_index: u32, i: u32) -> vec2<f32> {
     );
 }
 
-// Primitive t of a patch, which has that many: its 1, 2 or 3 indices.
+// Primitive t, which the patch must have: its 1, 2 or 3 indices.
 fn tess_primitive(patch_index: u32, t: u32) -> vec3<u32> {
     let topology = topologies[patch_index];
     if !IS_TRIANGLES {

@@ -1,7 +1,7 @@
 // needs: layout/packed_context, stages/fixed_point
-// Where a point lies along one dimension (spec section 5).
+// The location of a point along one dimension (spec section 5).
 
-// The location of a position in the first half, or of an even edge's middle up to rounding.
+// The location of a position in the first half; for an even edge's middle, only up to rounding.
 //
 // No overflow: positions are below 33 and reciprocals at most ONE; both places are at most
 // HALF + 10, so the weighted sum, coarse * ONE + (fine - coarse) * fraction modulo 2^32,

@@ -5,7 +5,7 @@
 // constant and the other is placed point by point, so the work that a run shares is done once for it.
 //
 //     RingLocation         which ring, which edge of it, which step on the edge       point_location
-//       -> RunShape        which factor places it, from which position, up or down    shape_of: topology alone
+//       -> RunShape        which factor places it, from which position, up or down    shape_of: reads the topology
 //       -> PointRun        the constant's value and the context                       run_of: reads contexts
 //       -> (u, v)          one `place` for each point                                 point_of_run
 //
@@ -23,7 +23,7 @@
 //   point 31: ring 1, edge 2, step 1
 //   fixed 0x10000 - 0x4000 = 0xc000, q 0x4aab
 //
-// Edge 2 of ring 1 lies one position from u = 1, which inside u places at 0x4000; inside v places step 1 at
+// Edge 2 of ring 1 is one position from u = 1, which inside u places at 0x4000; inside v places step 1 at
 // position 2.
 //
 // What must hold:
@@ -31,8 +31,8 @@
 // - shape_of reads no context, so that shared/described.wgsl can keep its answer for any patch of the topology.
 // - `place_before_middle` serves constants, because a ring is never beyond the middle.
 //
-// The simpler form walks the patch from its first point, which gives each patch one thread. It is 1.7 to 12.5 times
-// slower on an H200 (docs/performance.md, table one-thread-h200).
+// The simpler form walks the patch from its first point, which gives each patch one thread. It takes 1.7 to 13
+// times as long on an H100 (docs/performance.md, table gpu-one-thread).
 
 // How a run's two numbers become a point: `fixed` is its constant, `q` the placed location.
 const FORM_FIXED_Q = 0u;
@@ -82,7 +82,7 @@ fn inside_context(axes: PatchAxes, factor: u32) -> vec2<u32> {
     return select(axes.along_v, axes.along_u, factor == EDGES);
 }
 
-// A run before its contexts are known: it depends on the topology alone.
+// A run before its contexts are known: it depends only on the topology.
 struct RunShape {
     size: u32,
     form: u32,
@@ -98,7 +98,8 @@ struct RunShape {
 struct Constant {
     factor: u32,
     ring: u32,
-    // Measured from the far side of a quad; in the centre, where the factors don't matter.
+    // Whether it is measured from the far side of a quad, and whether it is in the centre, where the
+    // factors don't matter.
     is_far: bool,
     is_centre: bool,
 }
@@ -130,7 +131,7 @@ fn shape_of(rings: Rings, location: RingLocation) -> RunShape {
     let ring = location.ring;
     let is_outer = ring == 0u;
     let is_centre = ring == point_ring_end(rings);
-    // A row in the centre lies along the longer axis, as edge 0 or 1 do.
+    // A row in the centre runs along the longer axis, like edge 0 or 1.
     let edge = select(location.edge, select(0u, 1u, rings.u > rings.v), is_centre);
     let points = select(along_of(rings, edge), outer_of(rings, edge), is_outer);
     let last = points - 1u - ring;
@@ -206,7 +207,8 @@ fn corner(fixed: u32, number: u32) -> vec2<u32> {
 
 // Point `step` of a run: u and v, 16.16.
 //
-// On triangles locations along a ring's edge move back by half of its distance from the edge.
+// On triangles, locations along an edge of a ring move back by half of the ring's distance from the
+// patch's edge.
 fn point_of_run(run: PointRun, step: u32) -> vec2<u32> {
     let fixed = run.fixed;
     if run.form == FORM_CORNER {

@@ -1,5 +1,5 @@
 // needs: layout/setup, layout/topology
-// The rings of a regular triangle or quad patch: what all of its elements have in common.
+// The rings of a regular triangle or quad patch: the numbers that all of its elements share.
 
 struct Rings {
     // Points along each outer edge, as in the topology.
@@ -67,7 +67,8 @@ fn stitch_ring_end(rings: Rings) -> u32 {
     return (rings.short + 1u) >> 1u;
 }
 
-// The last k in 0..=end with k * (form - scale * k) <= goal; that grows in k up to `end`, at most 31.
+// The last k in 0..=end with k * (form - scale * k) <= goal. The product grows with k up to `end`, which is at
+// most 31.
 fn last_before(goal: u32, end: u32, form: u32, scale: u32) -> u32 {
     var k = 0u;
     if end > 3u {
@@ -85,21 +86,21 @@ fn nearer_ring(k: u32, reach: u32, goal: u32, end: u32, form: u32, scale: u32) -
 }
 
 // Step `step` along edge `edge` of a ring: a point, or a triangle between that ring and the one
-// outside of it. The ring one behind the last has the centre.
+// outside of it. The centre counts as the ring after the last.
 struct RingLocation {
     ring: u32,
     edge: u32,
     step: u32,
 }
 
-// The location of element `rest` of a ring whose edges have these many elements; edge 2 as many as
-// edge 0, edge 3 as edge 1.
+// The location of element `rest` of a ring. Edges 0 and 2 have `size_0` elements each, edges 1 and 3
+// `size_1`.
 fn location_on_ring(ring: u32, rest: u32, size_0: u32, size_1: u32) -> RingLocation {
     return location_on_edges(ring, rest, size_0, size_0 + size_1, size_0);
 }
 
-// The location of element `rest` of a ring on which edge 1 and 2 begin at these, and edge 3 `size_2`
-// behind edge 2.
+// The location of element `rest` of a ring. Edge 1 begins at `begin_1`, edge 2 at `begin_2`, and edge 3
+// `size_2` elements later.
 fn location_on_edges(ring: u32, rest: u32, begin_1: u32, begin_2: u32, size_2: u32) -> RingLocation {
     let is_high = rest >= begin_2;
     let low = rest - select(0u, begin_2, is_high);

@@ -1,18 +1,18 @@
 // needs: nothing; bindings: tables
 // The triangles between two rows of vertices (spec sections 7.2 to 7.4). Every triangle of a patch
-// is one: transitions, ring stitches and the strips in the centre differ in their rows and in
-// their steps, which a table has (src/tables.rs).
+// is a step of a stitch. Transitions, ring stitches and the strips in the centre differ only in their
+// rows and in their steps, which are in a table (src/tables.rs).
 
 struct Stitch {
-    // Its triangles.
+    // The number of its triangles.
     size: u32,
     // Where its steps are in the tables.
     steps_at: u32,
     // The first vertex of each row; vertex k is k further, unless a row turns.
     outer: u32,
     inner: u32,
-    // Whether a row closes its ring or walks back over it. Then its vertices from `turn` on are
-    // taken from `mirror`.
+    // Whether a row closes its ring or walks back over it. Then a vertex at or after the row's turn is
+    // replaced: by the row's mirror minus the vertex.
     turns: bool,
     outer_turn: u32,
     outer_mirror: u32,
@@ -46,7 +46,7 @@ struct Pair {
 }
 
 // Triangles `number` and `number` + 1 of a stitch; `second` is meaningless for the last triangle. A step
-// stands on one vertex of each row, `a` and `b`, and advances along one of them.
+// begins at one vertex of each row, `a` and `b`, and advances along one of the rows.
 fn stitch_triangles(stitch: Stitch, number: u32) -> Pair {
     let steps = tables[stitch.steps_at + number];
     let first_inner = (steps & 0x80u) != 0u;
