@@ -17,7 +17,7 @@ struct DrawIndexed {
     first_instance: u32,
 }
 
-// The first index of a patch of this portion; behind the portion, the end of its indices.
+// The first index of a patch of this portion; past the portion, the end of its indices.
 fn first_index_of(patch_number: u32) -> u32 {
     let patch_index = patch_number - job.first_patch;
     if patch_index >= job.patches {

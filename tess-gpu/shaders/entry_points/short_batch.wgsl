@@ -1,5 +1,6 @@
 // needs: shared/block, shared/finish, layout/setup, shared/tile_size
-// A short batch, of up to 1024 patches with little output: one workgroup does everything in front of the expansion.
+// A short batch, of up to 1024 patches with little output: one workgroup does everything that precedes the
+// expansion.
 //
 // A long batch runs `factors`, `scan`, `totals` and `partition` here, four dispatches that each wait for the one
 // before. Their work for a short batch takes less time than their beginning, so one workgroup of 256 threads does
@@ -69,7 +70,7 @@ fn short_batch(@builtin(local_invocation_index) thread: u32) {
         write_draw(sum.y, is_overflow);
     }
     if is_overflow == 0u && last != NEVER {
-        // Behind the last tile: the patch of the last element.
+        // After the last tile: the patch of the last element.
         if last_end.x == sum.x {
             tiles[tile_end(sum.x)] = last;
         }

@@ -1,6 +1,6 @@
 // needs: shared/finish, shared/prefix_sum, layout/setup
-// One workgroup, one thread per section. Behind the last portion follows what depends on the totals
-// (shared/finish.wgsl).
+// One workgroup, one thread per section. After the last portion it also does the work that depends on
+// the totals (shared/finish.wgsl).
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read_write> offsets: array<vec2<u32>>;

@@ -19,7 +19,7 @@ fn inv_floor_of(context: vec2<u32>) -> u32 {
     return context.x & 0x1ffffu;
 }
 
-// The top bit is left out: inv_ceil is ONE for factor 1 alone, where it multiplies position 0.
+// The top bit is left out: inv_ceil is ONE only for factor 1, where it multiplies position 0.
 fn inv_ceil_of(context: vec2<u32>) -> u32 {
     return context.y & 0xffffu;
 }

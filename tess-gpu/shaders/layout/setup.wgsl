@@ -1,6 +1,6 @@
 // needs: nothing
-// Values that every entry point agrees on. `Setup::prelude` in src/setup.rs writes constants in front of this file, so that
-// no number stands in both languages: the setup (DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT, NUMBERING, FACTORS,
+// Values that every entry point agrees on. `Setup::prelude` in src/setup.rs writes constants before this file, so that
+// no number is written in both languages: the setup (DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT, NUMBERING, FACTORS,
 // COPIES, ORDER) and the values that these can have (ISOLINE, TRIANGLE, QUAD and so on); the sizes of src/sizes.rs; the
 // places in the tables of src/tables.rs; and SCRATCH and THREADS for the entry points that expand.
 
@@ -24,8 +24,8 @@ const EDGES = select(3u, 4u, DOMAIN == QUAD);
 const IS_TRIANGLES = DOMAIN != ISOLINE && OUTPUT >= OUTPUT_TRIANGLE_CW;
 const INDICES = select(select(2u, 3u, IS_TRIANGLES), 1u, OUTPUT == OUTPUT_POINT);
 
-// One portion of a batch and one window of its output: the host's `layout::Job`, which says what each
-// member means.
+// One portion of a batch and one window of its output: the host's `layout::Job`, which explains each
+// member.
 struct Job {
     patches: u32,
     first_patch: u32,
@@ -49,7 +49,7 @@ struct Job {
     has_catalogue: u32,
 }
 
-// Where a portion's output lies within the batch's.
+// Where a portion's output is within the batch's.
 struct Range {
     points_begin: u32,
     points_end: u32,
@@ -57,7 +57,7 @@ struct Range {
     primitives_end: u32,
 }
 
-// The host's `layout::Status`, with the range of each portion behind it.
+// The host's `layout::Status`, with the range of each portion after it.
 struct Status {
     // The batch's needs, low and high words.
     points: u32,

@@ -1,6 +1,6 @@
 // needs: nothing
 // Indices of 16 bits, two in a word. The two elements of a pair, which can share a word, are written
-// by one thread, or by one dispatch behind another: so half a word can be replaced.
+// by one thread, or by one dispatch after another, so half a word can be replaced.
 
 @group(0) @binding(6) var<storage, read_write> indices_out: array<u32>;
 

@@ -1,5 +1,5 @@
 // needs: stages/fixed_point; bindings: tables
-// Where a point lies along one dimension (spec section 5) if factors are integers: then nothing
+// The location of a point along one dimension (spec section 5) if factors are integers: then nothing
 // has to be stored, as a context is the number of segments and its reciprocal.
 
 fn context_of(patch_index: u32, factor: u32, points: u32) -> vec2<u32> {
