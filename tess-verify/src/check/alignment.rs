@@ -36,7 +36,7 @@ pub(super) enum Pairing {
 /// asked cases.
 type Bits = Vec<u64>;
 
-/// The smallest number of pairings that explain `answers` to the `asked` cases. Where there is a
+/// The pairings that explain `answers` by the `asked` cases with the fewest edits. Where there is a
 /// choice, an answer takes the place of the next case. With `whole`, every case that is left over
 /// is missing. Otherwise cases after the last answer cost nothing, because their answers are still
 /// to come.

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! asked    A B C D E      A is answered. C is not the next one: the answers and cases ahead are read, and
-//! answers  A C D E        the shortest explanation is that B is missing and everything behind it is in step
+//! answers  A C D E        the shortest explanation is that B is missing and everything after it is in step
 //! ```
 //!
 //! While answers are in step, nothing is read ahead. Where they are not, at most [`WINDOW`] answers

@@ -133,8 +133,8 @@ fn other_factors(case: &Case) -> Vec<Case> {
     let with = |factors| Case { factors, ..*case };
     let uniform = |factor| with(PatchFactors::uniform(case.domain(), factor));
     let outer = case.domain().outer_factors();
-    // Every factor becomes positive; the smallest positive one is raised to the lower end of the
-    // range.
+    // A factor that is not positive becomes the smallest positive number, which is raised to the
+    // lower end of the range.
     let above_zero = |factor: f32| if factor > 0.0 { factor } else { f32::from_bits(1) };
     let raised = |inside: u32| {
         with(PatchFactors::from_fn(case.domain(), |position| {

@@ -1,7 +1,7 @@
 //! Known differences: a baseline of documented deviations, which are not mismatches.
 //!
 //! ```text
-//! # remarks, and cases that may differ in any way and for ever
+//! # remarks, and cases that may differ in any way, forever
 //! case isoline integer line ruler 3f800000 40000000
 //! # SUBJECT | what is expected, * for anything | owner | last day | reason
 //! case isoline integer line ruler 3f800000 40400000 | missing | ada | 2027-06-30 | culls density 1

@@ -11,8 +11,8 @@ use tess_core::{Domain, FixedFactor, Parity, Partitioning, PatchFactors};
 /// The 64 patches of row `row` (1..=64) of a systematic sweep.
 ///
 /// - Isoline: density `row`, detail 1..=64.
-/// - Triangle: inside factor 1..=64, and outer factors that vary with both.
-/// - Quad: inside factors (`row`, 1..=64), and outer factors likewise.
+/// - Triangle: inside factor 1..=64, and outer factors that vary with `row`.
+/// - Quad: inside factors (`row`, 1..=64), and outer factors that vary with both.
 ///
 /// The factors of fractional triangles and quads are 0.25 and 0.625 below these integers.
 #[must_use]

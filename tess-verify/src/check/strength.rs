@@ -2,7 +2,7 @@
 //!
 //! The model is exact, but the public specification leaves hardware some freedom. [`Strength`]
 //! selects which freedoms count as equal. `check::device` compares each answer of a device at a
-//! strength, and [`super::Way`] tries stronger and weaker ones to explain a difference.
+//! strength, and [`super::Way`] tries weaker ones to explain a difference.
 //!
 //! ```text
 //!  case ──► Alternatives ──► cases with each legal conversion ──► model ──► expected outputs
@@ -15,9 +15,9 @@
 //!
 //! # A worked patch
 //!
-//! `QUAD` has one outer factor of 3 + 2^-17. Multiplied by 65536 that is 196608.5, halfway between
-//! `0x30000` and `0x30001`. The model takes the even number; a device that converts within 0.6
-//! units may take either.
+//! The quad below has one outer factor of 3 + 2^-17. Multiplied by 65536 that is 196608.5, halfway
+//! between `0x30000` and `0x30001`. The model takes the even number; a device that converts within
+//! 0.6 units may take either.
 //!
 //! ```
 //! use tess_verify::Case;

@@ -45,7 +45,7 @@ pub(super) fn bins(domain: Domain, partitioning: Partitioning) -> Vec<String> {
     bins
 }
 
-/// Sends the bins of thresholds that the case is next to to `hit`. `factors` are the processed
+/// Sends to `hit` the bins of thresholds that the case is next to. `factors` are the processed
 /// factors; `None` for a culled patch.
 pub(super) fn observe(
     case: &Case,

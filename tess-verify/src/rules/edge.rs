@@ -132,7 +132,7 @@ pub(super) fn shorter(line: &Line) -> Option<u32> {
 }
 
 /// Each outer edge has both of its ends, and the mirror image of each of its vertices. Isolines
-/// have the mirror image of each vertex at u = 0, except of the one at v = 0.
+/// have the mirror image of each vertex at u = 0, except that of the one at v = 0.
 pub(super) fn symmetric(answer: &Answer, specification: Specification) -> Judged {
     let domain = answer.case.domain();
     if answer.is_empty() || may_touch_outline(&answer.case, specification) {

@@ -40,7 +40,7 @@ impl Level {
         }
     }
 
-    /// The clamped level, rounded up to an integer of the spacing's parity, if that has one. An
+    /// The clamped level, rounded up to an integer of the spacing's parity, if it has one. An
     /// inner level of 1 counts as the next higher number, because the patch has an inside.
     #[expect(
         clippy::cast_possible_truncation,

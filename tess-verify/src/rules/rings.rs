@@ -11,7 +11,7 @@
 //!                                               places inside: 9 + 3
 //!        u=0 ╱╲ w=0
 //!           ╱──╲      ring r has n - 2r segments on each edge, so 3(n - 2r) vertices;
-//!          ╱╲  ╱╲     for even n the last one is a vertex, the centre
+//!          ╱╲  ╱╲     for even n the last ring is one vertex, the centre
 //!         ╱──╲╱──╲
 //!            v=0
 //! ```
