@@ -1,4 +1,4 @@
-//! Prints the signals behind one patch: processed factors, factor contexts, and one placement.
+//! Prints the signals of one patch: processed factors, factor contexts, and one placement.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use tess_core::{Config, OutputPrimitive, Partitioning, Patch, QuadFactors, place};

@@ -8,7 +8,7 @@ pub(crate) fn main() {
     let patch = Patch::new(config, QuadFactors::uniform(64.0));
     let counts = patch.counts();
 
-    // Each thread of a parallel implementation computes one element from its number alone.
+    // Each thread of a parallel implementation computes one element from only its number.
     for number in [0, counts.points / 2, counts.points - 1] {
         let point = patch.point(number).expect("the patch has this point");
         let origin = patch.locate_point(number).expect("the patch has this point");

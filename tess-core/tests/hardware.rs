@@ -159,7 +159,7 @@ fn ring_locations_have_the_widths_that_the_specification_says() {
     expect_row(&shift.row("shift"));
 }
 
-/// 14.2: where each interior ring begins, from the counts alone.
+/// 14.2: where each interior ring begins, from only the counts.
 fn first_of_ring(domain: Domain, [n_u, n_v]: [u32; 2], outer: u32, ring: u32) -> u32 {
     let before = ring - 1;
     match domain {

@@ -139,7 +139,7 @@ pub(crate) fn encode(
     }
 }
 
-/// The words of a whole buffer, behind all that was submitted.
+/// The words of a whole buffer, after everything that was submitted.
 pub(crate) fn read(
     (device, queue): &(wgpu::Device, wgpu::Queue),
     buffer: &wgpu::Buffer,

@@ -2,7 +2,7 @@
 //! that it counts.
 //!
 //! ```text
-//! asked    A B C D E        A is answered; B is missing; C is answered; X stands in the place of D; E is answered;
+//! asked    A B C D E        A is answered; B is missing; C is answered; X takes the place of D; E is answered;
 //! answers  A C X E E        the second E is one too many: three edits, and no other explanation has fewer
 //! ```
 //!
