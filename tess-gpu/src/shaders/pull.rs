@@ -57,7 +57,7 @@ impl Pull {
     /// ([`crate::Plan::writing`]).
     ///
     /// In addition to [`Pull::source`], it declares `job` in every setup, and the storage buffers
-    /// `offsets` and `tiles`. It also offers
+    /// `offsets` and `tiles`. It also offers:
     /// - `tess_point_at(i) -> vec2<u32>`: the patch of point `i` of the batch, and the point's
     ///   number within the patch,
     /// - `tess_primitive_at(t) -> vec2<u32>`: the same for primitive `t` of the batch.

@@ -28,8 +28,8 @@ pub trait IndexFormat: sealed::Index + Copy + Default + Send + Sync + 'static {
     /// The largest index.
     const LARGEST: u64;
 
-    /// The number of points that can be numbered from 0 without the largest index: 65 535, or 2^32
-    /// - 1.
+    /// The number of points that can be numbered from 0 without the largest index: 65 535, or
+    /// 2^32 - 1.
     const POINTS_WITHOUT_RESTART: u64 = Self::LARGEST;
 
     /// The index, modulo 2^16 or 2^32.
