@@ -272,7 +272,7 @@ impl FactorRule {
     }
 }
 
-/// The least power of two that is not less than `factor`, for factors 1..=64.
+/// The smallest power of two that is not below `factor`, for factors 1..=64.
 fn next_power_of_two(factor: f32) -> f32 {
     [1.0, 2.0, 4.0, 8.0, 16.0, 32.0].into_iter().find(|&power| power >= factor).unwrap_or(64.0)
 }

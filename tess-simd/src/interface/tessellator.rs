@@ -131,7 +131,7 @@ impl Tessellator {
     /// times as long, unless they have the same point counts as the previous large patch.
     pub fn set_order(&mut self, order: Order) {
         self.settings.order = order;
-        // The templates have their triangles in the order before.
+        // The templates have their triangles in the previous order.
         self.workspaces.forget();
         self.reserve_as_before();
     }
