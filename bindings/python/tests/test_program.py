@@ -61,7 +61,7 @@ def test_values_are_those_of_the_explanation(patch: Patch) -> None:
         assert told["fixed"]["bits"] == factor.fixed
         assert told["parity"] == factor.parity
         context = {**told["context"]}
-        del context["visited_positions"]
+        del context["half_steps"]
         assert context == {key: value for key, value in factor.context._asdict().items() if key != "parity"}
 
 

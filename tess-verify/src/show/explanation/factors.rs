@@ -79,7 +79,7 @@ pub(super) struct Context {
     pub(super) inv_floor: u32,
     pub(super) inv_ceil: u32,
     pub(super) points: u32,
-    pub(super) visited_positions: u32,
+    pub(super) half_steps: u32,
 }
 
 impl From<&FactorContext> for Context {
@@ -91,7 +91,7 @@ impl From<&FactorContext> for Context {
             inv_floor: context.inv_floor,
             inv_ceil: context.inv_ceil,
             points: context.points,
-            visited_positions: context.visited_positions(),
+            half_steps: context.visited_positions(),
         }
     }
 }

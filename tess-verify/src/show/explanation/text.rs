@@ -41,7 +41,7 @@ impl PatchReport {
                 "fraction",
                 "inv_floor",
                 "inv_ceil",
-                "visited_positions"
+                "half_steps"
             )?;
             self.factors.iter().try_for_each(|factor| write_context(f, factor))?;
         }
@@ -106,7 +106,7 @@ fn write_context(f: &mut fmt::Formatter<'_>, factor: &FactorReport) -> fmt::Resu
         format!("{:04x}", c.fraction),
         format!("{:05x}", c.inv_floor),
         format!("{:05x}", c.inv_ceil),
-        c.visited_positions
+        c.half_steps
     )
 }
 
