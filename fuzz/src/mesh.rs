@@ -9,7 +9,7 @@ pub mod obj;
 pub mod seeds;
 
 use crate::fault_is_planted;
-use tess_surface::{MeshError, FaceError, Model, PolygonMesh, Style};
+use tess_surface::{FaceError, MeshError, Model, PolygonMesh, Style};
 
 /// Checks one file: `names_a_place` judges the message of a refusal, and `independent` reads the
 /// file again.

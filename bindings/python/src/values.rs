@@ -19,7 +19,8 @@ pub(crate) fn value<'py>(
 
 pub(crate) fn context<'py>(py: Python<'py>, c: &FactorContext) -> PyResult<Bound<'py, PyAny>> {
     let parity = c.parity.name();
-    let elements = (parity, c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split_position, c.points);
+    let elements =
+        (parity, c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split_position, c.points);
     value(py, "FactorContext", elements)
 }
 

@@ -22,8 +22,7 @@ pub fn check(data: &[u8]) -> Result<(), String> {
 
 /// A part of the binary form, a JSON path, or the line of a text that is not JSON.
 fn names_a_place(message: &str) -> bool {
-    const MEMBERS: &str =
-        "asset extensionsUsed extensionsRequired scenes scene nodes meshes accessors bufferViews \
+    const MEMBERS: &str = "asset extensionsUsed extensionsRequired scenes scene nodes meshes accessors bufferViews \
          buffers skins animations";
     let place = message.split(": ").next().unwrap_or_default();
     let is_path = MEMBERS.split(' ').any(|name| {
@@ -197,7 +196,8 @@ impl File {
         let vector = |xyz: &Vec<f64>| Vec3::new(xyz[0] as f32, xyz[1] as f32, xyz[2] as f32);
         let own = self.accessor(index(&primitive["attributes"][name])?)?;
         let mut vectors: Vec<Vec3> = own.iter().map(vector).collect();
-        for (target, &weight) in list(&primitive["targets"]).iter().zip(weights.unwrap_or_default()) {
+        for (target, &weight) in list(&primitive["targets"]).iter().zip(weights.unwrap_or_default())
+        {
             let Some(by) = index(&target[name]).filter(|_| weight != 0.0) else { continue };
             for (vector, by) in vectors.iter_mut().zip(self.accessor(by)?.iter().map(vector)) {
                 *vector += by * weight;
@@ -237,7 +237,9 @@ impl File {
         let triangles: Vec<[usize; 3]> = match mode {
             4 => indices.as_chunks().0.to_vec(),
             5 => {
-                let odd = |k: usize, [a, b, c]: [usize; 3]| if k % 2 == 0 { [a, b, c] } else { [a, c, b] };
+                let odd = |k: usize, [a, b, c]: [usize; 3]| {
+                    if k % 2 == 0 { [a, b, c] } else { [a, c, b] }
+                };
                 let windows = indices.array_windows().enumerate();
                 windows.map(|(k, &triangle)| odd(k, triangle)).collect()
             }
@@ -280,7 +282,8 @@ impl File {
         let sparse = &accessor["sparse"];
         for k in 0..index(&sparse["count"]).unwrap_or(0) {
             let indices = &sparse["indices"];
-            let at = self.element(indices, index(&indices["componentType"])? as u64, false, 1, k)?[0];
+            let at =
+                self.element(indices, index(&indices["componentType"])? as u64, false, 1, k)?[0];
             elements[at as usize] =
                 self.element(&sparse["values"], kind, normalized, components, k)?;
         }

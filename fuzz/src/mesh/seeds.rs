@@ -205,7 +205,8 @@ pub fn gltf() -> Vec<Vec<u8>> {
         })
     };
     let quantized = small().with(|b| {
-        let number = b.accessor(&[1, 2, 255, 0, 3, 4, 5, 0, 6, 128, 8, 0, 9, 9, 1, 0], 5120, "VEC3", 4);
+        let number =
+            b.accessor(&[1, 2, 255, 0, 3, 4, 5, 0, 6, 128, 8, 0, 9, 9, 1, 0], 5120, "VEC3", 4);
         let view = b.document["accessors"][number]["bufferView"].as_u64().unwrap_or(0) as usize;
         b.document["bufferViews"][view]["byteStride"] = json!(4);
         b.document["accessors"][number]["normalized"] = json!(true);
