@@ -85,18 +85,9 @@ pub(super) fn rows(block: StageBlock, cases: impl Iterator<Item = Case>) -> BTre
             StageBlock::Factors => {
                 rows.insert(factors(&case));
             }
-            StageBlock::Context => rows.extend(contexts(&case).map(|(input, context)| {
-                let FactorContext {
-                    inv_floor,
-                    inv_ceil,
-                    fraction,
-                    half_points,
-                    split_position,
-                    points,
-                    ..
-                } = context;
-                let numbers = [inv_floor, inv_ceil, fraction, half_points, split_position, points];
-                [&input[..], &numbers].concat()
+            StageBlock::Context => rows.extend(contexts(&case).map(|(input, c)| {
+                let lengths = [c.inv_floor, c.inv_ceil, c.fraction];
+                [&input[..], &lengths, &[c.half_points, c.split_position, c.points]].concat()
             })),
             StageBlock::Place => rows.extend(contexts(&case).flat_map(|(input, context)| {
                 let row = move |p| [&input[..], &[p, place(&context, p).to_bits()]].concat();

@@ -11,7 +11,7 @@ pub(super) struct Campaign {
     /// The first report, with which all others must agree.
     pub(super) sample: Report,
     /// Every shard by its number, from 1. It is proved by a single report, of a run that ended.
-    pub(super) shards: BTreeMap<u64, Shard>,
+    pub(super) shards: BTreeMap<u64, ShardReports>,
     /// The place of each report of another campaign, and how it differs from the first report.
     pub(super) strangers: Vec<(String, String)>,
     /// The sums over all shards that ended: cases and mismatches, also by stage and by part, and
@@ -21,7 +21,7 @@ pub(super) struct Campaign {
 
 /// The reports of a shard.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Shard(Vec<FoundReport>);
+pub(super) struct ShardReports(Vec<FoundReport>);
 
 /// Everything in which the reports of a campaign must agree, by name.
 fn identity(report: &Report) -> BTreeMap<String, String> {
@@ -59,7 +59,7 @@ fn strangeness(report: &Report, usual: &BTreeMap<String, String>, place: &str) -
     Some(format!("{name} is {own}; in {place} it is {usual}"))
 }
 
-impl Shard {
+impl ShardReports {
     /// The report, if it proves the shard. Errors: why it does not, such as `is missing`.
     pub(super) fn proof(&self) -> Result<&FoundReport, String> {
         let [one] = &*self.0 else {
@@ -96,8 +96,8 @@ impl Campaign {
             return Err(Failure::bad_input("there is no report to merge"));
         };
         let usual = identity(&sample);
-        let mut shards: BTreeMap<u64, Shard> =
-            (1..=sample.shards).map(|number| (number, Shard::default())).collect();
+        let mut shards: BTreeMap<u64, ShardReports> =
+            (1..=sample.shards).map(|number| (number, ShardReports::default())).collect();
         let mut strangers = Vec::new();
         let mut baselines = BTreeMap::new();
         for found in reports {
@@ -108,7 +108,7 @@ impl Campaign {
                 None => shards.entry(found.report.shard).or_default().0.push(found),
             }
         }
-        let sum = added_up(shards.values().filter_map(Shard::ended).map(|one| &one.report));
+        let sum = added_up(shards.values().filter_map(ShardReports::ended).map(|one| &one.report));
         Ok(Self { sample, shards, strangers, sum })
     }
 
@@ -124,7 +124,7 @@ impl Campaign {
         let mut digests = BTreeSet::new();
         let mut gone = BTreeSet::new();
         let mut sum = KnownCases::default();
-        let ended = self.shards.values().filter_map(Shard::ended);
+        let ended = self.shards.values().filter_map(ShardReports::ended);
         for known in ended.filter_map(|one| one.report.known.as_ref()) {
             if digests.insert(&known.digest) {
                 sum.entries = sum.entries.saturating_add(known.entries);

@@ -1,6 +1,6 @@
 //! A campaign as text and as `JUnit` XML.
 
-use super::campaign::{Campaign, Shard};
+use super::campaign::{Campaign, ShardReports};
 use super::read::FoundReport;
 use crate::campaign::junit::{JunitCase, JunitSuite, Outcome, seconds};
 use crate::campaign::report::Report;
@@ -16,7 +16,7 @@ pub(super) fn text(campaign: &Campaign) -> String {
         options.iter().map(|(name, values)| format!(" {name}={}", values.join(","))).collect();
     _ = writeln!(text, "tess {command}:{options}\ntess {version}, commit {commit}");
     table(&mut text, campaign);
-    for FoundReport { place, report } in campaign.shards.values().filter_map(Shard::ended) {
+    for FoundReport { place, report } in campaign.shards.values().filter_map(ShardReports::ended) {
         let Report { shard, shards, cases, mismatches, .. } = report;
         if *mismatches > 0 {
             _ = writeln!(text, "shard {shard}/{shards} differs: {mismatches} of {cases} ({place})");
@@ -66,8 +66,8 @@ fn faults(text: &mut String, campaign: &Campaign) -> usize {
             once += 1;
             continue;
         };
-        let places = Some(found.places()).filter(|places| !places.is_empty());
-        let places = places.map(|places| format!(" ({places})")).unwrap_or_default();
+        let places = found.places();
+        let places = if places.is_empty() { places } else { format!(" ({places})") };
         _ = writeln!(text, "shard {number}/{shards} {what}{places}");
     }
     if once < campaign.shards.len() {
@@ -99,7 +99,7 @@ pub(super) fn junit(campaign: &Campaign) -> String {
         milliseconds,
         outcome,
     };
-    let of_shard = |(number, shard): (&u64, &Shard)| {
+    let of_shard = |(number, shard): (&u64, &ShardReports)| {
         let (milliseconds, outcome) = match shard.proof() {
             Ok(FoundReport { report, .. }) => {
                 let counts = (report.mismatches, report.cases);
