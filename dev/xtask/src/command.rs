@@ -1,5 +1,6 @@
 //! Runs programs in the workspace; each one is printed before it runs.
 
+use crate::setup;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -90,6 +91,8 @@ pub(crate) fn lock_versions(root: &Path, separate: &str) -> Result<(), String> {
 pub(crate) fn this(arguments: &[&str]) -> Result<Command, String> {
     let own = std::env::current_exe().map_err(|error| format!("this program: {error}"))?;
     let mut command = Command::new(own);
+    // The person who can answer has answered this process.
+    command.arg(if setup::installs() { setup::YES } else { setup::NO_INSTALL });
     command.args(arguments).current_dir(workspace());
     Ok(command)
 }

@@ -7,11 +7,7 @@ use std::process::{Command, Stdio};
 
 /// The needs of `cargo xtask test`.
 pub(super) const COMPARISONS: &[Need] = &[
-    Need {
-        what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
-        packages: &["libvulkan1", "mesa-vulkan-drivers"],
-        is_there: has_vulkan,
-    },
+    VULKAN,
     Need {
         what: "C and C++ compilers, make, CMake and pkg-config (tests of the C interface)",
         packages: &["gcc", "g++", "libc6-dev", "make", "cmake", "pkg-config"],
@@ -44,6 +40,13 @@ pub(super) const BEYOND: &[Need] = &[
     SYSTEMC,
     ICARUS,
 ];
+
+/// The need of everything that runs shaders.
+pub(super) const VULKAN: Need = Need {
+    what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
+    packages: &["libvulkan1", "mesa-vulkan-drivers"],
+    is_there: has_vulkan,
+};
 
 /// The interpreter that makes virtual environments.
 pub(crate) const PYTHON: Need = Need {
