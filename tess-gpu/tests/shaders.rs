@@ -12,6 +12,7 @@ use tess_gpu::{Access, Binding, Counting, Pull, Resource, Setup, Stage, Tap, lay
 use tess_testkit::shader_faults;
 
 #[test]
+#[ignore = "slow: 480 setups"]
 fn every_shader_is_valid_in_every_setup() {
     let setups = all_setups();
     assert_eq!(

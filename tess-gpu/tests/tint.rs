@@ -26,7 +26,7 @@ fn refusal(source: &str) -> Option<String> {
 
 #[test]
 #[ignore = "needs tint, a part of Dawn: cargo test -p tess-gpu --test tint -- --ignored"]
-fn browsers_take_every_shader() {
+fn browsers_take_every_shader_on_request() {
     let mut sources = BTreeSet::new();
     for setup in all_setups() {
         sources.extend(Stage::ALL.map(|stage| stage.source(stage.relevant(setup))));
@@ -44,7 +44,7 @@ fn browsers_take_every_shader() {
 
 #[test]
 #[ignore = "needs tint, a part of Dawn: cargo test -p tess-gpu --test tint -- --ignored"]
-fn a_barrier_that_some_threads_miss_is_refused() {
+fn a_barrier_that_some_threads_miss_is_refused_on_request() {
     let source = Stage::ExpandPoints.source(all_setups()[0]);
     assert_eq!(refusal(&source), None, "as it is");
     let barrier = "    workgroupBarrier();\n";

@@ -70,6 +70,7 @@ fn holes(selection: &Selection) -> (Vec<String>, usize) {
 }
 
 #[test]
+#[ignore = "slow: level 1 of many selections"]
 fn level_1_of_any_selection_has_no_holes() {
     let mut with_holes = Vec::new();
     for selection in selections() {
@@ -187,6 +188,7 @@ fn stitched_wrongly(case: &Case, (outer, inside): (u32, u32)) -> Option<Tessella
 /// The same halves, stitched wrongly in ruler order by two triangles: 2 * half points if the number
 /// of segments is odd, one more if it is even.
 #[test]
+#[ignore = "slow: level 1 of many selections"]
 fn level_1_sees_halves_that_are_stitched_wrongly() {
     for outer in [19, 23, 27, 31].into_iter().flat_map(|half| [2 * half, 2 * half + 1]) {
         for domain in [None, Some(Domain::Triangle), Some(Domain::Quad)] {

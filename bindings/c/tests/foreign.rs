@@ -56,7 +56,11 @@ fn main() {
     let trials = TESTS.iter().map(|&(name, needed, test)| {
         let missing: Vec<&str> = needed.iter().copied().filter(|tool| !tools::has(tool)).collect();
         if missing.is_empty() {
-            return Trial::test(name, test);
+            // `cargo xtask rtl` asks for these: they are the circuit's.
+            return match needed.contains(&"verilator") {
+                true => Trial::test(format!("{name}_on_request"), test).with_ignored_flag(true),
+                false => Trial::test(name, test),
+            };
         }
         let missing = format!("not run, missing: {}", missing.join(" "));
         let failing = missing.clone();

@@ -1,12 +1,14 @@
-//! The steps of continuous integration, ordered by how fast they fail.
+//! The steps of continuous integration: texts and lints, which fail fast; the comparisons; then
+//! everything else. A run that is killed has told what matters.
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
-use crate::{examples, features, fuzz, levels, publish, script, test};
+use crate::{examples, features, fuzz, levels, publish, satellites, script, test};
 
-/// Runs formatting, checks of texts and records, lints, documentation, features, the fuzz targets,
-/// other compilers and processors, packages, and finally every test.
-pub(crate) fn run() -> Result<(), String> {
+/// Runs formatting, checks of texts and records, lints, documentation, every test, the satellites
+/// that are stale or all of them, features, the fuzz targets, other compilers and processors, and
+/// packages. The last line printed is the tests' tally.
+pub(crate) fn run(all: bool) -> Result<(), String> {
     if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
         return Err("continuous integration on x86-64 needs a processor with AVX2".into());
     }
@@ -22,12 +24,13 @@ pub(crate) fn run() -> Result<(), String> {
         cargo("doc --workspace --no-deps --all-features").env("RUSTDOCFLAGS", "-D warnings"),
     )?;
     examples::lint()?;
+    let tally = test::run_all()?;
+    satellites::check(all)?;
     features::check_brief()?;
-    command::lock_versions(&command::workspace(), "fuzz")?;
-    command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
     fuzz::run(&["3"])?;
     ports::run(&["msrv", "s390x", "wasm", "miri"], Extent::Brief)?;
     publish::dry_run()?;
     publish::deny_if_installed()?;
-    test::run_all(test::Browser::Demanded)
+    println!("\n{tally}");
+    Ok(())
 }

@@ -80,12 +80,15 @@ pub(crate) fn serve() -> Result<(), String> {
 /// # Errors
 /// A test fails, or something cannot be installed.
 pub(crate) fn test() -> Result<(), String> {
-    tally::run([tests(&program()?)?])
+    test_with(&program()?)
 }
 
-/// What the tests lack and this system cannot install; `None` if they can run.
-pub(crate) fn lacking() -> Option<String> {
-    setup::provide(BROWSER).err()
+/// Does what [`test()`] does, with this program `tess` for comparisons.
+///
+/// # Errors
+/// As for [`test()`].
+pub(crate) fn test_with(program: &Path) -> Result<(), String> {
+    tally::run([tests(program)?])
 }
 
 /// Prepares everything, and returns the command that runs the tests, which compare with this
@@ -93,7 +96,7 @@ pub(crate) fn lacking() -> Option<String> {
 ///
 /// # Errors
 /// As for [`test()`], except for failing tests.
-pub(crate) fn tests(program: &Path) -> Result<Command, String> {
+fn tests(program: &Path) -> Result<Command, String> {
     let mut format = cargo("fmt --check --manifest-path");
     command::run(format.arg(source().join("bindgen/Cargo.toml")))?;
     build()?;

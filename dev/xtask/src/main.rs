@@ -34,6 +34,7 @@ mod ports;
 mod publish;
 mod python;
 mod rtl;
+mod satellites;
 mod script;
 mod setup;
 mod suite;
@@ -44,32 +45,41 @@ use ports::Extent;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-usage: cargo xtask <command>
+usage: cargo xtask [--yes | --no-install] <command>
+
+  A command that needs programs of the system lists them with their purposes and installs them on Debian and Ubuntu.
+  On a terminal it asks first, once; `--yes` answers. With `--no-install` it only lists them, runs what can run, and
+  reports the rest as not run. Nothing that is installed is upgraded.
 
   test [PATH... [WORD...]]
           set up what the tests need, then run the tests of the model, the CPU, the GPU on Vulkan, surfaces, the
           kit, the program and C; or only the tests of a package's folder (tess-core) or file
           (tess-core/tests/golden.rs), and of these only the ones whose names contain one of the words
   test all
-          run every test, also those of Python, models, the browser, OpenGL, a window, simulators, the explorer and
-          benches
-  ci      what continuous integration runs: formatting, `traceability`, `public`, lints, documentation, `features`,
-          the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
-          `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
+          run every test of the product, also the slow ones: of models, OpenGL, a window and benches
+  ci      what continuous integration runs: formatting, `traceability`, `public`, lints, documentation; then
+          `test all`, so that a run that is stopped has compared; then `satellites`, `features`, `fuzz` on the
+          seeds and for seconds, without the GPU, `ports brief` (msrv, s390x, wasm, miri), `publish`, and `deny` if
+          cargo-deny is installed
+  ci all  the same with every satellite
+  satellites [NAME...]
+          test the satellites that have changed since they last passed, or that use a part of the product that has,
+          or these: python, explorer, rtl, bevy, mesa (only if it is named); records those that pass in
+          dev/satellites.tsv
   setup   only set up: drivers for Vulkan and OpenGL, C, C++ and shader compilers, Verilator,
           Icarus Verilog, Python
   example NAME [OPTION...]
           run an example of tess-wgpu; so does `cargo example`
   python [--program PROGRAM]
           build the Python package's wheel, install it in a fresh virtual environment, check its
-          types and run its tests, which compare it with `tess` or with PROGRAM; `test all` includes it.
+          types and run its tests, which compare it with `tess` or with PROGRAM.
           PYTHON names another interpreter
   explorer [--serve | --test]
           build the explorer's page in target/explorer; serve it on this machine and print the address; or
-          test it in Chromium. `test all` includes it where Node.js and Chromium are available
+          test it in Chromium
   integrations
           build the plugin for Bevy, run its tests and its example, and compare the pictures of its two
-          ways to tessellate; `ci` leaves it out, as Bevy takes a long time to build
+          ways to tessellate
   rtl     check the circuit's ports, lint it and compare it with the model in Verilator: level 1, random patches under
           back-pressure, single stages; plant its faults; print clocks for the workloads of `tess bench` and isolines
   rtl --plant FOLDER [NUMBER]
@@ -128,7 +138,10 @@ usage: cargo xtask <command>
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let is_consent = |word: &&str| [setup::YES, setup::NO_INSTALL].contains(word);
+    let (consent, words): (Vec<&str>, Vec<&str>) =
+        arguments.iter().map(String::as_str).partition(is_consent);
+    setup::consent(consent.last().copied());
     match run(&words) {
         Some(Ok(())) => ExitCode::SUCCESS,
         Some(Err(message)) => {
@@ -147,9 +160,11 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
     let after_setup =
         |command: &dyn Fn() -> Result<(), String>| setup::run().and_then(|()| command());
     Some(match *words {
-        ["test", "all"] => test::run_all(test::Browser::IfThere),
+        ["test", "all"] => test::run_all().map(drop),
         ["test", ref arguments @ ..] => test::run(arguments),
-        ["ci"] => after_setup(&ci::run),
+        ["ci"] => after_setup(&|| ci::run(false)),
+        ["ci", "all"] => after_setup(&|| ci::run(true)),
+        ["satellites", ref names @ ..] => after_setup(&|| satellites::run(names)),
         ["setup"] => setup::run(),
         ["example", ref words @ ..] => examples::run(words),
         ["models"] => models::of_every_kind(),

@@ -2,6 +2,7 @@
 
 use crate::command::{self, cargo, workspace};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -14,13 +15,38 @@ pub(crate) struct Package {
     /// The registries that it may be published to; `None` stands for any.
     publish: Option<Vec<String>>,
     pub(crate) targets: Vec<Target>,
+    #[serde(default)]
+    metadata: Option<PackageTables>,
 }
+
+/// The tables `[package.metadata]` of a manifest, for tools.
+#[derive(Debug, Default, Deserialize)]
+struct PackageTables {
+    #[serde(default)]
+    tests: TestTable,
+}
+
+/// The table `[package.metadata.tests]` of a manifest: test programs by name, or [`WHOLE`].
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TestTable {
+    /// Programs that only `test all` builds and runs, each with the reason.
+    #[serde(default)]
+    pub(crate) slow: BTreeMap<String, String>,
+    /// Programs that cannot run without something of the machine, each with the need's name in
+    /// `setup`.
+    #[serde(default)]
+    pub(crate) needs: BTreeMap<String, String>,
+}
+
+/// The name that stands for every test program of a package.
+pub(crate) const WHOLE: &str = "*";
 
 /// A library, program, test, example or bench of a package.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Target {
     kind: Vec<String>,
-    name: String,
+    pub(crate) name: String,
     pub(crate) src_path: PathBuf,
     /// Whether `cargo test` runs it.
     #[serde(default)]
@@ -48,6 +74,12 @@ impl Package {
     /// The folder of its manifest.
     pub(crate) fn folder(&self) -> &Path {
         self.manifest_path.parent().unwrap_or(&self.manifest_path)
+    }
+
+    /// What its manifest says of its tests.
+    pub(crate) fn tests(&self) -> &TestTable {
+        static NOTHING: TestTable = TestTable { slow: BTreeMap::new(), needs: BTreeMap::new() };
+        self.metadata.as_ref().map_or(&NOTHING, |metadata| &metadata.tests)
     }
 
     /// Its name and version, in the form that registries use for folders.

@@ -26,17 +26,6 @@ pub(crate) fn run_with(program: &Path) -> Result<(), String> {
     tally::run([tests(program)?])
 }
 
-/// The command that does [`run_with`] in a process of its own, so that other tests can run at the
-/// same time.
-///
-/// # Errors
-/// This program's path is unknown.
-pub(crate) fn in_a_process(program: &Path) -> Result<Command, String> {
-    let mut command = command::this(&["python", "--program"])?;
-    command.arg(program);
-    Ok(command)
-}
-
 /// Prepares everything, and returns the command that runs the tests, which compare with this
 /// program `tess`.
 fn tests(program: &Path) -> Result<Command, String> {

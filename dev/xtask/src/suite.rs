@@ -7,9 +7,9 @@
 
 use crate::command::{self, cargo, workspace};
 use crate::levels;
-use crate::packages::{self, Target};
-use crate::python;
+use crate::packages::{self, Package, Target, WHOLE};
 use crate::tally::Job;
+use crate::{python, setup};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -18,103 +18,20 @@ use std::process::Command;
 /// The arguments of `cargo` for the tests of the workspace.
 const ALL: &str = "test --workspace --all-features --no-fail-fast";
 
-/// The packages that are not part of [`Extent::Comparisons`] and have many dependencies that
-/// nothing else needs.
-const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-benches"];
-
 /// Makes cargo list its build products on its standard output.
 const MESSAGES: &str = "--message-format=json-render-diagnostics";
 
-/// The programs that take longest. They start first, so that the last ones to start end soon.
-const LONG: &[&str] = &[
-    "tools/cli/tests/program/main.rs",
-    "tess-wgpu/tests/batches/main.rs",
-    "tess-wgpu/tests/stage/main.rs",
-    "tess-wgpu/tests/sequences/main.rs",
-    "tess-gpu/tests/twins/main.rs",
-    "tools/cli/tests/shaders/main.rs",
-    "tess-gpu/tests/shaders.rs",
-    "tess-verify/tests/golden.rs",
-    "tools/cli/src/lib.rs",
-    "tess-core/tests/no_std.rs",
-    "bindings/c/tests/foreign.rs",
-];
-
-/// Tests that only [`Extent::All`] runs, by program; an empty list stands for all of its tests.
-struct Beyond {
-    program: &'static str,
-    /// Prefixes of test names.
-    tests: &'static [&'static str],
-}
-
-const BEYOND: &[Beyond] = &[
-    // These tests need OpenGL or a simulator.
-    Beyond { program: "tess-wgpu/tests/gl/main.rs", tests: &[] },
-    Beyond { program: "bindings/c/tests/foreign.rs", tests: &["rtl_", "uvm_"] },
-    // They are slow. The comparisons that stay reach the same code with fewer patches, with shorter
-    // sequences of frames, or in one language.
-    Beyond {
-        program: "tools/cli/tests/program/main.rs",
-        tests: &[
-            "backends::gpu_equals_recorded",
-            "backends::gpu_random_patches_are_equal",
-            "backends::narrow_indices_equal_recorded_patches",
-            "backends::simd_equals_every_recorded_result",
-            "backends::simd_random_patches_are_equal",
-            "crossed::backends_are_timed",
-            "rules::backends_are_judged",
-        ],
-    },
-    Beyond {
-        program: "tess-wgpu/tests/stage/main.rs",
-        tests: &[
-            "evaluated::one_output_is_drawn_with_many_materials",
-            "evaluated::project_is_called",
-            "lost::",
-            "porting::",
-            "rising::",
-            "room::a_frame_that_does_not_fit_is_coarser",
-            "sequences::",
-            "shared::no_frame_makes_a_pipeline",
-        ],
-    },
-    Beyond {
-        program: "tess-wgpu/tests/batches/main.rs",
-        tests: &[
-            "alike::",
-            "catalogue::planted_faults",
-            "cut::",
-            "groups::planted_faults",
-            "order::",
-            "short::",
-        ],
-    },
-    Beyond {
-        program: "tess-wgpu/tests/sequences/main.rs",
-        tests: &["options::every_two_options_together"],
-    },
-    Beyond { program: "tess-wgpu/tests/pictures/main.rs", tests: &[] },
-    Beyond { program: "tess-gpu/tests/twins/main.rs", tests: &[] },
-    Beyond { program: "tess-gpu/tests/shaders.rs", tests: &["every_shader_is_valid"] },
-    Beyond { program: "tools/cli/tests/shaders/main.rs", tests: &[] },
-    Beyond { program: "tools/probe/tests/bench.rs", tests: &[] },
-    Beyond {
-        program: "tess-verify/tests/rules/main.rs",
-        tests: &["mistakes::mistakes_are_broken_or_allowed"],
-    },
-    Beyond {
-        program: "tess-verify/tests/selections.rs",
-        tests: &["level_1_of_any_selection", "level_1_sees_halves"],
-    },
-    Beyond { program: "dev/testkit/tests/faults.rs", tests: &["wrong_records"] },
-];
+/// The word in the names of tests that run only on request: of a person who has what they need, or
+/// of another test that makes their surroundings.
+const ON_REQUEST: &str = "on_request";
 
 /// The extent of a test run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Extent {
-    /// The model, the CPU, the GPU with Vulkan, surfaces, the kit, the program and C.
+    /// Everything that is not marked as slow: tests by `#[ignore = "slow: ..."]`, programs and
+    /// packages by their manifest ([`packages::TestTable`]).
     Comparisons,
-    /// In addition, tests that need OpenGL, a window or a simulator.
+    /// In addition, everything that is marked so.
     All,
 }
 
@@ -162,26 +79,38 @@ impl<'a> TestSelection<'a> {
     }
 }
 
-/// Builds the tests, and returns a job for each program, the longest first, and one for the
-/// examples in the documentation. For a part, returns only programs whose sources are below one of
-/// its paths, and no documentation.
+/// The jobs of a run, and what it leaves out.
+pub(crate) struct Suite {
+    /// One job for each program, the largest first, and one for the examples in the documentation.
+    pub(crate) jobs: Vec<Job>,
+    /// Programs that are not run, each with the reason.
+    pub(crate) left_out: Vec<String>,
+}
+
+/// Builds the tests. For a part, takes only programs whose sources are below one of its paths, and
+/// no documentation.
 ///
 /// # Errors
 /// They do not compile, or a path has no tests.
-pub(crate) fn jobs(extent: Extent, part: &TestSelection<'_>) -> Result<Vec<Job>, String> {
-    let base = base(extent, part)?;
+pub(crate) fn build(extent: Extent, part: &TestSelection<'_>) -> Result<Suite, String> {
+    let packages = packages::all()?;
+    let base = base(extent, part, &packages);
     let mut build = cargo(&base);
     println!("\n$ {}", command::shown(build.arg("--no-run")));
-    let root = workspace();
     let selected = match (extent, &part.paths[..]) {
         // The examples are not built either; their sources are included in tests.
-        (Extent::Comparisons, []) => comparisons()?,
-        (_, paths) => selection(paths)?,
+        (Extent::Comparisons, []) => comparisons(&packages),
+        (_, paths) => selection(paths, &packages)?,
     };
     let messages = command::output(build.arg(MESSAGES).args(selected))?;
-    let mut jobs = jobs_of(&messages, &root, extent, &part.paths);
-    let place = |job: &Job| LONG.iter().position(|long| *long == job.name).unwrap_or(LONG.len());
-    jobs.sort_by_key(place);
+    let mut jobs = jobs_of(&messages, &workspace(), extent, &part.paths);
+    let mut left_out = Vec::new();
+    if extent == Extent::Comparisons {
+        left_out.extend(packages.iter().flat_map(slow_programs));
+    }
+    leave_out_what_lacks(&mut jobs, &packages, &mut left_out)?;
+    // The largest programs have the GPU's libraries, and take longest.
+    jobs.sort_by_key(|job| std::cmp::Reverse(job.size()));
     if !part.words.is_empty() {
         jobs = jobs.iter().flat_map(|job| part.words.iter().map(|word| job.with(word))).collect();
     }
@@ -195,20 +124,20 @@ pub(crate) fn jobs(extent: Extent, part: &TestSelection<'_>) -> Result<Vec<Job>,
     for job in &mut jobs {
         prepare(&mut job.command, &base);
     }
-    Ok(jobs)
+    Ok(Suite { jobs, left_out })
 }
 
 /// The arguments of `cargo` that select the packages. If all are selected, every dependency has the
 /// same features; the folder of a package selects only that package.
-fn base(extent: Extent, part: &TestSelection<'_>) -> Result<String, String> {
+fn base(extent: Extent, part: &TestSelection<'_>, packages: &[Package]) -> String {
     let mut base = ALL.to_owned();
     if part.paths.is_empty() {
         if extent == Extent::Comparisons {
-            APART.iter().for_each(|package| base += &format!(" --exclude {package}"));
+            let slow = packages.iter().filter(|package| package.tests().slow.contains_key(WHOLE));
+            slow.for_each(|package| base += &format!(" --exclude {}", package.name));
         }
-        return Ok(base);
+        return base;
     }
-    let packages = packages::all()?;
     let below = |path: &&str| {
         let folder = workspace().join(path);
         packages.iter().filter(move |package| package.folder().starts_with(&folder))
@@ -218,7 +147,46 @@ fn base(extent: Extent, part: &TestSelection<'_>) -> Result<String, String> {
         let chosen: String = chosen.map(|package| format!(" --package {}", package.name)).collect();
         base = ALL.replace(" --workspace", &chosen);
     }
-    Ok(base)
+    base
+}
+
+/// The programs that the package's manifest calls slow, each with its reason.
+fn slow_programs(package: &Package) -> Vec<String> {
+    let name = |program: &String| match program.as_str() {
+        WHOLE => package.name.clone(),
+        _ => format!("{}, {program}", package.name),
+    };
+    let slow = &package.tests().slow;
+    slow.iter().map(|(program, reason)| format!("{}: {reason}", name(program))).collect()
+}
+
+/// Removes the programs whose need this machine lacks; their names and needs are left out.
+///
+/// # Errors
+/// A manifest names a need that does not exist.
+fn leave_out_what_lacks(
+    jobs: &mut Vec<Job>,
+    packages: &[Package],
+    left_out: &mut Vec<String>,
+) -> Result<(), String> {
+    for package in packages {
+        for (program, need) in &package.tests().needs {
+            let Some(missing) = setup::missing(need)? else { continue };
+            let targets = package.targets.iter();
+            let wanted = targets.filter(|target| program == WHOLE || *program == target.name);
+            let sources: Vec<_> = wanted.map(|target| shown(&target.src_path)).collect();
+            let (without, with): (Vec<Job>, Vec<Job>) =
+                jobs.drain(..).partition(|job| sources.contains(&job.name));
+            left_out.extend(without.iter().map(|job| format!("{}: needs {missing}", job.name)));
+            *jobs = with;
+        }
+    }
+    Ok(())
+}
+
+/// The path of a source file in the workspace.
+fn shown(source: &Path) -> String {
+    source.strip_prefix(workspace()).unwrap_or(source).display().to_string()
 }
 
 /// Builds the test programs of `path` in another tree, and returns their jobs. For tests in Python,
@@ -232,7 +200,7 @@ pub(crate) fn programs(tree: &Tree, path: &str) -> Result<Vec<Job>, String> {
     }
     let mut build = cargo(ALL);
     build.current_dir(&tree.root).env("CARGO_TARGET_DIR", &tree.target);
-    build.arg("--no-run").args(selection(&[path])?);
+    build.arg("--no-run").args(selection(&[path], &packages::all()?)?);
     let messages = command::quiet_output(build.arg(MESSAGES))?;
     let mut jobs = jobs_of(&messages, &tree.root, Extent::All, &[path]);
     jobs.iter_mut().for_each(|job| prepare(&mut job.command, ALL));
@@ -246,9 +214,8 @@ fn jobs_of(messages: &str, root: &Path, extent: Extent, paths: &[&str]) -> Vec<J
 }
 
 /// The arguments of cargo that select the targets below these paths.
-fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
+fn selection(paths: &[&str], packages: &[Package]) -> Result<Vec<String>, String> {
     let mut chosen = Vec::new();
-    let packages = packages::all()?;
     for path in paths {
         let targets = packages.iter().flat_map(|package| &package.targets);
         let prefix = workspace().join(path);
@@ -260,28 +227,26 @@ fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
             ));
         }
     }
-    // Cargo accepts `--lib` only once.
-    let selections: BTreeSet<_> = chosen.into_iter().map(Target::selection).collect();
-    Ok(selections.into_iter().flatten().collect())
+    Ok(arguments(chosen.into_iter()))
 }
 
 /// The arguments of cargo that select the programs of [`Extent::Comparisons`]. Tests inside a
 /// library are left out: each compiles its whole crate once more, an eighth of a fresh build, and
 /// the programs in `tests` compare the same code from outside.
-fn comparisons() -> Result<Vec<String>, String> {
-    let packages = packages::all()?;
-    let chosen = packages.iter().filter(|package| !APART.contains(&package.name.as_str()));
-    let targets = chosen.flat_map(|package| &package.targets);
-    let targets = targets.filter(|target| target.test && !target.is_library());
-    let wanted =
-        targets.filter(|target| tests_beyond(&target.src_path).is_none_or(|t| !t.is_empty()));
-    let selections: BTreeSet<_> = wanted.map(Target::selection).collect();
-    Ok(selections.into_iter().flatten().collect())
+fn comparisons(packages: &[Package]) -> Vec<String> {
+    let chosen = packages.iter().flat_map(|package| {
+        let slow = &package.tests().slow;
+        let is_whole = slow.contains_key(WHOLE);
+        let targets = package.targets.iter().filter(|target| target.test && !target.is_library());
+        targets.filter(move |target| !is_whole && !slow.contains_key(&target.name))
+    });
+    arguments(chosen)
 }
 
-/// The tests of a program that [`BEYOND`] leaves out; an empty list stands for all.
-fn tests_beyond(source: &Path) -> Option<&'static [&'static str]> {
-    BEYOND.iter().find(|beyond| source.ends_with(beyond.program)).map(|beyond| beyond.tests)
+/// The arguments of cargo that select these targets. Cargo accepts `--lib` only once.
+fn arguments<'a>(targets: impl Iterator<Item = &'a Target>) -> Vec<String> {
+    let selections: BTreeSet<_> = targets.map(Target::selection).collect();
+    selections.into_iter().flatten().collect()
 }
 
 /// The job of a program, if it is to run.
@@ -290,13 +255,8 @@ fn job(program: TestProgram, root: &Path, extent: Extent, paths: &[&str]) -> Opt
     let source = target.src_path.strip_prefix(root).unwrap_or(&target.src_path);
     let is_chosen = paths.is_empty() || paths.iter().any(|path| source.starts_with(path));
     let mut command = Command::new(executable.filter(|_| profile.test && is_chosen)?);
-    if extent == Extent::Comparisons
-        && let Some(left_out) = tests_beyond(source)
-    {
-        if left_out.is_empty() {
-            return None;
-        }
-        command.args(left_out.iter().flat_map(|name| ["--skip", name]));
+    if extent == Extent::All {
+        command.args(["--include-ignored", "--skip", ON_REQUEST]);
     }
     let folder = manifest_path.parent().unwrap_or(&manifest_path);
     // The environment in which cargo runs tests.
@@ -308,7 +268,9 @@ fn job(program: TestProgram, root: &Path, extent: Extent, paths: &[&str]) -> Opt
 /// Sets the environment variables that the tests of a build with these arguments rely on.
 fn prepare(tests: &mut Command, base: &str) {
     // With CI set, a test fails if its tool is missing; otherwise it is reported as ignored.
-    tests.env("CI", "1");
+    if setup::installs() {
+        tests.env("CI", "1");
+    }
     // The libraries of the C interface are those of this build, which includes this program.
     if base.contains("--workspace") {
         tests.env("TESS_CAPI_BUILD", format!("{base} --test foreign"));
@@ -325,46 +287,62 @@ fn prepare(tests: &mut Command, base: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::fs;
+
+    fn all() -> Vec<Package> {
+        packages::all().expect("packages")
+    }
 
     #[test]
-    fn listed_programs_exist() {
-        for file in LONG.iter().chain(BEYOND.iter().map(|beyond| &beyond.program)) {
-            assert!(workspace().join(file).is_file(), "{file} is listed here and is no test");
-        }
-        let packages = packages::all().expect("packages");
-        let is_there = |name: &&str| packages.iter().any(|package| package.name == *name);
-        assert!(APART.iter().all(is_there), "a package of {APART:?} has another name");
-        for Beyond { program, tests } in BEYOND {
-            for name in *tests {
-                let (module, test) = name.split_once("::").unwrap_or(("", name));
-                let beside = |name: String| workspace().join(program).with_file_name(name);
-                let file = match module {
-                    "" => workspace().join(program),
-                    _ => beside(format!("{module}.rs")),
-                };
-                let file = if file.is_file() { file } else { beside(format!("{module}/mod.rs")) };
-                let text = fs::read_to_string(file).expect("text");
-                let is_there =
-                    text.contains(&format!("fn {test}")) || text.contains(&format!("\"{test}"));
-                assert!(is_there, "{program}: a test of {tests:?} has another name");
+    fn manifests_name_programs_and_needs_that_exist() {
+        for package in all() {
+            let is_program = |name: &str| {
+                name == WHOLE || package.targets.iter().any(|it| it.test && it.name == *name)
+            };
+            let tests = package.tests();
+            for name in tests.slow.keys().chain(tests.needs.keys()) {
+                assert!(is_program(name), "{}: `{name}` is not a test program", package.name);
+            }
+            for need in tests.needs.values() {
+                assert!(setup::missing(need).is_ok(), "{}: need `{need}`", package.name);
             }
         }
     }
 
     #[test]
+    fn slow_programs_are_left_out_of_the_comparisons() {
+        let package = |slow: &str| {
+            let target = |name| {
+                format!(r#"{{"kind":["test"],"name":"{name}","src_path":"{name}.rs","test":true}}"#)
+            };
+            let text = format!(
+                r#"{{"name":"p","version":"1.0.0","manifest_path":"p/Cargo.toml","publish":null,
+                "targets":[{},{}],"metadata":{{"tests":{{"slow":{{{slow}}}}}}}}}"#,
+                target("quick"),
+                target("long")
+            );
+            vec![serde_json::from_str::<Package>(&text).expect("a package")]
+        };
+        let one = package(r#""long":"all of them""#);
+        assert_eq!(comparisons(&one), ["--test", "quick"], "one of two");
+        assert_eq!(slow_programs(&one[0]), ["p, long: all of them"], "and it is named");
+        let whole = package(r#""*":"a page""#);
+        assert!(comparisons(&whole).is_empty(), "the whole package");
+        let base = base(Extent::Comparisons, &TestSelection::default(), &whole);
+        assert!(base.ends_with(" --exclude p"), "{base}");
+        assert_eq!(slow_programs(&whole[0]), ["p: a page"], "and it is named");
+    }
+
+    #[test]
     fn parts_are_selected_by_their_targets() {
         let paths = ["tess-core/tests/golden.rs", "tess-surface/src", "tess-core/src"];
-        let selected = selection(&paths).expect("some");
+        let selected = selection(&paths, &all()).expect("some");
         assert_eq!(selected, ["--lib", "--test", "golden"], "targets, each once");
-        assert!(selection(&["tess-core/nope"]).is_err(), "no such test");
+        assert!(selection(&["tess-core/nope"], &all()).is_err(), "no such test");
     }
 
     #[test]
     fn a_folder_is_its_package_and_words_are_no_paths() {
-        let base = |arguments: &[&str]| {
-            base(Extent::All, &TestSelection::of(arguments)).expect("packages")
-        };
+        let base = |arguments: &[&str]| base(Extent::All, &TestSelection::of(arguments), &all());
         let core = "test --package tess-core --all-features --no-fail-fast";
         assert_eq!(base(&["tess-core"]), core, "one package");
         assert_eq!(base(&["tess-core", "golden"]), core, "a word that is a folder too");

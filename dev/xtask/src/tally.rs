@@ -55,6 +55,11 @@ impl Job {
         Self { name: shown(&command), command }
     }
 
+    /// The size of its program in bytes; 0 for one that is searched for in `PATH`.
+    pub(crate) fn size(&self) -> u64 {
+        std::fs::metadata(self.command.get_program()).map_or(0, |file| file.len())
+    }
+
     /// The same program with this additional word, which selects tests.
     pub(crate) fn with(&self, word: &str) -> Self {
         let mut command = Command::new(self.command.get_program());
@@ -67,11 +72,17 @@ impl Job {
     }
 }
 
+/// How a test's head says that only `test all` runs it: `#[ignore = "slow: all 96 configurations"]`,
+/// or with libtest-mimic a kind that begins so.
+const SLOW: &str = "slow: ";
+
 /// The number of tests that commands ran, and the commands that failed.
 #[derive(Default)]
 pub(crate) struct TestReport {
     all: Tally,
     broken: Vec<String>,
+    /// Tests that are marked as slow and were not run, each with its mark.
+    slow: Vec<String>,
 }
 
 impl TestReport {
@@ -135,6 +146,9 @@ impl TestReport {
             let output = match news {
                 News::Test(line) => {
                     println!("{name}: {line}");
+                    if line.contains(SLOW) {
+                        self.slow.push(format!("{name}: {line}"));
+                    }
                     continue;
                 }
                 News::Ended(output) => output.map_err(|error| format!("{name}: {error}"))?,
@@ -155,14 +169,20 @@ impl TestReport {
         Ok(())
     }
 
-    /// Prints the tally.
+    /// Programs and tests that were not run because they are slow: these programs, and every test
+    /// that was ignored with [`SLOW`] as its reason.
+    pub(crate) fn not_run<'a>(&'a self, programs: &'a [String]) -> impl Iterator<Item = &'a str> {
+        programs.iter().chain(&self.slow).map(String::as_str)
+    }
+
+    /// Prints the tally, and returns it.
     ///
     /// # Errors
     /// A command failed.
-    pub(crate) fn finish(self) -> Result<(), String> {
+    pub(crate) fn finish(self) -> Result<Tally, String> {
         println!("\n{}", self.all);
         match self.broken.is_empty() {
-            true => Ok(()),
+            true => Ok(self.all),
             false => Err(format!("these failed: {}", self.broken.join("; "))),
         }
     }
@@ -175,7 +195,7 @@ impl TestReport {
 pub(crate) fn run(commands: impl IntoIterator<Item = Command>) -> Result<(), String> {
     let mut report = TestReport::default();
     report.one_by_one(commands)?;
-    report.finish()
+    report.finish().map(drop)
 }
 
 /// News of a job.
@@ -273,7 +293,7 @@ mod tests {
         });
         let mut report = TestReport::default();
         report.beside_each_other(jobs.collect())?;
-        report.finish()
+        report.finish().map(drop)
     }
 
     #[cfg(unix)]

@@ -132,12 +132,12 @@ fn alone(test: &str, variable: &str, value: &str) {
 /// rayon would start every requested thread.
 #[test]
 fn too_large_a_pool() {
-    alone("in_a_pool_of_256", "RAYON_NUM_THREADS", "100000");
+    alone("in_a_pool_of_256_on_request", "RAYON_NUM_THREADS", "100000");
 }
 
 #[test]
 #[ignore = "too_large_a_pool runs it"]
-fn in_a_pool_of_256() {
+fn in_a_pool_of_256_on_request() {
     assert_eq!(Tessellator::start_threads(), Ok(()), "256 threads can be started");
     if let Ok(threads) = std::fs::read_dir("/proc/self/task") {
         // The test itself has one or two.
@@ -151,12 +151,16 @@ fn in_a_pool_of_256() {
 /// No thread can have such a stack.
 #[test]
 fn no_threads() {
-    alone("where_no_thread_can_be_started", "RUST_MIN_STACK", &(1_u64 << 46).to_string());
+    alone(
+        "where_no_thread_can_be_started_on_request",
+        "RUST_MIN_STACK",
+        &(1_u64 << 46).to_string(),
+    );
 }
 
 #[test]
 #[ignore = "no_threads runs it"]
-fn where_no_thread_can_be_started() {
+fn where_no_thread_can_be_started_on_request() {
     let error = Tessellator::start_threads().expect_err("no thread can be started").to_string();
     assert!(error.contains(" threads cannot be started: "), "{error}");
     let patches = Patches::random(11, Domain::Quad, 200);

@@ -290,7 +290,7 @@ mod tests {
     /// Chromium compiles WGSL with tint.
     #[test]
     #[ignore = "needs tint, a part of Dawn: cargo test -p tess-wgpu --lib -- --ignored"]
-    fn tint_takes_every_module() {
+    fn tint_takes_every_module_on_request() {
         use std::io::Write;
         use std::process::{Command, Stdio};
         for source in modules() {

@@ -23,6 +23,7 @@ fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn like_patches_in_every_domain_partitioning_and_output() {
     let mut machine = Machine::open();
     for domain in Domain::ALL {
@@ -50,6 +51,7 @@ fn like_patches_in_every_domain_partitioning_and_output() {
 
 /// Copies in every format, and patches just below and above the largest that are copied.
 #[test]
+#[ignore = "slow: many pipelines"]
 fn like_patches_of_every_size_and_format() {
     let mut machine = Machine::open();
     for domain in [Domain::Triangle, Domain::Quad] {
@@ -67,6 +69,7 @@ fn like_patches_of_every_size_and_format() {
 /// Patches of the same topology with other points: factors that round up to the same number of
 /// segments.
 #[test]
+#[ignore = "slow: many pipelines"]
 fn equal_topologies_with_different_points() {
     let mut machine = Machine::open();
     let mut random = SplitMix64::new(6);
@@ -84,6 +87,7 @@ fn equal_topologies_with_different_points() {
 
 /// Whether the patches of each block are alike, by `factors`.
 #[test]
+#[ignore = "slow: many pipelines"]
 fn blocks_know_whether_their_patches_are_alike() {
     let mut machine = Machine::open();
     let setup =
@@ -112,6 +116,7 @@ fn blocks_know_whether_their_patches_are_alike() {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn planted_faults_are_seen() {
     let mut machine = Machine::open();
     let setup = |partitioning| {
@@ -152,6 +157,7 @@ fn different_inside() -> Vec<PatchFactors> {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn patches_that_differ_inside_alone() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     Machine::open().assert_equal(Setup::new(Domain::Quad, config), &different_inside());

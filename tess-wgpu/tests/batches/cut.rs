@@ -33,6 +33,7 @@ fn of_these(domain: Domain, count: u32, factors: [f32; 6]) -> Vec<PatchFactors> 
 
 /// Wherever the batch is divided, everything is written once and in its place.
 #[test]
+#[ignore = "slow: batches of many patches"]
 fn portions_windows_and_rows() {
     let mut machine = Machine::open();
     machine.limit(LOW);
@@ -48,6 +49,7 @@ fn portions_windows_and_rows() {
 
 /// Three sections of blocks in rows of two, with one workgroup too many.
 #[test]
+#[ignore = "slow: batches of many patches"]
 fn rows_of_sections() {
     let mut machine = Machine::open();
     machine.limit(TWO);
@@ -61,6 +63,7 @@ fn rows_of_sections() {
 /// Batches that write no points are not divided; and a packed point has 30 bits for its patch's
 /// number.
 #[test]
+#[ignore = "slow: batches of many patches"]
 fn batches_too_large_for_their_outputs() {
     let mut machine = Machine::open();
     machine.limit(LOW);
@@ -87,6 +90,7 @@ fn batches_too_large_for_their_outputs() {
 /// The comparison notices a window that begins at another tile, and workgroups that take each row
 /// for the first.
 #[test]
+#[ignore = "slow: batches of many patches"]
 fn wrong_windows_and_rows_are_seen() {
     let patches = small(Domain::Triangle, 150_000);
     let setup = setup(Domain::Triangle);
@@ -105,6 +109,7 @@ fn wrong_windows_and_rows_are_seen() {
 
 /// The dispatch sizes that the device writes are within the limit, and the check notices others.
 #[test]
+#[ignore = "slow: batches of many patches"]
 fn written_dispatch_sizes_keep_to_the_limit() {
     let mut machine = Machine::open();
     let setup = setup(Domain::Quad);
@@ -164,7 +169,7 @@ fn rows(plan: &Plan, stage: Stage) -> u32 {
 #[test]
 #[ignore = "6 GiB on a device that binds 3 at once: cargo test --release -p tess-wgpu \
             --test batches cut -- --ignored"]
-fn more_workgroups_than_a_row_has() {
+fn more_workgroups_than_a_row_has_on_request() {
     let everything = Gpu::open_with(DeviceLimits::Highest, wgpu::Features::empty());
     let gpu = pollster::block_on(everything).unwrap_or_else(|error| panic!("{error}"));
     let tessellator = Tessellator::new(&gpu.device);
@@ -192,6 +197,7 @@ fn more_workgroups_than_a_row_has() {
 
 /// Each level of the prefix sums against a scalar scan.
 #[test]
+#[ignore = "slow: batches of many patches"]
 fn prefix_sums_are_those_of_a_scalar_scan() {
     let mut machine = Machine::open();
     for domain in [Domain::Triangle, Domain::Quad] {

@@ -49,7 +49,7 @@ fn growth(space: &str) -> Result<u64, Error> {
 #[test]
 #[ignore = "fails on lavapipe, which keeps every shader that it compiles for a uniform's value: \
             cargo test -p tess-wgpu --test batches driver -- --ignored"]
-fn a_branch_on_a_uniform_takes_no_memory() {
+fn a_branch_on_a_uniform_takes_no_memory_on_request() {
     let most = 200 * 4096;
     let storage = growth("storage, read").expect("it runs");
     assert!(storage < most, "a storage buffer: {storage} bytes in 200 runs");

@@ -2,22 +2,32 @@
 
 use crate::common::device::{Machine, Written};
 use crate::common::expected::{Expected, by_simd};
-use crate::common::patches::random;
+use crate::common::patches::{all, covering, random};
 use tess_core::{Domain, PatchFactors};
 use tess_gpu::Setup;
 use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection, SplitMix64, configurations};
 
-/// Random patches of each configuration, with every boundary value once and the neighbours of
-/// minimum patches, through the whole pipeline.
 #[test]
+fn boundaries_and_random_patches_in_every_pair_of_options() {
+    assert_equal_in(covering());
+}
+
+#[test]
+#[ignore = "slow: all 96 configurations"]
 fn boundaries_and_random_patches_in_every_configuration() {
+    assert_equal_in(all());
+}
+
+/// Random patches of each setup, with every boundary value once and the neighbours of minimum
+/// patches, through the whole pipeline.
+fn assert_equal_in(setups: Vec<Setup>) {
     let mut machine = Machine::open();
     let mut numbers = SplitMix64::new(1);
     let level = Selection { random: Some(0), ..Selection::level(GenLevel::One, 1) };
     let boundaries: Vec<Case> = level.cases().collect();
-    for (domain, config) in configurations() {
-        let setup = Setup::new(domain, config);
+    for setup in setups {
+        let Setup { domain, config, .. } = setup;
         assert_both_equal(&mut machine, setup, &random(domain, 300, &mut numbers));
         let own = boundaries.iter().filter(|case| (case.domain(), case.config) == (domain, config));
         let mut own: Vec<PatchFactors> = own.map(|case| case.factors).collect();

@@ -2,10 +2,11 @@
 
 use crate::common::device::Machine;
 use crate::common::objects::{compute, dispatch, group, whole};
+use crate::common::patches::{all, covering};
 use tess_core::{Patch, SplitOrder};
 use tess_gpu::tables;
 use tess_gpu::{Pull, Setup};
-use tess_verify::generate::{SplitMix64, configurations};
+use tess_verify::generate::SplitMix64;
 use tess_wgpu::Batch;
 use wgpu::BufferUsages as Usage;
 
@@ -33,11 +34,21 @@ fn ask(@builtin(global_invocation_id) id: vec3<u32>) {
 ";
 
 #[test]
+fn any_element_in_every_pair_of_options() {
+    assert_any_element_in(covering());
+}
+
+#[test]
+#[ignore = "slow: all 96 configurations"]
 fn any_element_in_every_configuration() {
+    assert_any_element_in(all());
+}
+
+fn assert_any_element_in(setups: Vec<Setup>) {
     let mut machine = Machine::open();
     let mut random = SplitMix64::new(7);
-    for (domain, config) in configurations() {
-        let setup = Setup::new(domain, config);
+    for setup in setups {
+        let Setup { domain, config, .. } = setup;
         let patches = crate::common::patches::random(domain, 100, &mut random);
         let batch = machine.counted(setup, &patches);
         let mut asked = Vec::new();

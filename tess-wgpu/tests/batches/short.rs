@@ -15,6 +15,7 @@ fn setup(domain: Domain) -> Setup {
 }
 
 #[test]
+#[ignore = "slow: every configuration in short batches"]
 fn the_room_and_the_patches_decide() {
     let setup = setup(Domain::Quad);
     let is_short = |patches, points, primitives| {
@@ -33,6 +34,7 @@ fn the_room_and_the_patches_decide() {
 
 /// Everything that a short batch writes, in every configuration and around the sizes of blocks.
 #[test]
+#[ignore = "slow: every configuration in short batches"]
 fn short_batches_in_every_configuration() {
     let mut machine = Machine::open();
     let mut numbers = SplitMix64::new(41);
@@ -65,6 +67,7 @@ fn run_twice(machine: &mut Machine, patches: &[PatchFactors]) -> Result<(), Stri
 }
 
 #[test]
+#[ignore = "slow: every configuration in short batches"]
 fn a_batch_can_run_again() {
     let mut machine = Machine::open();
     for count in [300, 3000] {
@@ -75,6 +78,7 @@ fn a_batch_can_run_again() {
 }
 
 #[test]
+#[ignore = "slow: every configuration in short batches"]
 fn planted_faults_are_seen() {
     let mut machine = Machine::open();
     let (setup, mut patches) = (setup(Domain::Quad), low(600));

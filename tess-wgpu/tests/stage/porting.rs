@@ -14,6 +14,7 @@ fn blocks() -> Vec<&'static str> {
 }
 
 #[test]
+#[ignore = "slow: every block of a guide"]
 fn the_blocks_of_the_porting_guide_compile() {
     let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
     let buffer = |usage| gpu.buffer("any", 4096, usage).expect("there is room");
@@ -61,6 +62,7 @@ fn edge(partitioning: Partitioning, factor: f32) -> Vec<u32> {
 
 /// The guide's rule for neighbours of different size.
 #[test]
+#[ignore = "slow: every block of a guide"]
 fn short_edges_have_the_points_of_a_long_one() {
     let meets = |partitioning, factor: f32| {
         let short = edge(partitioning, 0.5 * factor);

@@ -80,6 +80,7 @@ fn run(
 }
 
 #[test]
+#[ignore = "slow: long sequences of frames"]
 fn demand_that_rises_is_met_ahead() {
     let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
     for (rates, most) in [(&[1.01, 1.02, 1.03, 1.04][..], 4), (&[1.01], 1), (&[1.04], 5)] {
@@ -105,6 +106,7 @@ fn demand_that_rises_is_met_ahead() {
 }
 
 #[test]
+#[ignore = "slow: long sequences of frames"]
 fn room_is_given_back_after_a_long_lull() {
     let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
     let mut stage = stage(&gpu, Room::Automatic { most_bytes: 256 << 20 });

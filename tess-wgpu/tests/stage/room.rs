@@ -59,6 +59,7 @@ fn too_little(room: Capacity) -> [Capacity; 3] {
 }
 
 #[test]
+#[ignore = "slow: many frames"]
 fn a_frame_that_does_not_fit_is_coarser() {
     for partitioning in Partitioning::ALL {
         let scene = scene(Domain::Quad, partitioning);

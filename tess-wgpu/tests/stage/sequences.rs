@@ -152,6 +152,7 @@ fn device() -> (Gpu, Tessellator) {
 }
 
 #[test]
+#[ignore = "slow: sequences of frames"]
 fn any_sequence_of_frames_gives_the_models_pictures() {
     let (gpu, shared) = device();
     let forms = forms();
@@ -163,6 +164,7 @@ fn any_sequence_of_frames_gives_the_models_pictures() {
 
 /// A frame that runs late needs room for the factors that its buffer holds at that time.
 #[test]
+#[ignore = "slow: sequences of frames"]
 fn a_late_frame_reads_later_factors() {
     let form = StageForm {
         domain: Domain::Quad,
@@ -185,6 +187,7 @@ fn a_late_frame_reads_later_factors() {
 
 /// Groups wait for the frame in which the room grows.
 #[test]
+#[ignore = "slow: sequences of frames"]
 fn groups_and_room_change_in_one_frame() {
     let frame = Frame { count: 8, from: Count::Host, draw: Draw::One(1), then: Then::Submit };
     replay(&[
@@ -203,6 +206,7 @@ fn groups_and_room_change_in_one_frame() {
 
 /// Room that was given back grows again, also for a stage that replaces the first.
 #[test]
+#[ignore = "slow: sequences of frames"]
 fn room_shrinks_and_grows_again() {
     let frame =
         |count| Frame { count, from: Count::Host, draw: Draw::Everything, then: Then::Submit };

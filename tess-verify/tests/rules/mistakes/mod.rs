@@ -458,6 +458,7 @@ fn table() -> (Vec<String>, Vec<String>) {
 /// Each mistake is detected by the rules that docs/rules.md names, or allowed by the sentence that
 /// it quotes.
 #[test]
+#[ignore = "slow: every mistake under every rule"]
 fn mistakes_are_broken_or_allowed() {
     let (lines, faults) = table();
     let page = include_str!("../../../../docs/rules.md");

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-const LIBRARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/shaders/metal");
+const LIBRARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/languages/metal");
 
 /// Compiles every stage of a folder.
 fn compile(folder: &Path) -> Result<(), String> {

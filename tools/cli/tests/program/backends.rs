@@ -15,6 +15,7 @@ fn equals(file: &str, backend: &str) {
 }
 
 #[test]
+#[ignore = "slow: every recorded result"]
 fn simd_equals_every_recorded_result() {
     let files = ["cases.txt", "patches.csv", "corners.csv", "hlsl.csv", "sweep.csv", "uniform.csv"];
     for file in files.into_iter().chain(["place.csv", "factor.csv"]) {
@@ -24,6 +25,7 @@ fn simd_equals_every_recorded_result() {
 
 /// A CPU level that this machine lacks ends with exit code 3; no other level is used in its place.
 #[test]
+#[ignore = "slow: every recorded result"]
 fn simd_at_every_cpu_level() {
     for level in Level::ALL {
         let backend = format!("simd --cpu-level {level}");
@@ -40,6 +42,7 @@ fn simd_at_every_cpu_level() {
 
 #[cfg(feature = "gpu")]
 #[test]
+#[ignore = "slow: every recorded result on a software driver"]
 fn gpu_equals_recorded_patches() {
     let files = ["cases.txt", "patches.csv", "corners.csv", "hlsl.csv", "sweep.csv", "uniform.csv"];
     for file in files {
@@ -49,6 +52,7 @@ fn gpu_equals_recorded_patches() {
 
 /// Compares 16-bit indices patch by patch; each patch numbers its points from 0.
 #[test]
+#[ignore = "slow: every recorded result"]
 fn narrow_indices_equal_recorded_patches() {
     for backend in narrow() {
         for file in ["cases.txt", "patches.csv"] {
@@ -104,6 +108,7 @@ fn a_shard_without_units() {
 /// 561 million locations and 336 million factors: one or two minutes on a software driver.
 #[cfg(feature = "gpu")]
 #[test]
+#[ignore = "slow: every recorded result on a software driver"]
 fn gpu_equals_recorded_stages() {
     for file in ["place.csv", "factor.csv"] {
         equals(file, "gpu");
@@ -162,6 +167,7 @@ fn random_patches_are_equal(backend: &str, patches: usize) {
 }
 
 #[test]
+#[ignore = "slow: random patches of all 96 configurations"]
 fn simd_random_patches_are_equal() {
     random_patches_are_equal("simd", 20_000);
 }
@@ -169,6 +175,7 @@ fn simd_random_patches_are_equal() {
 /// Seven seconds of processor time on a software driver.
 #[cfg(feature = "gpu")]
 #[test]
+#[ignore = "slow: random patches of all 96 configurations"]
 fn gpu_random_patches_are_equal() {
     random_patches_are_equal("gpu", 5000);
 }

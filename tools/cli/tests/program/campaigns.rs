@@ -128,6 +128,7 @@ fn failed_runs_have_a_report() {
 /// The report of an earlier run is not mistaken for the result of one that was killed.
 #[cfg(unix)]
 #[test]
+#[ignore = "slow: many runs of the program"]
 fn interrupted_and_killed_runs() {
     let folder = directory("report-interrupted");
     for (signal, state) in [("TERM", Some("interrupted")), ("KILL", None)] {
@@ -398,6 +399,7 @@ fn known_differences() {
 /// A line with terms excuses the difference that it expects, until it expires; a line that does not
 /// apply is a mismatch.
 #[test]
+#[ignore = "slow: many runs of the program"]
 fn known_differences_have_terms() {
     let folder = directory("known_terms");
     let (faulty, case) = faulty_listing();
