@@ -22,6 +22,23 @@ pub const TARGETS: [&str; 11] = [
     "gpu",
 ];
 
+/// With `TESS_FUZZ_SEEDS` set, writes the seeds of every target to `fuzz/corpus`, and ends the
+/// program: with status 1 if they cannot be written.
+pub fn write_if_asked() {
+    if std::env::var_os("TESS_FUZZ_SEEDS").is_none() {
+        return;
+    }
+    let fuzz = Path::new(env!("CARGO_MANIFEST_DIR"));
+    match write(&fuzz.join("corpus"), &fuzz.join("../golden")) {
+        Ok(count) => println!("{count} seeds in fuzz/corpus"),
+        Err(error) => {
+            eprintln!("fuzz/corpus: {error}");
+            std::process::exit(1);
+        }
+    }
+    std::process::exit(0);
+}
+
 /// Writes the seeds of every target to `corpus/TARGET/`; `golden` is the folder of recorded
 /// results. Errors: those of the file system.
 pub fn write(corpus: &Path, golden: &Path) -> io::Result<usize> {
