@@ -2,26 +2,20 @@
 
     records.py performance    write tables and charts
     records.py check          check that tables and charts agree with the records
-    records.py fresh          check that every record measured the present code; `cargo xtask ci` runs this
 
-measure.py takes the measurements.
+measure.py takes the measurements; fresh.py checks that they are of the present code.
 """
 
-import io
 import json
 import math
 import re
-import subprocess
 import sys
-import tarfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 RECORDS = ROOT / "benches/records"
 RESULTS = ROOT / "docs/performance.md"
 EXPERIMENTS = ROOT / "docs/experiments.md"
-# Records that may be older than the code, each with the reason.
-EXCEPTIONS = ROOT / "benches/exceptions.json"
 
 # Columns of rows of `tess bench --json`: key, title, and divisor of the values.
 RATES = {
@@ -213,58 +207,6 @@ def performance():
             print(f"{path} is new")
 
 
-def fresh():
-    """Checks that each record's commit exists and has the present code, except for the records that EXCEPTIONS names."""
-    from measure import MEASUREMENTS
-
-    exceptions = json.loads(EXCEPTIONS.read_text())
-    names = {path.stem for path in RECORDS.glob("*.json")}
-    problems = [f"{EXCEPTIONS}: there is no record {name}" for name in sorted(exceptions.keys() - names)]
-    here = {}
-    for name in sorted(names):
-        measurement, commit = MEASUREMENTS.get(name), read(name)["commit"]
-        if measurement is None:
-            problem = "measure.py does not take it"
-        elif run_git("cat-file", "-e", f"{commit}^{{commit}}") is None:
-            problem = f"its commit {commit} does not exist"
-        else:
-            sources = tuple(measurement.sources)
-            if sources not in here:
-                here[sources] = code_of("HEAD", sources)
-            now = here[sources]
-            then = code_of(commit, sources)
-            changed = sorted(path for path in now.keys() | then.keys() if now.get(path) != then.get(path))
-            problem = f"{changed[0]} has changed since {commit}" if changed else None
-        if problem and name not in exceptions:
-            problems.append(f"benches/records/{name}.json: {problem}: cargo xtask records {getattr(measurement, 'set', '')}")
-        elif name in exceptions and not problem:
-            problems.append(f"{EXCEPTIONS}: {name} needs no exception")
-    if problems:
-        sys.exit("\n".join(problems))
-    print(f"{len(names)} records, {len(exceptions)} exceptions")
-
-
-def run_git(*words):
-    """The output of git; `None` if it fails."""
-    done = subprocess.run(["git", *words], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-    return None if done.returncode else done.stdout
-
-
-def code_of(commit, folders):
-    """The code of each file of some folders at a commit."""
-    there = [folder for folder in folders if run_git("cat-file", "-e", f"{commit}:{folder}") is not None]
-    with tarfile.open(fileobj=io.BytesIO(run_git("archive", commit, "--", *there))) as files:
-        sources = [file for file in files if file.name.endswith((".rs", ".wgsl"))]
-        return {file.name: code_in(files.extractfile(file).read().decode()) for file in sources}
-
-
-def code_in(text):
-    """The lines of Rust or WGSL code, without comments, empty lines and unit tests."""
-    text = text.split("#[cfg(test)]\nmod tests {")[0]
-    lines = (re.sub(r"\s//.*", "", line).strip() for line in text.splitlines())
-    return [line for line in lines if line and not line.startswith("//")]
-
-
 def check():
     """Checks that documents and charts agree with the records."""
     for path in RECORDS.glob("*.json"):
@@ -274,7 +216,7 @@ def check():
 
 
 if __name__ == "__main__":
-    commands = {"performance": performance, "check": check, "fresh": fresh}
+    commands = {"performance": performance, "check": check}
     if len(sys.argv) != 2 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     commands[sys.argv[1]]()

@@ -1,7 +1,8 @@
 """Tests of the tables and charts of records, and of faults that must be detected."""
 
+from fresh import code_in
 from measure import MEASUREMENTS, fastest, of_ablation, of_crossover, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
-from records import code_in, digits, svg, table, with_tables
+from records import digits, svg, table, with_tables
 
 
 def test_three_digits_count():

@@ -16,7 +16,7 @@ pub(crate) fn run(all: bool) -> Result<(), String> {
     script::run(script::CHECKS, &["traceability"])?;
     script::run(script::CHECKS, &["public"])?;
     script::run(script::CHECKS, &["width"])?;
-    script::run(script::RECORDS, &["fresh"])?;
+    script::run(script::FRESH, &[])?;
     command::run(
         cargo("clippy --workspace --all-targets --all-features").args(["--", "-D", "warnings"]),
     )?;

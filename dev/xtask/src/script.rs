@@ -6,6 +6,9 @@ use crate::setup::{self, PYTHON};
 /// Generates tables and charts from recorded measurements.
 pub(crate) const RECORDS: &str = "benches/records.py";
 
+/// Checks that the recorded measurements are of the present code.
+pub(crate) const FRESH: &str = "benches/fresh.py";
+
 /// Takes the measurements.
 pub(crate) const MEASURE: &str = "benches/measure.py";
 
