@@ -9,6 +9,7 @@ mod mirror;
 mod pipelines;
 mod places;
 mod queue;
+mod seen;
 mod stages;
 #[cfg(test)]
 mod tests;
@@ -38,7 +39,7 @@ pub(crate) fn build(app: &mut App) {
         .add_render_command::<AlphaMask3dPrepass, draw::DrawDepth>()
         .add_render_command::<Shadow, draw::DrawDepth>()
         .add_systems(ExtractSchedule, extract::extract)
-        .add_systems(Render, materials::find.in_set(RenderSystems::Specialize))
+        .add_systems(Render, extract::find_materials.in_set(RenderSystems::Specialize))
         .add_systems(
             Render,
             (

@@ -11,8 +11,9 @@ use bevy::asset::{AssetServer, Assets};
 use bevy::ecs::prelude::*;
 use bevy::light::NotShadowReceiver;
 use bevy::math::Affine3A;
-use bevy::pbr::PreviousGlobalTransform;
+use bevy::pbr::{PreparedMaterial, PreviousGlobalTransform, RenderMaterialInstances};
 use bevy::render::Extract;
+use bevy::render::erased_render_asset::ErasedRenderAssets;
 use bevy::render::renderer::RenderDevice;
 use bevy::render::sync_world::MainEntity;
 use bevy::shader::Shader;
@@ -88,4 +89,15 @@ pub(crate) fn extract(
         })
     }));
     extracted.items.sort_unstable_by_key(|item| item.entity);
+}
+
+/// Finds the materials of the frame's surfaces. A surface without one is not drawn.
+pub(crate) fn find_materials(
+    mut extracted: ResMut<Extracted>,
+    instances: Res<RenderMaterialInstances>,
+    prepared: Res<ErasedRenderAssets<PreparedMaterial>>,
+) {
+    for item in &mut extracted.items {
+        item.material = Material::of(item.entity, &instances, &prepared);
+    }
 }

@@ -1,11 +1,10 @@
 //! The materials of surfaces, which Bevy prepares.
 
-use super::extract::Extracted;
-use bevy::ecs::prelude::*;
 use bevy::material::key::{ErasedMaterialPipelineKey, ErasedMeshPipelineKey};
 use bevy::material::{AlphaMode, MaterialProperties};
 use bevy::pbr::{MeshPipelineKey, PreparedMaterial, RenderMaterialInstances};
 use bevy::render::erased_render_asset::ErasedRenderAssets;
+use bevy::render::sync_world::MainEntity;
 use std::any::TypeId;
 use std::fmt;
 use std::sync::Arc;
@@ -35,6 +34,18 @@ impl fmt::Debug for Material {
 }
 
 impl Material {
+    /// The material of an entity; `None` while Bevy loads it, or if the entity is hidden.
+    pub(crate) fn of(
+        entity: MainEntity,
+        instances: &RenderMaterialInstances,
+        prepared: &ErasedRenderAssets<PreparedMaterial>,
+    ) -> Option<Self> {
+        let asset = instances.instances.get(&entity)?.asset_id;
+        let PreparedMaterial { binding, properties } = prepared.get(asset)?;
+        let (properties, slot) = (Arc::clone(properties), binding.slot.into());
+        Some(Self { properties, slot, type_id: asset.type_id() })
+    }
+
     pub(crate) fn pass(&self) -> Pass {
         match self.properties.alpha_mode {
             AlphaMode::Opaque | AlphaMode::AlphaToCoverage => Pass::Opaque,
@@ -50,22 +61,5 @@ impl Material {
             material_key: self.properties.material_key.clone(),
             type_id: self.type_id,
         }
-    }
-}
-
-/// Finds the materials of the frame's surfaces. A surface without one is not drawn, because Bevy
-/// still loads the material or the surface is hidden.
-pub(crate) fn find(
-    mut extracted: ResMut<Extracted>,
-    instances: Res<RenderMaterialInstances>,
-    prepared: Res<ErasedRenderAssets<PreparedMaterial>>,
-) {
-    for item in &mut extracted.items {
-        let asset = instances.instances.get(&item.entity).map(|instance| instance.asset_id);
-        item.material = asset.and_then(|asset| {
-            let PreparedMaterial { binding, properties } = prepared.get(asset)?;
-            let (properties, slot) = (Arc::clone(properties), binding.slot.into());
-            Some(Material { properties, slot, type_id: asset.type_id() })
-        });
     }
 }

@@ -4,6 +4,7 @@ use super::draw::{DrawDepth, DrawLit};
 use super::extract::{Extracted, Item};
 use super::materials::{Material, Pass};
 use super::pipelines::{Kind, Own, Pipelines};
+use super::seen::Seen;
 use bevy::asset::AssetId;
 use bevy::core_pipeline::core_3d::{
     AlphaMask3d, Opaque3d, Opaque3dBatchSetKey, Opaque3dBinKey, Transparent3d,
@@ -14,10 +15,9 @@ use bevy::core_pipeline::prepass::{
 };
 use bevy::ecs::component::Mutable;
 use bevy::ecs::prelude::*;
-use bevy::ecs::system::SystemParam;
 use bevy::log::error_once;
 use bevy::material::AlphaMode;
-use bevy::mesh::{Mesh, Mesh3d};
+use bevy::mesh::Mesh;
 use bevy::pbr::{
     LightKeyCache, MeshPipelineKey, Shadow, ShadowBatchSetKey, ShadowBinKey, ViewKeyCache,
     ViewKeyPrepassCache, alpha_mode_pipeline_key,
@@ -32,42 +32,8 @@ use bevy::render::render_phase::{
 use bevy::render::render_resource::{CachedRenderPipelineId, WgpuFeatures};
 use bevy::render::renderer::RenderDevice;
 use bevy::render::sync_world::MainEntity;
-use bevy::render::view::{
-    ExtractedView, Msaa, RenderShadowMapVisibleEntities, RenderVisibleEntities, RetainedViewEntity,
-};
+use bevy::render::view::{Msaa, RetainedViewEntity};
 use std::ops::{Deref, DerefMut};
-
-/// The entities that cameras and shadow maps see, by Bevy's culling.
-#[derive(SystemParam)]
-pub(crate) struct Seen<'w, 's> {
-    cameras: Query<'w, 's, (&'static ExtractedView, &'static RenderVisibleEntities)>,
-    lights: Query<'w, 's, &'static RenderShadowMapVisibleEntities>,
-}
-
-impl Seen<'_, '_> {
-    /// The entities of each camera.
-    fn cameras(&self) -> impl Iterator<Item = (RetainedViewEntity, &[(Entity, MainEntity)])> {
-        self.cameras.iter().map(|(view, all)| (view.retained_view_entity, meshes(all)))
-    }
-
-    /// The entities of each shadow map.
-    fn maps(&self) -> impl Iterator<Item = (RetainedViewEntity, &[(Entity, MainEntity)])> {
-        let maps = self.lights.iter().flat_map(|light| &light.subviews);
-        maps.map(|(&view, (_, all))| (view, meshes(all)))
-    }
-
-    /// The entities that a camera or a shadow map of its picture sees.
-    pub(crate) fn by(&self, camera: RetainedViewEntity) -> HashSet<MainEntity> {
-        let is_its_own = |of: MainEntity| of == camera.main_entity;
-        let maps = self.maps().filter(|(map, _)| map.auxiliary_entity.is_none_or(is_its_own));
-        let own = self.cameras().filter(|&(view, _)| view == camera);
-        own.chain(maps).flat_map(|(_, all)| all).map(|&(_, entity)| entity).collect()
-    }
-}
-
-fn meshes(all: &RenderVisibleEntities) -> &[(Entity, MainEntity)] {
-    all.get::<Mesh3d>().map_or(&[], |class| &class.entities_cpu_culling)
-}
 
 /// A phase of Bevy's in which surfaces are drawn.
 pub(crate) trait Phase: PhaseItem {

@@ -5,7 +5,7 @@ use super::extract::{Extracted, Item};
 use super::layout;
 use super::mirror::Gpu;
 use super::places::Places;
-use super::queue::Seen;
+use super::seen::Seen;
 use crate::component::TessStats;
 use crate::eye::View;
 use crate::program::Key;
