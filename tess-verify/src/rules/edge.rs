@@ -1,18 +1,13 @@
 //! Rules about the vertices of a single line.
 
 use super::Judged;
-use super::answer::Answer;
+use super::answer::{Answer, TOLERANCE};
 use super::levels::{Level, may_touch_outline};
 use super::lines::{Line, outer_lines};
 use super::standard::Specification;
 use std::collections::BTreeSet;
 use tess_core::Domain;
 use tess_core::fixed_point::ONE;
-
-/// The largest allowed distance of a vertex from the place that equal lengths give it, in units of
-/// 2^-16. No standard gives a number; the model's largest deviation from k/n is 12.26 units, at n =
-/// 53. A length has two ends, so it may be off by twice this.
-pub(super) const TOLERANCE: u32 = 16;
 
 /// A level up to this many units of 2^-16 above a number of segments counts as just above it: the
 /// shorter segments are then at most 1/[`VANISHING`] of a longer one.

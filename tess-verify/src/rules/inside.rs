@@ -14,8 +14,8 @@
 //! ```
 
 use super::Judged;
-use super::answer::{Answer, show};
-use super::edge::{TOLERANCE, spaced};
+use super::answer::{Answer, TOLERANCE, show};
+use super::edge::spaced;
 use super::levels::{Level, is_minimum, may_touch_outline};
 use super::lines::{Grid, inner_lines};
 use super::rings::{Ring, Rings, vertices_inside};

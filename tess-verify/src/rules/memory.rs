@@ -1,8 +1,8 @@
 //! Rules that compare a patch with earlier ones.
 
 use super::Judgement;
-use super::answer::{Answer, Place, distance_along};
-use super::edge::{TOLERANCE, shorter};
+use super::answer::{Answer, Place, TOLERANCE, distance_along};
+use super::edge::shorter;
 use super::levels::{Level, is_minimum, may_touch_outline};
 use super::lines::{Line, inner_lines, outer_lines};
 use super::standard::{Rule, Specification};

@@ -1,8 +1,7 @@
 //! Rules about the primitives of one patch.
 
 use super::Judged;
-use super::answer::{Answer, Place, distance_along, show};
-use super::edge::TOLERANCE;
+use super::answer::{Answer, Place, TOLERANCE, distance_along, show};
 use super::levels::may_touch_outline;
 use super::standard::Specification;
 use std::collections::{BTreeMap, BTreeSet};

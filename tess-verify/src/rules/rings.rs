@@ -19,8 +19,7 @@
 //! A vertex belongs to a ring by its distance from the outline. Where two rings are so close that
 //! rounding might mix them up, no [`Rings`] are made, and no rule about rings judges the patch.
 
-use super::answer::Place;
-use super::edge::TOLERANCE;
+use super::answer::{Place, TOLERANCE};
 use tess_core::fixed_point::ONE;
 
 /// The vertices of one ring.
