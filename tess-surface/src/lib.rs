@@ -13,6 +13,7 @@ pub mod culling;
 pub mod curve;
 mod dispatch;
 pub mod displaced;
+mod edges;
 mod error;
 pub mod factors;
 mod formulas;

@@ -6,9 +6,9 @@
 //! way round and are not folded onto each other. Faces without a common edge, such as those on both
 //! sides of a crack, are included if their normals are within 60 degrees.
 
+use crate::edges::MeshEdges;
 use crate::math::unit;
 use crate::mesh::{Face, PolygonMesh};
-use crate::model::MeshEdges;
 use crate::sheets::{fans, mixed};
 use crate::sides::{Sides, edge_corners};
 use crate::topology::{HalfEdge, HalfEdges, Topology};
