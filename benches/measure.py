@@ -22,9 +22,9 @@ from typing import Callable, NamedTuple
 from records import RECORDS, ROOT, performance, text_of
 
 CORE = ["tess-core/src", "tess-verify/src/workloads.rs", "tess-verify/src/workloads/scenes.rs"]
-CPU = [*CORE, "tess-simd/src"]
+CPU = [*CORE, "tess-level/src", "tess-simd/src"]
 GPU = [*CORE, "tess-gpu/src", "tess-gpu/shaders", "tess-wgpu/src"]
-SURFACES = ["tess-core/src", "tess-surface/src"]
+SURFACES = ["tess-core/src", "tess-level/src", "tess-surface/src"]
 
 UNLIKE = ["terrain", "character", "mosaic", "mosaic-even"]
 ALL = ["uniform", *UNLIKE, "meshes", "worst"]

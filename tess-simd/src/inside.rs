@@ -10,7 +10,6 @@
 
 extern crate alloc;
 
-mod cpu;
 mod data;
 #[path = "../tests/inside/document.rs"]
 mod document;

@@ -1,8 +1,5 @@
 //! The kernels, compiled once for each CPU level and chosen at run time.
 
-use crate::at_each_level;
-#[cfg(target_arch = "x86_64")]
-use crate::cpu::instructions::with_avx512;
 use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
 use crate::data::format::IndexFormat;
@@ -20,6 +17,9 @@ use crate::stages::points::Lookup;
 use crate::stages::points::{Code, permute, permute::Permutes};
 use crate::stages::settings::Settings;
 use tess_core::{Config, Counts, Domain};
+use tess_level::at_each_level;
+#[cfg(target_arch = "x86_64")]
+use tess_level::with_avx512;
 
 at_each_level! {
     /// [`kernels::front_end::count`] at a level.
@@ -129,10 +129,10 @@ pub(crate) use taps::{contexts, fixed_factors, locations};
 
 #[cfg(feature = "taps")]
 mod taps {
-    use crate::at_each_level;
     use crate::kernels;
     use alloc::vec::Vec;
     use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
+    use tess_level::at_each_level;
 
     at_each_level! {
         /// [`kernels::taps::fixed_factors`] at a level.
@@ -168,10 +168,10 @@ pub(crate) use alone::{compact_points, of_indices, of_numbers, of_patches, of_po
 
 #[cfg(all(feature = "taps", feature = "apart"))]
 mod alone {
-    use crate::at_each_level;
     use crate::data::format::IndexFormat;
     use crate::data::point_writer::PointWriter;
     use crate::kernels::kernel_taps::{self, Kernel, TapInput, TapOutput};
+    use tess_level::at_each_level;
 
     at_each_level! {
         /// [`kernel_taps::of_numbers`] at a level.

@@ -3,9 +3,7 @@
 
 extern crate alloc;
 
-// The layers: interface, threads, levels, kernels, stages, data, cpu. Each uses only the later
-// ones.
-mod cpu;
+// The layers: interface, threads, levels, kernels, stages, data. Each uses only the later ones.
 mod data;
 mod interface;
 mod kernels;
@@ -15,7 +13,6 @@ mod threads;
 #[cfg(test)]
 mod tour;
 
-pub use cpu::level::{Level, LevelUnavailableError};
 pub use data::batch::Batch;
 pub use data::error::{BatchBuffer, Error};
 pub use data::format::{IndexFormat, OutputPoint};
@@ -37,5 +34,6 @@ pub use interface::tessellator::Tessellator;
 pub use kernels::kernel_taps::Kernel;
 pub use tess_core;
 pub use tess_core::Order;
+pub use tess_level::{Level, LevelUnavailableError};
 #[cfg(feature = "rayon")]
 pub use threads::process::ThreadsError;

@@ -4,7 +4,7 @@
 use crate::displaced::{self, DisplacedPatch};
 use crate::patch::{Sample, SurfacePatch};
 use crate::samples;
-use tess_simd::{Level, LevelUnavailableError, at_each_level};
+use tess_level::{Level, LevelUnavailableError, at_each_level};
 
 at_each_level! {
     /// [`samples::samples`] at a level.

@@ -47,5 +47,5 @@ pub use patch::{Sample, Surface, SurfacePatch};
 pub use pn::{PnCorner, PnQuad, PnTriangle};
 pub use sides::{Place, Sides};
 pub use tess_core;
-pub use tess_simd::{Level, LevelUnavailableError};
+pub use tess_level::{Level, LevelUnavailableError};
 pub use topology::HalfEdge;

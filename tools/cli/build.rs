@@ -4,11 +4,12 @@ use std::path::Path;
 use std::process::Command;
 
 /// The folders of this repository from which the program is built; `.` is this one.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     ".",
     "../probe",
     "../../tess-core",
     "../../tess-gpu",
+    "../../tess-level",
     "../../tess-simd",
     "../../tess-surface",
     "../../tess-verify",

@@ -1,6 +1,6 @@
 //! The CPU levels at which comparisons run.
 
-use tess_simd::Level;
+use tess_level::Level;
 
 /// The environment variable that names the required levels.
 const VARIABLE: &str = "TESS_REQUIRE_LEVELS";

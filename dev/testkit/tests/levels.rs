@@ -1,6 +1,6 @@
 //! The environment variable of CPU levels is parsed as documented.
 
-use tess_simd::Level;
+use tess_level::Level;
 use tess_testkit::levels::required_levels;
 
 #[test]

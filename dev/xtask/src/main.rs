@@ -114,7 +114,7 @@ usage: cargo xtask [--yes | --no-install] <command>
   fuzz [SECONDS]
           build every fuzz target and run each, for 10 seconds by default
   mutants PACKAGE [OPTION...]
-          plant faults in tess-core, tess-simd, tess-gpu, tess-wgpu, tess-surface or tess-verify; fails if one survives
+          plant faults in tess-core, tess-level, tess-simd, tess-gpu, tess-wgpu, tess-surface or tess-verify; fails if one survives
           the tests and dev/xtask/faults/survivors.tsv does not list it (needs cargo-mutants; takes an hour)
   mutants planted [WORD...]
           plant the faults of dev/xtask/faults, or those with one of these words, in a copy of the tree; fails

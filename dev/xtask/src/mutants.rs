@@ -32,6 +32,7 @@ const SUBJECTS: &[Subject] = &[
             },
         ],
     },
+    Subject { package: "tess-level", passes: &[Pass { tests: "-C=--test=levels", files: &[] }] },
     Subject {
         package: "tess-simd",
         passes: &[
@@ -43,7 +44,6 @@ const SUBJECTS: &[Subject] = &[
             Pass {
                 tests: "-C=--features=rayon -C=--test=inside -C=--test=batches",
                 files: &[
-                    "cpu/level",
                     "interface/tessellator",
                     "threads/part",
                     "threads/pool",

@@ -1,6 +1,5 @@
 //! A batch whose output sizes are known.
 
-use crate::cpu::level::Level;
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::error::{BatchBuffer, Error};
@@ -19,6 +18,7 @@ use crate::threads::Workspaces;
 use crate::threads::part::{Job, Part};
 use crate::threads::sizes::Slicing;
 use crate::threads::slices::Share;
+use tess_level::Level;
 
 /// A counted batch, made by [`Tessellator::count`](crate::Tessellator::count). It can be written
 /// any number of times.

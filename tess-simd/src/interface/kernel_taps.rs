@@ -3,7 +3,6 @@
 
 mod words;
 
-use crate::cpu::level::{Level, LevelUnavailableError};
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::format::IndexFormat;
@@ -24,6 +23,7 @@ use tess_core::fixed_point::ONE;
 use tess_core::{
     Config, Counts, Domain, DomainPoint, FactorContext, FixedFactor, Order, Parity, PatchFactors,
 };
+use tess_level::{Level, LevelUnavailableError};
 
 /// The formats that points and indices are written in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

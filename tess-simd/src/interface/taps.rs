@@ -3,10 +3,10 @@
 //!
 //! Each tap runs the code that whole patches go through, at a CPU level.
 
-use crate::cpu::level::{Level, LevelUnavailableError};
 use crate::levels;
 use alloc::vec::Vec;
 use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
+use tess_level::{Level, LevelUnavailableError};
 
 /// Factor processing (spec section 3). For each value `x`, returns the u = 0 factor of the triangle
 /// patch (x, 3, 3; 3), or 0 if that patch is culled, and the inside factor of (3, 3, 3; x).

@@ -1,6 +1,5 @@
 //! The entry point: a configuration that is ready to tessellate batches.
 
-use crate::cpu::level::{Level, LevelUnavailableError};
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::error::Error;
@@ -23,6 +22,7 @@ use crate::threads::slices::CountShare;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use tess_core::{Config, Order};
+use tess_level::{Level, LevelUnavailableError};
 
 /// Tessellates batches of patches in one configuration.
 ///

@@ -1,11 +1,11 @@
 //! Counting and writing on the calling thread only.
 
-use crate::cpu::level::Level;
 use crate::data::format::IndexFormat;
 use crate::data::point_writer::PointRoom;
 use crate::threads::part::{self, Job, Workspace};
 use crate::threads::slices::{CountShare, Share};
 use tess_core::Config;
+use tess_level::Level;
 
 /// The only workspace.
 #[derive(Clone, Debug)]

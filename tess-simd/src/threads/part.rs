@@ -1,6 +1,5 @@
 //! Consecutive patches of a batch, written by one thread.
 
-use crate::cpu::level::Level;
 use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
 use crate::data::error::{BatchBuffer, Error};
@@ -18,6 +17,7 @@ use crate::stages::settings::Settings;
 use alloc::boxed::Box;
 use core::slice::from_ref;
 use tess_core::{Config, Counts, PatchFactors};
+use tess_level::Level;
 
 /// The settings of all parts of a batch.
 #[derive(Clone, Copy, Debug)]

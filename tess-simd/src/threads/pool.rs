@@ -6,7 +6,6 @@
 //! them, because threads that leave a batch together are still awake when the next one comes. Small
 //! batches use fewer threads, because waking a thread would take longer than the batch.
 
-use crate::cpu::level::Level;
 use crate::data::format::IndexFormat;
 use crate::data::point_writer::PointRoom;
 use crate::stages::counts::PartCounts;
@@ -20,6 +19,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tess_core::Config;
+use tess_level::Level;
 
 /// The most threads, and so the most workspaces, of a tessellator.
 pub(crate) const MAX_THREADS: usize = 256;

@@ -3,7 +3,6 @@
 //! The cut depends only on the batch's length and the number of threads, and every slice has its
 //! own part of the buffers, so the output does not depend on which thread writes it.
 
-use crate::cpu::level::Level;
 use crate::data::batch::Batch;
 #[cfg(feature = "rayon")]
 use crate::data::point_writer::PointRoom;
@@ -13,6 +12,7 @@ use crate::levels;
 use crate::stages::counts::PartCounts;
 use crate::threads::part::Part;
 use tess_core::Config;
+use tess_level::Level;
 
 /// Consecutive slices of a batch to count.
 #[derive(Debug)]

@@ -69,24 +69,6 @@ fn levels_that_this_machine_lacks_are_errors() {
     }
 }
 
-/// The CPU features that the levels need, in one list.
-#[cfg(target_arch = "x86_64")]
-#[test]
-fn the_machine_is_asked_for_every_instruction() {
-    use std::is_x86_feature_detected as has;
-    let avx2 = [has!("avx2"), has!("bmi1"), has!("bmi2"), has!("lzcnt"), has!("popcnt")];
-    let avx512 = [
-        [has!("avx512f"), has!("avx512bw"), has!("avx512cd"), has!("avx512dq"), has!("avx512vl")],
-        [has!("avx512bitalg"), has!("avx512ifma"), has!("avx512vbmi"), has!("gfni"), has!("vaes")],
-    ];
-    let others =
-        [has!("avx512vbmi2"), has!("avx512vnni"), has!("avx512vpopcntdq"), has!("vpclmulqdq")];
-    let has_avx2 = avx2 == [true; 5];
-    let has_avx512 = has_avx2 && avx512 == [[true; 5]; 2] && others == [true; 4];
-    let available = [Level::Avx2, Level::Avx512].map(Level::is_available);
-    assert_eq!(available, [has_avx2, has_avx512], "{avx2:?} {avx512:?} {others:?}");
-}
-
 #[test]
 fn a_warm_tessellator_allocates_nothing() {
     let small: Vec<_> = (0..250u16).map(|i| quad(f32::from(i % 40) / 4.0)).collect();

@@ -8,6 +8,7 @@ const TARGET: &str = "aarch64-apple-darwin";
 /// The packages without C code, which would need Apple's compiler.
 const PACKAGES: &[&str] = &[
     "tess-core",
+    "tess-level",
     "tess-simd",
     "tess-gpu",
     "tess-surface",

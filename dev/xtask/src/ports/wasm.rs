@@ -26,7 +26,7 @@ pub(super) fn check(extent: Extent) -> Result<(), String> {
     setup::provide(&[NODE])?;
     setup::target(BROWSER)?;
     setup::target(WASI)?;
-    let libraries = ["tess-core", "tess-simd", "tess-gpu", "tess-surface"];
+    let libraries = ["tess-core", "tess-level", "tess-simd", "tess-gpu", "tess-surface"];
     let libraries = libraries.into_iter().flat_map(|package| ["--package", package]);
     command::run(cargo("check --target").arg(BROWSER).args(libraries))?;
     let script = workspace().join("dev/xtask/src/ports/wasi.mjs");

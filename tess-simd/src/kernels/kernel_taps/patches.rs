@@ -144,7 +144,7 @@ pub(crate) fn compact_by_lookup(work: &TapInput, made: &mut TapOutput) {
 }
 
 #[cfg(target_arch = "x86_64")]
-crate::cpu::instructions::with_avx512! {
+tess_level::with_avx512! {
     pub(crate) fn compact_by_permutes(work: &TapInput, made: &mut TapOutput) {
         let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, DomainPoint>| {
             permute::emit(patch, codes, out);

@@ -54,7 +54,6 @@
 
 use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, RINGS, TERMS, Term};
 use super::{CompactPoints, POINTS_AT_ONCE};
-use crate::cpu::instructions::with_avx512;
 use crate::data::format::OutputPoint;
 use crate::data::point_writer::PointWriter;
 use crate::stages::packet::PacketPatch;
@@ -68,6 +67,7 @@ use core::arch::x86_64::{
 };
 use tess_core::Domain;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
+use tess_level::with_avx512;
 
 /// Points are made in multiples of this number. Most compact patches have at most this many.
 const LEAST: usize = 32;

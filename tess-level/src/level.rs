@@ -1,6 +1,5 @@
 //! CPU levels: the sets of instructions that the kernels are compiled for.
 
-use super::instructions::has;
 use core::fmt;
 
 /// A set of CPU instructions that the kernels are compiled for. All levels give the same bits.
@@ -27,27 +26,6 @@ impl Level {
             Self::Avx2 => "avx2",
             Self::Avx512 => "avx512",
         }
-    }
-
-    /// Whether this machine can run the level. Without the feature `std` the machine cannot be
-    /// asked, and only the baseline is available.
-    #[must_use]
-    pub fn is_available(self) -> bool {
-        has(self)
-    }
-
-    /// Checks that this machine can run the level.
-    ///
-    /// # Errors
-    /// [`LevelUnavailableError`] if this machine, or this build, cannot run it.
-    pub fn require(self) -> Result<(), LevelUnavailableError> {
-        if self.is_available() { Ok(()) } else { Err(LevelUnavailableError(self)) }
-    }
-
-    /// The most capable level that this machine can run.
-    #[must_use]
-    pub fn detect() -> Self {
-        Self::ALL.into_iter().rev().find(|level| level.is_available()).unwrap_or(Self::Baseline)
     }
 }
 

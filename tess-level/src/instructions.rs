@@ -1,7 +1,30 @@
 //! The instructions of each level, in three forms: for detection at run time (`has`), for functions
 //! that use intrinsics (`with_avx512`), and for `multiversion` (`at_each_level`).
 
-use super::level::Level;
+use crate::level::{Level, LevelUnavailableError};
+
+impl Level {
+    /// Whether this machine can run the level. Without the feature `std` the machine cannot be
+    /// asked, and only the baseline is available.
+    #[must_use]
+    pub fn is_available(self) -> bool {
+        has(self)
+    }
+
+    /// Checks that this machine can run the level.
+    ///
+    /// # Errors
+    /// [`LevelUnavailableError`] if this machine, or this build, cannot run it.
+    pub fn require(self) -> Result<(), LevelUnavailableError> {
+        if self.is_available() { Ok(()) } else { Err(LevelUnavailableError(self)) }
+    }
+
+    /// The most capable level that this machine can run.
+    #[must_use]
+    pub fn detect() -> Self {
+        Self::ALL.into_iter().rev().find(|level| level.is_available()).unwrap_or(Self::Baseline)
+    }
+}
 
 /// Whether this machine has all of these instruction sets.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -14,7 +37,7 @@ macro_rules! all_of {
 /// Whether this machine can run a level: it has the instructions of the target, and the others that
 /// `multiversion` checks for. Without one of them, `multiversion` would choose the baseline's code.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-pub(super) fn has(level: Level) -> bool {
+fn has(level: Level) -> bool {
     match level {
         Level::Baseline => true,
         Level::Avx2 => all_of!("avx2" "bmi1" "bmi2" "lzcnt" "popcnt"),
@@ -29,13 +52,15 @@ pub(super) fn has(level: Level) -> bool {
 
 /// Whether this machine can run a level. The machine cannot be asked, so only the baseline.
 #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
-pub(super) const fn has(level: Level) -> bool {
+const fn has(level: Level) -> bool {
     matches!(level, Level::Baseline)
 }
 
 /// Defines functions that may call the intrinsics of AVX-512. Only functions of that level may call
 /// these functions.
-#[cfg(target_arch = "x86_64")]
+///
+/// Only for this project's crates, and only on x86-64.
+#[macro_export]
 macro_rules! with_avx512 {
     ($($function:item)*) => {
         $(
@@ -46,16 +71,16 @@ macro_rules! with_avx512 {
         )*
     };
 }
-#[cfg(target_arch = "x86_64")]
-pub(crate) use with_avx512;
 
 /// Defines a function that runs `$kernel` at a level, with one compiled instance per level. The
 /// caller has checked that the level is available ([`Level::is_available`] asks for the same
 /// instructions). With `avx512 = $special`, the level AVX-512 runs `$special` instead, a function
-/// of `with_avx512`.
+/// of [`with_avx512!`](crate::with_avx512).
+///
+/// The kernel and what it calls must be inlined into the instance, for example by
+/// `#[inline(always)]`: otherwise they have the instructions of the baseline.
 ///
 /// Only for this project's crates. A crate that uses it depends on `multiversion`.
-#[doc(hidden)]
 #[macro_export]
 macro_rules! at_each_level {
     (@avx512 $args:tt $kernel:path) => {
