@@ -268,7 +268,7 @@ impl Patch {
     /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)
     /// >>> for difference in patch.differences({"u": 0, "v": 0x8001, "last": False}, point=1):
     /// ...     print(difference)
-    /// v of stage points (module tess_points): observed 0x8001, expected 0x8000
+    /// v of stage points: observed 0x8001, expected 0x8000
     #[pyo3(signature = (observed, *, point = None, primitive = None, factor = None))]
     fn differences<'py>(
         &self,

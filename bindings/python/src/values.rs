@@ -76,7 +76,7 @@ pub(crate) fn signal_difference<'py>(
     py: Python<'py>,
     found: &SignalDifference,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let elements = (found.stage, found.module, found.name, found.observed, found.expected);
+    let elements = (found.signal.stage, found.signal.name, found.observed, found.expected);
     value(py, "SignalDifference", elements)
 }
 

@@ -32,10 +32,10 @@ def test_equal_streams() -> None:
 @pytest.mark.parametrize(
     "call, expected",
     [
-        (lambda b: b.counts(1, QUAD.counts.primitives), ("counts", "tess_factors", "points", 1, QUAD.counts.points)),
-        (lambda b: b.point(1, 0x10000, False), ("points", "tess_points", "u", 1, 0)),
-        (lambda b: b.point(0, 0x10000, True), ("points", "tess_points", "last", 1, 0)),
-        (lambda b: b.primitive([0, 1], False), ("connect", "tess_connect", "size", 2, 3)),
+        (lambda b: b.counts(1, QUAD.counts.primitives), ("counts", "points", 1, QUAD.counts.points)),
+        (lambda b: b.point(1, 0x10000, False), ("points", "u", 1, 0)),
+        (lambda b: b.point(0, 0x10000, True), ("points", "last", 1, 0)),
+        (lambda b: b.primitive([0, 1], False), ("connect", "size", 2, 3)),
     ],
 )
 def test_differences_are_named(call: "Callable[[Scoreboard], Any]", expected: "tuple[Any, ...]") -> None:
@@ -43,7 +43,7 @@ def test_differences_are_named(call: "Callable[[Scoreboard], Any]", expected: "t
     board.accept(QUAD)
     call(board)
     assert board.wrong == 1 and board.mismatches[0].differences[0] == SignalDifference(*expected)
-    assert f"module={expected[1]} signal={expected[2]} " in str(board.mismatches[0])
+    assert f"stage={expected[0]} signal={expected[1]} " in str(board.mismatches[0])
 
 
 def test_what_is_missing_and_what_nobody_asked_for() -> None:

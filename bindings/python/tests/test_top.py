@@ -13,10 +13,10 @@ from child import simulated
 BENCH = Path(__file__).resolve().parents[3] / "rtl" / "dv" / "cocotb"
 BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb")) / "top"
 FAULTS = {
-    "a carry is lost where half a ring's distance is rounded": "stage=points module=tess_points signal=v point ",
-    "the next inner ring closes one index late": "stage=connect module=tess_connect signal=i2 primitive ",
-    "a stall loses the last point": "stage=points module=tess_points signal=u point ",
-    "the unused index of a line is not 0": "stage=connect module=tess_connect signal=i2 primitive ",
+    "a carry is lost where half a ring's distance is rounded": "stage=points signal=v point ",
+    "the next inner ring closes one index late": "stage=connect signal=i2 primitive ",
+    "a stall loses the last point": "stage=points signal=u point ",
+    "the unused index of a line is not 0": "stage=connect signal=i2 primitive ",
 }
 LIST = [line for line in (BENCH.parent / "circuit.faults").read_text().splitlines() if line.startswith("fault ")]
 NUMBERS = {line.removeprefix("fault "): str(number) for number, line in enumerate(LIST, 1)}

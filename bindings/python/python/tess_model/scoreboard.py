@@ -55,7 +55,7 @@ class Mismatch(NamedTuple):
     def __str__(self) -> str:
         first = self.differences[0]
         return (
-            f"MISMATCH stage={first.stage} module={first.module} signal={first.signal} {self.element} "
+            f"MISMATCH stage={first.stage} signal={first.signal} {self.element} "
             f"observed={first.observed:#x} expected={first.expected:#x}\n    {self.patch.case}\n    {self.command}"
         )
 
@@ -77,7 +77,7 @@ class Scoreboard:
     >>> board.due
     0
     >>> print(board.mismatches[0])
-    MISMATCH stage=connect module=tess_connect signal=i1 primitive 1 observed=0x3 expected=0x2
+    MISMATCH stage=connect signal=i1 primitive 1 observed=0x3 expected=0x2
         case isoline integer line ruler 3f800000 40000000
         tess explain isoline --outer 0x3f800000,0x40000000 --partitioning integer --output line --split ruler --primitive 1 --observed size=0x2,i0=0x1,i1=0x3,i2=0x0,last=0x1
     """

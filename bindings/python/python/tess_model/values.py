@@ -177,8 +177,6 @@ class SignalDifference(NamedTuple):
 
     stage: str
     """The stage of the specification."""
-    module: str
-    """The module of ``rtl/`` that makes the signal."""
     signal: str
     """The name of the signal."""
     observed: int
@@ -187,10 +185,7 @@ class SignalDifference(NamedTuple):
     """Value from the model."""
 
     def __str__(self) -> str:
-        return (
-            f"{self.signal} of stage {self.stage} (module {self.module}): "
-            f"observed {self.observed:#x}, expected {self.expected:#x}"
-        )
+        return f"{self.signal} of stage {self.stage}: observed {self.observed:#x}, expected {self.expected:#x}"
 
 
 class RuleExample(NamedTuple):

@@ -121,6 +121,25 @@ mod tests {
         }
     }
 
+    /// `tess explain --signals` refuses a list with other signals than the model's. This one has
+    /// all of them.
+    #[test]
+    fn the_model_has_the_same_signals() {
+        use tess_verify::show::Part;
+        let parts = [
+            ("factor", Part::Factor(0)),
+            ("patch", Part::Patch),
+            ("point", Part::Point(0)),
+            ("primitive", Part::Primitive(0)),
+        ];
+        let of_model = parts.into_iter().flat_map(|(word, part)| {
+            part.signals().iter().map(move |own| format!("{word}\t{}\t{}", own.stage, own.name))
+        });
+        let rows = STAGES.lines().filter(|line| !line.starts_with('#'));
+        let without_modules = rows.filter_map(|row| Some(row.rsplit_once('\t')?.0));
+        assert_eq!(without_modules.collect::<Vec<_>>(), of_model.collect::<Vec<_>>(), "in order");
+    }
+
     /// Each module is in a file of the same name, and has the signal.
     #[test]
     fn modules_have_their_signals() {

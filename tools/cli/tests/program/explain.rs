@@ -1,7 +1,7 @@
 //! Tests of `tess explain`: the decisions that it names, and that its parts fit the patch.
 
-use crate::support::{digest, tess};
-use serde_json::Value;
+use crate::support::{digest, directory, shell, tess};
+use serde_json::{Value, json};
 
 #[test]
 fn decisions_are_named() {
@@ -98,48 +98,80 @@ fn elements_are_explained() {
     }
 }
 
-/// The output of a circuit is compared: each signal that differs is shown with its stage and
-/// module, and the run ends with exit code 1.
+/// A list of a circuit's signals, as `--signals` takes it; without the indices of primitives.
+const SIGNALS: &str = "\
+# part, stage, signal, module
+patch	counts	points	counter
+patch	counts	primitives	counter
+factor	factors	fixed	converter
+factor	factor_context	points	context_unit
+point	points	u	placer
+";
+
+/// The output of a circuit is compared: each signal that differs is shown with its stage and, if a
+/// list has it, its module. The run ends with exit code 1.
 #[test]
 fn mismatches_of_a_circuit_are_named() {
+    let folder = directory("signals");
+    std::fs::write(folder.join("signals.tsv"), SIGNALS).expect("written");
     let patch = "explain quad --outer 3,4,5,6 --inner 4,7";
     let cases = [
         ("--observed points=36,primitives=52", None),
         (
             "--observed points=36,primitives=51",
-            Some("primitives of stage counts (module tess_factors)"),
+            Some(("primitives of stage counts", " (module counter)")),
         ),
         (
             "--factor 4 --observed fixed=0x40000,half_points=3",
-            Some("half_points of stage factor_context (module tess_factor_context)"),
+            Some(("half_points of stage factor_context", "")),
+        ),
+        (
+            "--factor 4 --observed points=3",
+            Some(("points of stage factor_context", " (module context_unit)")),
         ),
         ("--factor 0 --observed odd=1,fixed=0x30000", None),
-        (
-            "--point 20 --observed u=1",
-            Some("u of stage points (module tess_points): observed 0x1, expected 0x"),
-        ),
-        (
-            "--primitive 0 --observed size=3,i0=0,i1=2",
-            Some("i1 of stage connect (module tess_connect): observed 0x2, expected 0x1"),
-        ),
+        ("--point 20 --observed u=1", Some(("u of stage points", " (module placer)"))),
+        ("--primitive 0 --observed size=3,i0=0,i1=2", Some(("i1 of stage connect", ""))),
     ];
     for (element, difference) in cases {
-        let run = tess(&format!("{patch} {element}"));
-        run.exits(i32::from(difference.is_some()));
-        let expected =
-            difference.map_or("observed: equal".into(), |text| format!("differs: {text}"));
-        run.prints(&expected);
-        assert_eq!(
-            run.stdout.matches("differs: ").count(),
-            usize::from(difference.is_some()),
-            "{}",
-            run.stdout
-        );
+        for (list, named) in [("", false), (" --signals signals.tsv", true)] {
+            let run = shell(&format!("$TESS {patch} {element}{list}"), &folder);
+            run.exits(i32::from(difference.is_some()));
+            run.prints(&difference.map_or("observed: equal".into(), |(text, module)| {
+                format!("differs: {text}{}: observed 0x", if named { module } else { "" })
+            }));
+            let count = run.stdout.matches("differs: ").count();
+            assert_eq!(count, usize::from(difference.is_some()), "{}", run.stdout);
+        }
     }
-    let json = tess(&format!("{patch} --factor 5 --observed points=1 --json")).stdout;
-    let json: Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!(json["differences"][0]["module"], "tess_factor_context", "{json}");
+    let command =
+        format!("$TESS {patch} --factor 5 --observed points=1 --signals signals.tsv --json");
+    let json: Value = serde_json::from_str(&shell(&command, &folder).stdout).expect("JSON");
+    let expected = json!({
+        "stage": "factor_context", "signal": "points", "observed": 1, "expected": 8, "module": "context_unit"
+    });
+    assert_eq!(json["differences"], json!([expected]), "{json}");
     assert_eq!(json["fixed"]["bits"], 0x70000, "the factor itself: {json}");
+}
+
+/// A list that is wrong is refused with its line, also where nothing differs, and is not replaced.
+#[test]
+fn lists_of_signals_are_checked() {
+    let folder = directory("lists of signals");
+    let write = |name, text: &str| std::fs::write(folder.join(name), text).expect("written");
+    write("signals.tsv", SIGNALS);
+    write("wrong.tsv", &SIGNALS.replace("placer", ""));
+    let patch = "$TESS explain tri --outer 2,2,2 --inner 2";
+    for (rest, message) in [
+        ("--observed points=7 --signals wrong.tsv", "wrong.tsv, line 6: the last column is empty"),
+        ("--observed points=7 --signals none.tsv", "cannot read none.tsv"),
+        ("--signals signals.tsv", "--observed"),
+        ("--observed points=7 --signals signals.tsv -o signals.tsv", "signals.tsv"),
+    ] {
+        shell(&format!("{patch} {rest}"), &folder).exits(2).says(message).prints_nothing();
+    }
+    let kept = std::fs::read_to_string(folder.join("signals.tsv")).expect("the list");
+    assert_eq!(kept, SIGNALS, "as it was");
 }
 
 #[test]

@@ -1,19 +1,29 @@
 //! `tess explain`: every stage of one patch.
 
+mod modules;
+
 use crate::args::PatchArgs;
 use crate::failure::{Exit, Failure};
-use crate::output::{self, OutputArgs};
+use crate::output::{self, OutputArgs, Role, refuse_shared};
+use modules::Modules;
 use serde::Serialize;
 use std::fmt::{self, Display};
+use std::path::PathBuf;
 use tess_verify::Case;
-use tess_verify::show::{self, Explanation, Part, SignalDifference};
+use tess_verify::show::{self, Explanation, Part, Signal, SignalDifference};
 
 const OBSERVED: &str = "\
-Compare what a circuit gave there, name the stage, module and signal that differ, and end with 1 if any does
+Compare what a circuit gave there, name the stage and signal that differ, and end with 1 if any does
 
 Signals of the patch: points, primitives. Of a point: valid, u, v, last. Of a primitive: valid, size, i0, i1, i2, last. Of a \
 factor: culled, fixed, odd, fraction, half_points, points, split, inv_floor, inv_ceil. Values are decimal or, with 0x, hex; \
 coordinates and factors are fixed-point numbers.";
+
+const SIGNALS: &str = "\
+Also name the module that drives a signal which differs, by a list of the circuit's signals
+
+The list has a line for each signal: its part (patch, factor, point or primitive), stage, name and module, with tabs between them. \
+Lines that start with # are comments.";
 
 /// Show every stage of one patch: factors, contexts, counts, rings, stitches
 #[derive(Debug, clap::Args)]
@@ -22,7 +32,8 @@ Examples:
   tess explain quad --outer 3,4,5,6 --inner 4,7
   tess explain tri --outer 2.5,3,1 --inner 3.25 --partitioning fractional_odd --point 7
   tess explain quad --outer 3,4,5,6 --inner 4,7 --primitive 12 --json
-  tess explain quad --outer 3,4,5,6 --inner 4,7 --point 20 --observed u=0x4000,v=0x924a")]
+  tess explain quad --outer 3,4,5,6 --inner 4,7 --point 20 --observed u=0x4000,v=0x924a
+  tess explain quad --outer 3,4,5,6 --inner 4,7 --observed points=35 --signals stages.tsv")]
 pub(crate) struct ExplainCommand {
     #[command(flatten)]
     patch: PatchArgs,
@@ -35,11 +46,14 @@ pub(crate) struct ExplainCommand {
     /// Explain only the processing of this factor; 0 is the first outer one
     #[arg(long, value_name = "K", group = "part")]
     factor: Option<u32>,
-    /// Compare a circuit's values there: name the stage, module and signal of each difference, and
-    /// end with exit code 1 if there is any
+    /// Compare a circuit's values there: name the stage and signal of each difference, and end with
+    /// exit code 1 if there is any
     #[arg(long, value_name = "SIGNAL=N,..", value_delimiter = ',', value_parser = observation)]
     #[arg(long_help = OBSERVED)]
     observed: Vec<(String, u32)>,
+    /// Also name the module that drives a signal which differs, by a list of the circuit's signals
+    #[arg(long, value_name = "FILE", requires = "observed", long_help = SIGNALS)]
+    signals: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -60,8 +74,12 @@ fn observation(text: &str) -> Result<(String, u32), String> {
 }
 
 /// Runs the command. Errors: a wrong number of factors; a factor, point, primitive or signal that
-/// does not exist; an output that cannot be written.
+/// does not exist; a list of signals that is wrong or cannot be read; an output that cannot be
+/// written.
 pub(crate) fn run(args: &ExplainCommand) -> Result<Exit, Failure> {
+    if let Some(signals) = &args.signals {
+        refuse_shared(&[Role::input("--signals", signals), args.output.role()])?;
+    }
     let case = args.patch.case()?;
     let part = args.part();
     let explained = Explained { report: report(&case, part)?, circuit: args.circuit(&case, part)? };
@@ -78,14 +96,40 @@ impl ExplainCommand {
     }
 
     /// The differences from the observed values, if any were given.
-    fn circuit(&self, case: &Case, part: Part) -> Result<Option<Vec<SignalDifference>>, Failure> {
+    fn circuit(&self, case: &Case, part: Part) -> Result<Option<Vec<Wrong>>, Failure> {
         if self.observed.is_empty() {
             return Ok(None);
         }
+        let modules = self.signals.as_deref().map(Modules::read).transpose()?;
         let observed: Vec<(&str, u32)> =
             self.observed.iter().map(|(signal, value)| (signal.as_str(), *value)).collect();
-        let differences = show::compare_signals(case, part, &observed);
-        differences.map(Some).map_err(|error| Failure::bad_input(format!("--observed: {error}")))
+        let differences = show::compare_signals(case, part, &observed)
+            .map_err(|error| Failure::bad_input(format!("--observed: {error}")))?;
+        let module = |signal| Some(modules.as_ref()?.of(part, signal)?.to_owned());
+        let wrong =
+            |difference: SignalDifference| Wrong { module: module(difference.signal), difference };
+        Ok(Some(differences.into_iter().map(wrong).collect()))
+    }
+}
+
+/// A signal that differs from the model, with the module that drives it, if a list names it.
+#[derive(Serialize)]
+struct Wrong {
+    #[serde(flatten)]
+    difference: SignalDifference,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    module: Option<String>,
+}
+
+impl Display for Wrong {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(module) = &self.module else { return self.difference.fmt(f) };
+        let SignalDifference { signal: Signal { stage, name, .. }, observed, expected, .. } =
+            self.difference;
+        write!(
+            f,
+            "{name} of stage {stage} (module {module}): observed {observed:#x}, expected {expected:#x}"
+        )
     }
 }
 
@@ -111,7 +155,7 @@ struct Explained {
     #[serde(flatten)]
     report: Explanation,
     #[serde(rename = "differences", skip_serializing_if = "Option::is_none")]
-    circuit: Option<Vec<SignalDifference>>,
+    circuit: Option<Vec<Wrong>>,
 }
 
 impl Display for Explained {
