@@ -8,8 +8,8 @@ paths: an item counts as used where its name stands in the code of a test, an ex
 another crate. A type may also come with its caller: it stands in a signature or a field. The lint `unreachable_pub` sees
 to it that what is `pub` can be reached.
 
-width: a comment of Rust has at most 100 columns, as `rustfmt.toml` says of code. Listings, tables and words that cannot be
-broken are left out.
+width: a line of Rust has at most 100 columns, as `rustfmt.toml` says. rustfmt reports no line that it cannot break, such as
+those of a macro's rules. Text in quotes may be longer, because programs wrap it, and so may listings and tables in comments.
 """
 
 import re
@@ -106,18 +106,35 @@ def public(libraries, files):
 WIDTH = int(re.search(r"max_width = (\d+)", read("rustfmt.toml"))[1])
 
 
+# Comments, and the literals of Rust that may contain a quote: strings, raw strings and characters.
+LITERAL = re.compile(
+    r"""(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<string>\b[bc]?r(?P<hashes>\#*)".*?"(?P=hashes)|"(?:\\.|[^"\\])*")"""
+    r"""|'(?:\\(?:u\{[^}]*\}|.)|[^'\\\n])'""",
+    re.DOTALL,
+)
+
+
+# Columns after a text for what closes its call: `")],`.
+CLOSING = 4
+
+
 def width(path, text):
-    """The lines of comments that are too long and could be broken."""
-    is_listing, found = False, []
-    for number, line in enumerate(text.splitlines(), 1):
+    """The lines that are too long, except for text in quotes, and listings and tables in comments."""
+    quoted = [found.span() for found in LITERAL.finditer(text) if found["string"]]
+    is_listing, start, found = False, 0, []
+    for number, line in enumerate(text.split("\n"), 1):
+        at = start + WIDTH
+        start += len(line) + 1
         comment = re.match(r"\s*//[/!]? ?(.*)", line)
         if not comment:
             is_listing = False
-            continue
-        is_fence = comment[1].lstrip().startswith(("```", "~~~"))
-        is_listing ^= is_fence
-        is_prose = not (is_listing or is_fence or comment[1].startswith(("|", "    ", ">>>", "[")))
-        if len(line) > WIDTH and is_prose and " " in comment[1].strip().lstrip("-*# "):
+            is_free = any(first <= at < end + CLOSING for first, end in quoted)
+        else:
+            is_fence = comment[1].lstrip().startswith(("```", "~~~"))
+            is_listing ^= is_fence
+            is_table = comment[1].startswith(("|", "    ", ">>>", "["))
+            is_free = is_listing or is_fence or is_table or " " not in comment[1].strip().lstrip("-*# ")
+        if len(line) > WIDTH and not is_free:
             found.append(f"{path}:{number}: {len(line)} columns")
     return found
 
@@ -138,7 +155,7 @@ def main(words):
     elif words == ["width"]:
         files = [path for path in rust_files() if not (ROOT / path).is_symlink()]
         count, faults = len(files), [fault for path in files for fault in width(path, read(path))]
-        print(f"{count} files of Rust, whose comments have at most {WIDTH} columns")
+        print(f"{count} files of Rust, whose lines have at most {WIDTH} columns")
     else:
         sys.exit(__doc__)
     if faults:

@@ -60,6 +60,13 @@ def test_width():
         (f"/// | {long} |", 0),
         (f"/// {word}", 0),
         (f"let text = \"{long}\";", 0),
+        (f"let text = r#\"{long}\"#;", 0),
+        (f'let quote = (\'"\', \'\\\'\', {"x, " * 40});', 1),
+        (f"let text = (\"short\", {'x, ' * 40});", 1),
+        (f"let text = (\"{'w' * 90}\")?;", 0),
+        (f"let text = (\"{'w' * 70}\", a, b, c, d, e, f, g);", 1),
+        (f"call(); // {long}", 1),
+        ("binned!(" + "$more:tt " * 15, 1),
     ]:
         assert len(width("a.rs", line)) == expected, line
 

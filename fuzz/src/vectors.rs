@@ -65,11 +65,10 @@ fn coordinates_survive(coordinates: &Coordinates) -> Result<(), String> {
 }
 
 fn listing_survives(listing: &Listing) -> Result<(), String> {
-    survives(
-        &listing.case,
-        &listing.to_string(),
-        |again| matches!(again, Record::Listing(same) if same.case == listing.case && same.output == listing.output),
-    )
+    survives(&listing.case, &listing.to_string(), |again| match again {
+        Record::Listing(same) => same.case == listing.case && same.output == listing.output,
+        _ => false,
+    })
 }
 
 /// Checks that a record of this text is read back as the same one, and so is its case.

@@ -116,8 +116,8 @@ impl PnTriangle {
     #[inline(always)]
     pub fn normal(&self, u: f32, v: f32) -> Vec3 {
         let w = 1.0 - u - v;
-        let [PnCorner { normal: nu, .. }, PnCorner { normal: nv, .. }, PnCorner { normal: nw, .. }] =
-            self.corners;
+        let [cu, cv, cw] = self.corners;
+        let [nu, nv, nw] = [cu.normal, cv.normal, cw.normal];
         let [vw, uw, uv] = self.edge_normals;
         nu * (u * u) + nv * (v * v) + nw * (w * w) + uv * (u * v) + vw * (v * w) + uw * (u * w)
     }
@@ -126,8 +126,8 @@ impl PnTriangle {
     #[must_use]
     #[inline(always)]
     pub(crate) fn boundary_normals(&self) -> [[Vec3; 3]; 3] {
-        let [PnCorner { normal: nu, .. }, PnCorner { normal: nv, .. }, PnCorner { normal: nw, .. }] =
-            self.corners;
+        let [cu, cv, cw] = self.corners;
+        let [nu, nv, nw] = [cu.normal, cv.normal, cw.normal];
         let [vw, uw, uv] = self.edge_normals;
         [[nw, vw, nv], [nw, uw, nu], [nv, uv, nu]]
     }

@@ -47,7 +47,10 @@ fn run_core(text: &str) -> Report {
 
 /// Whether a difference in `element` and `stage` fits this fault of patches.
 fn looks_like(fault: Fault, element: &Element, stage: SpecStage) -> bool {
-    let first = |wanted| matches!(element, Element::Point { index: 0, coordinate } if *coordinate == wanted);
+    let first = |wanted| match element {
+        Element::Point { index: 0, coordinate } => *coordinate == wanted,
+        _ => false,
+    };
     match fault {
         Fault::PointU => first("u") && stage == SpecStage::Location,
         Fault::PointV => first("v") && stage == SpecStage::Location,

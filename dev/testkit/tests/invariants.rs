@@ -17,7 +17,8 @@ proptest! {
         let holds = all(&case, &case.patch().tessellate());
         prop_assert!(holds.is_ok(), "{case}: {holds:?}");
         if !matches!(factors, tess_core::PatchFactors::Isoline(_)) {
-            let [cw, ccw] = [OutputPrimitive::TriangleCw, OutputPrimitive::TriangleCcw].map(|output| {
+            let windings = [OutputPrimitive::TriangleCw, OutputPrimitive::TriangleCcw];
+            let [cw, ccw] = windings.map(|output| {
                 Case { config: Config { output, ..config }, factors }.patch().tessellate()
             });
             let holds = winding(&cw, &ccw);

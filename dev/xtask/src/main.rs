@@ -103,7 +103,7 @@ usage: cargo xtask [--yes | --no-install] <command>
           run `tess mesh` on the models in these folders, or on small ones of every kind that a script makes, and
           judge the outputs by other programs: pygltflib, scipy, Khronos' glTF validator
   public  list the public items of the published libraries that nothing outside of them uses
-  width   check that comments in Rust have at most 100 columns
+  width   check that lines of Rust have at most 100 columns
   traceability
           check that docs/traceability.md has each section of docs/specification.md and that the evidence it names exists
   features [PACKAGE...]

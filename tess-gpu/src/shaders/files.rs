@@ -17,17 +17,17 @@ macro_rules! files {
 }
 
 const FILES: [(&str, &str); 57] = files! {
-    entry_points: expand_points expand_primitives expand_short factors groups list partition scan short_batch
-        totals;
+    entry_points: expand_points expand_primitives expand_short factors groups list partition scan
+        short_batch totals;
     layout: packed_context packed_triangle point_format setup topology;
     offered: counting elements;
-    shared: alike block catalogue described expand finish offsets point_tile prefix_sum primitive_tile search
-        tile tile_size;
-    stages: cache_order connect counts d3d_float factor_context factors fixed_point locate place points rings
-        stitch;
+    shared: alike block catalogue described expand finish offsets point_tile prefix_sum
+        primitive_tile search tile tile_size;
+    stages: cache_order connect counts d3d_float factor_context factors fixed_point locate place
+        points rings stitch;
     taps: contexts factors locations tap;
-    variants: indices_u16 indices_u32 listing narrow_tiles no_catalogue no_contexts no_listing place_evenly
-        read_catalogue stored_contexts wide_tiles;
+    variants: indices_u16 indices_u32 listing narrow_tiles no_catalogue no_contexts no_listing
+        place_evenly read_catalogue stored_contexts wide_tiles;
 };
 
 /// A name in braces and the file that stands for it.

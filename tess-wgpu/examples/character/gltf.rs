@@ -137,8 +137,15 @@ pub(crate) fn write(mesh: &Mesh) -> String {
         mesh.positions.iter().fold([f32::MAX; 3], |low, p| [0, 1, 2].map(|k| low[k].min(p[k])));
     let high =
         mesh.positions.iter().fold([f32::MIN; 3], |high, p| [0, 1, 2].map(|k| high[k].max(p[k])));
-    let view = |offset: usize, length: usize| json!({"buffer": 0, "byteOffset": offset, "byteLength": length});
-    let vector = |view: usize| json!({"bufferView": view, "componentType": 5126, "count": mesh.positions.len(), "type": "VEC3"});
+    let view = |offset: usize, length: usize| {
+        let buffer = 0;
+        json!({"buffer": buffer, "byteOffset": offset, "byteLength": length})
+    };
+    let count = mesh.positions.len();
+    let vector = |view: usize| {
+        let (float, kind) = (5126, "VEC3");
+        json!({"bufferView": view, "componentType": float, "count": count, "type": kind})
+    };
     let mut positions = vector(0);
     positions["min"] = json!(low);
     positions["max"] = json!(high);

@@ -144,7 +144,8 @@ fn output() -> impl Strategy<Value = Destination> + Clone {
     let room = move || (more(), more());
     prop_oneof![
         1 => Just(Destination::Count),
-        4 => (0..3_usize, 0..3_usize).prop_map(|(points, indices)| Destination::Shared { points, indices }),
+        4 => (0..3_usize, 0..3_usize)
+            .prop_map(|(points, indices)| Destination::Shared { points, indices }),
         4 => room().prop_map(|(points, primitives)| Destination::Own { points, primitives }),
         2 => room().prop_map(|(points, primitives)| Destination::Indices { points, primitives }),
         2 => room().prop_map(|(points, primitives)| Destination::Arguments { points, primitives }),
@@ -179,7 +180,9 @@ pub(crate) fn call(setups: usize) -> impl Strategy<Value = DeviceCall> + Clone {
     prop_oneof![
         6 => (domain, patches()).prop_map(|(domain, with)| DeviceCall::Fill { domain, with }),
         8 => (0..setups, count, groups, output(), prop::bool::weighted(0.2))
-            .prop_map(|(setup, count, groups, output, is_bare)| DeviceCall::Make { setup, count, groups, output, is_bare }),
+            .prop_map(|(setup, count, groups, output, is_bare)| {
+                DeviceCall::Make { setup, count, groups, output, is_bare }
+            }),
         10 => (0..8_usize, 1..4_usize, then)
             .prop_map(|(first, count, then)| DeviceCall::Run { first, count, then }),
         2 => Just(DeviceCall::Late),

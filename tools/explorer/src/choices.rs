@@ -10,7 +10,10 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// Domains with their factors, partitionings with their ranges, outputs and split orders: JSON.
 #[wasm_bindgen]
 pub fn choices() -> String {
-    let domain = |&(name, domain): &(&str, Domain)| json!({ "name": name, "factors": domain.factor_names(), "outer": domain.outer_factors() });
+    let domain = |&(name, domain): &(&str, Domain)| {
+        let (factors, outer) = (domain.factor_names(), domain.outer_factors());
+        json!({ "name": name, "factors": factors, "outer": outer })
+    };
     let partitioning =
         |&(name, value): &(&str, Partitioning)| json!({ "name": name, "range": value.range() });
     json(&json!({

@@ -24,12 +24,15 @@ pub(crate) fn sequences() -> impl Strategy<Value = Sequence> {
 
 fn calls() -> impl Strategy<Value = Call> {
     prop_oneof![
-        12 => (patches(), to(), wrong()).prop_map(|(patches, to, wrong)| Call::Run { patches, to, wrong }),
-        8 => (factors(), to(), wrong()).prop_map(|(factors, to, wrong)| Call::Single { factors, to, wrong }),
+        12 => (patches(), to(), wrong())
+            .prop_map(|(patches, to, wrong)| Call::Run { patches, to, wrong }),
+        8 => (factors(), to(), wrong())
+            .prop_map(|(factors, to, wrong)| Call::Single { factors, to, wrong }),
         3 => (patches(), wrong()).prop_map(|(patches, wrong)| Call::Count { patches, wrong }),
         2 => uniform3(prop_oneof![0..9u32, 0..200u32]).prop_map(|starts| Call::Groups { starts }),
         2 => right_create(),
-        1 => (uniform4(0..5u32), 0..6u32).prop_map(|(config, level)| Call::Create { config, level }),
+        1 => (uniform4(0..5u32), 0..6u32)
+            .prop_map(|(config, level)| Call::Create { config, level }),
         1 => Just(Call::Reserve),
         2 => (0..3u32).prop_map(|order| Call::Triangles { order }),
         1 => (0..4u32).prop_map(|threads| Call::Pool { threads }),

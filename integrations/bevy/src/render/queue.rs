@@ -66,7 +66,10 @@ pub(crate) trait Phase: PhaseItem {
 }
 
 macro_rules! binned {
-    ($item:ident, $keys:ident, $draw:ident, $is_prepass:literal, $takes:expr, $set:ident { $($more:tt)* }, $bin:ident $(, $alpha:item)?) => {
+    (
+        $item:ident, $keys:ident, $draw:ident, $is_prepass:literal, $takes:expr,
+        $set:ident { $($more:tt)* }, $bin:ident $(, $alpha:item)?
+    ) => {
         impl Phase for $item {
             type Keys = $keys;
             type Phases = ViewBinnedRenderPhases<Self>;
@@ -85,7 +88,13 @@ macro_rules! binned {
             ) {
                 let (slabs, material_bind_group_index) = (MeshSlabs::default(), None);
                 let asset_id = AssetId::<Mesh>::default().untyped();
-                let set = $set { pipeline, draw_function, material_bind_group_index, slabs, $($more)* };
+                let set = $set {
+                    pipeline,
+                    draw_function,
+                    material_bind_group_index,
+                    slabs,
+                    $($more)*
+                };
                 let entities = (Entity::PLACEHOLDER, item.entity);
                 let (index, kind) = (InputUniformIndex::default(), BinnedRenderPhaseType::NonMesh);
                 phase.add(set, $bin { asset_id }, entities, index, kind);

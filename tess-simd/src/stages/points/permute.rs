@@ -192,7 +192,8 @@ with_avx512! {
         };
         let positions = must_cast(POSITIONS);
         let sums = _mm512_mullo_epi32(positions, both(one.step, other.step));
-        let behind = _mm512_cmpgt_epu32_mask(positions, both(one.split_position, other.split_position));
+        let splits = both(one.split_position, other.split_position);
+        let behind = _mm512_cmpgt_epu32_mask(positions, splits);
         let sums = _mm512_mask_sub_epi32(sums, behind, sums, both(one.lag, other.lag));
         let half = _mm512_set1_epi32(HALF.cast_signed());
         let rounded = _mm512_srli_epi32::<16>(_mm512_add_epi32(sums, half));

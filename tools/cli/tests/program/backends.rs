@@ -37,7 +37,8 @@ fn simd_at_every_cpu_level() {
             }
         }
     }
-    tess(&format!("check {GOLDEN}/cases.txt --backend simd --cpu-level avx1024")).exits(2); // no such level
+    let no_such_level = format!("check {GOLDEN}/cases.txt --backend simd --cpu-level avx1024");
+    tess(&no_such_level).exits(2);
 }
 
 #[cfg(feature = "gpu")]

@@ -322,7 +322,8 @@ fn shards_of_files() {
     let folder = directory("shards-files");
     let asked = "gen --level 3 --count 40 --seed 5 --format listing --shard 2/4 -o asked.txt";
     tess_in(&folder, asked).exits(0);
-    tess_in(&folder, "check asked.txt --cases asked.txt --report r.jsonl").exits(2); // the file itself
+    let the_file_itself = "check asked.txt --cases asked.txt --report r.jsonl";
+    tess_in(&folder, the_file_itself).exits(2);
     fs::copy(folder.join("asked.txt"), folder.join("device.txt")).expect("copied");
     tess_in(&folder, "check device.txt --cases asked.txt --report r.jsonl").exits(0);
     let report = json(&folder.join("r.jsonl"));
@@ -393,7 +394,8 @@ fn known_differences() {
     tess_in(&folder, "check device.txt --known other.txt").exits(1); // another case
     tess_in(&folder, "verify --backend simd --random 2 --known lines.txt").exits(0);
     fs::write(folder.join("empty.txt"), "").expect("written");
-    tess_in(&folder, "check device.txt --known empty.txt").exits(2).says("there is no case"); // the file has none
+    let without_a_case = "check device.txt --known empty.txt";
+    tess_in(&folder, without_a_case).exits(2).says("there is no case");
 }
 
 /// A line with terms excuses the difference that it expects, until it expires; a line that does not
@@ -463,7 +465,8 @@ fn baselines_that_became_empty() {
     fs::write(folder.join("remarks.txt"), "# all mended\n").expect("written");
     for baseline in ["known.txt", "remarks.txt"] {
         tess_in(&folder, &format!("check right.txt --known {baseline}")).exits(0).says_nothing();
-        tess_in(&folder, &format!("check device.txt --known {baseline}")).exits(1); // it excuses nothing
+        let nothing_is_excused = format!("check device.txt --known {baseline}");
+        tess_in(&folder, &nothing_is_excused).exits(1);
         tess_in(&folder, &format!("verify --backend simd --random 2 --known {baseline}")).exits(0);
     }
 }

@@ -100,7 +100,8 @@ fn coverage_files_merge() {
     assert_ne!(read("shards.xml"), whole, "other sequences");
     of(&format!("{cases} --seed 2"), "other.xml");
     assert_ne!(read("whole.xml"), read("other.xml"), "other cases hit other bins");
-    tess(&format!("{cases} --coverage {vectors}")).exits(2).says("vectors.csv: line 1: "); // not a coverage file
+    // Not a coverage file.
+    tess(&format!("{cases} --coverage {vectors}")).exits(2).says("vectors.csv: line 1: ");
     let run = tess(&format!("check {} --coverage {}", PLACE, file("x.xml")));
     run.exits(2).says("this file's kind is locations"); // no patches
 }

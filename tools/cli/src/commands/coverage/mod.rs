@@ -51,7 +51,8 @@ pub(crate) struct CoverageCommand {
     #[arg(value_parser = name_of::<OutputPrimitive>())]
     output: Vec<OutputPrimitive>,
     /// Split orders that the device has [default: all]
-    #[arg(long, value_name = "NAME,..", value_delimiter = ',', value_parser = name_of::<SplitOrder>())]
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
+    #[arg(value_parser = name_of::<SplitOrder>())]
     split: Vec<SplitOrder>,
     /// Exclude the bins that this file names
     #[arg(long, value_name = "FILE")]

@@ -67,7 +67,8 @@ pub(crate) struct ShadersCommand {
     #[arg(long, value_name = "TYPE", default_value = "u32", value_parser = choice(INDEX_TYPES))]
     index_type: IndexType,
     /// Point that has index 0
-    #[arg(long, value_name = "NAME", default_value = "per-batch", value_parser = choice(NUMBERINGS))]
+    #[arg(long, value_name = "NAME", default_value = "per-batch")]
+    #[arg(value_parser = choice(NUMBERINGS))]
     numbering: Numbering,
     /// Order of the triangles
     #[arg(long = "index-order", value_name = "NAME", default_value = "specification")]
