@@ -34,6 +34,7 @@ mod tests {
             "benches/records_test.py",
             "dev/checks_test.py",
             "dev/links_test.py",
+            "dev/modules_test.py",
             "dev/xtask/src/dist/try_readme_test.py",
             "integrations/mesa/compare_test.py",
         ] {
@@ -49,6 +50,11 @@ mod tests {
     #[test]
     fn every_link_leads_somewhere() {
         assert_eq!(run("dev/links.py", &[]), Ok(()), "links of documents");
+    }
+
+    #[test]
+    fn modules_import_each_other_in_one_direction() {
+        assert_eq!(run("dev/modules.py", &[]), Ok(()), "imports of modules");
     }
 
     #[test]
