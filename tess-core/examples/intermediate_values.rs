@@ -1,7 +1,8 @@
 //! Prints the signals of one patch: processed factors, factor contexts, and one placement.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
-use tess_core::{Config, OutputPrimitive, Partitioning, Patch, QuadFactors, place};
+use tess_core::place::{place, placement};
+use tess_core::{Config, OutputPrimitive, Partitioning, Patch, QuadFactors};
 
 pub(crate) fn main() {
     let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
@@ -14,7 +15,7 @@ pub(crate) fn main() {
     }
 
     let tess_core::PatchFactors::Quad(quad) = processed else { unreachable!("it is a quad") };
-    let steps = place::placement(&quad.v0.context, 3);
+    let steps = placement(&quad.v0.context, 3);
     println!("point 3 of the edge v = 0: {steps:?}");
     if let Some(blend) = steps.blend {
         assert_eq!(blend.half_location(), steps.half_location, "the blend gives the location");

@@ -27,7 +27,6 @@ pub use patch::{Order, Patch};
 pub use model::factor_context::FactorContext;
 pub use model::factors::{ProcessedFactor, ProcessedPatch};
 pub use model::fixed_point::FixedFactor;
-pub use model::place::place;
 pub use model::stitch::{Side, Step, Stitch, StitchKind};
 pub use model::{reciprocal, row, ruler};
 
@@ -50,9 +49,9 @@ pub mod fixed_point {
     };
 }
 
-/// The intermediate values of a location (spec section 5).
+/// The location of a point along one dimension, and its intermediate values (spec section 5).
 pub mod place {
-    pub use crate::model::place::{Blend, Placement, placement};
+    pub use crate::model::place::{Blend, Placement, place, placement};
 }
 
 /// The steps of each kind of stitch (spec sections 7.2 to 7.4).

@@ -7,10 +7,9 @@ mod shown;
 
 use recorded::{RecordedLines, config, digest, factors, hex_words, text};
 use shown::shown;
+use tess_core::place::place;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
-use tess_core::{
-    DomainPoint, FactorContext, FixedFactor, Parity, Patch, Primitive, SplitOrder, place,
-};
+use tess_core::{DomainPoint, FactorContext, FixedFactor, Parity, Patch, Primitive, SplitOrder};
 
 type Elements = (Vec<DomainPoint>, Vec<u32>);
 

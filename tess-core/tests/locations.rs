@@ -2,7 +2,8 @@
 
 use std::ops::RangeInclusive;
 use tess_core::fixed_point::ONE;
-use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder, place};
+use tess_core::place::place;
+use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder};
 
 /// A row of the table of spec section 12.
 #[derive(Debug, Default, PartialEq, Eq)]

@@ -2,13 +2,13 @@
 
 use proptest::prelude::*;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS, ceil, floor};
-use tess_core::place::placement;
+use tess_core::place::{place, placement};
 use tess_core::reciprocal::reciprocal;
 use tess_core::row::Row;
 use tess_core::ruler::{has_point, rank};
 use tess_core::{
     Config, Domain, DomainPoint, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning,
-    Patch, PatchFactors, Primitive, ProcessedPatch, SplitOrder, Tessellation, place,
+    Patch, PatchFactors, Primitive, ProcessedPatch, SplitOrder, Tessellation,
 };
 use tess_testkit::strategies::{self, from_fixed};
 

@@ -2,9 +2,10 @@
 //! line found in its file, so that none of them becomes stale. The patch is the one of
 //! docs/tour-gpu.md.
 
+use tess_core::place::place;
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, PointOrigin, Primitive,
-    PrimitiveOrigin, ProcessedFactor, QuadFactors, fixed_point, place,
+    PrimitiveOrigin, ProcessedFactor, QuadFactors, fixed_point,
 };
 use tess_gpu::layout::{Topology, pack_context};
 use tess_gpu::{Capacity, Limits, Plan, Setup};

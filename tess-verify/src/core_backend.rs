@@ -2,9 +2,10 @@
 
 use crate::backend::{Answers, Backend};
 use tess_core::factors::process;
+use tess_core::place::place;
 use tess_core::{
     Config, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, Patch, PatchFactors,
-    ProcessedFactor, ProcessedPatch, SplitOrder, Tessellation, TriangleFactors, place,
+    ProcessedFactor, ProcessedPatch, SplitOrder, Tessellation, TriangleFactors,
 };
 
 /// `tess-core`, the sequential formulation.

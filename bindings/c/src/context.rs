@@ -3,7 +3,8 @@
 use crate::status::{TESS_NOT_A_CONTEXT, TESS_OUT_OF_RANGE, TessStatus};
 use crate::types::{TessContext, parity};
 use tess_core::fixed_point::ONE;
-use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder, place};
+use tess_core::place::{place, placement};
+use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder};
 
 /// The model's context with these numbers; `TESS_NOT_A_CONTEXT` if no factor has it.
 ///
@@ -41,7 +42,7 @@ pub(crate) fn place_signals(context: &FactorContext, p: u32) -> Result<[u32; 6],
     if p >= context.points {
         return Err(TESS_OUT_OF_RANGE);
     }
-    let placement = place::placement(context, p);
+    let placement = placement(context, p);
     let (coarse, fine) = placement.blend.map_or((0, 0), |blend| (blend.coarse, blend.fine));
     let (flip, location) = (u32::from(placement.flip), placement.location.to_bits());
     Ok([flip, placement.position, coarse, fine, placement.half_location, location])

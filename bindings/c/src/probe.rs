@@ -4,7 +4,8 @@ use crate::boundary;
 use crate::context;
 use crate::status::{TESS_OUT_OF_RANGE, TessStatus, answer};
 use crate::types::{self, TessConfig, TessContext, TessPoint, parity};
-use tess_core::{FactorContext, FixedFactor, PointOrigin, PrimitiveOrigin, SplitOrder, place};
+use tess_core::place::place;
+use tess_core::{FactorContext, FixedFactor, PointOrigin, PrimitiveOrigin, SplitOrder};
 
 /// One primitive: `size` indices into the patch's points.
 #[repr(C)]

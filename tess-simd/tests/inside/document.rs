@@ -6,7 +6,8 @@ use crate::stages::packet::PacketPatch;
 use crate::stages::points::{CompactPoints, Lookup};
 use crate::tour::{CONFIG, QUAD, all_codes, packet};
 use std::fmt::Write as _;
-use tess_core::{Domain, Patch, PatchFactors, ProcessedFactor, QuadFactors, place};
+use tess_core::place::{place, placement};
+use tess_core::{Domain, Patch, PatchFactors, ProcessedFactor, QuadFactors};
 use tess_simd::{Numbering, Output, PatchRange, Tessellator};
 
 const NAMES: [&str; 6] = ["u0", "v0", "u1", "v1", "inside_u", "inside_v"];
@@ -61,7 +62,7 @@ fn places() -> String {
     let context = factors.iter().nth(1).expect("six factors").context;
     let mut text = String::from("point  position  coarse   fine  half_location  location\n");
     for p in 0..context.points {
-        let steps = place::placement(&context, p);
+        let steps = placement(&context, p);
         let blend = steps.blend.map_or_else(
             || "     -      -".to_string(),
             |blend| format!("{:>6} {:>6}", blend.coarse, blend.fine),

@@ -18,9 +18,8 @@
 use crate::case::Case;
 use crate::generate::{FIRST_NAN, FRAME, SIGN};
 use tess_core::fixed_point::{ONE, TWO_THIRDS};
-use tess_core::{
-    Domain, FactorContext, FixedFactor, Partitioning, PatchFactors, ProcessedFactor, place,
-};
+use tess_core::place::{place, placement};
+use tess_core::{Domain, FactorContext, FixedFactor, Partitioning, PatchFactors, ProcessedFactor};
 
 const SIDES: [&str; 2] = ["below", "above"];
 
@@ -142,7 +141,7 @@ fn conversion(factor: &ProcessedFactor, hit: &mut impl FnMut(&str)) {
         _ => {}
     }
     for p in 0..context.half_points {
-        let Some(blend) = place::placement(context, p).blend else { continue };
+        let Some(blend) = placement(context, p).blend else { continue };
         let sum = blend.coarse * (ONE - blend.fraction) + blend.fine * blend.fraction;
         beside_middle(sum, 0x7FFF, ["location/below", "location/above"], hit);
     }

@@ -3,9 +3,10 @@
 use super::boundary;
 use crate::case::Case;
 use crate::names::{Named, way_of};
+use tess_core::place::place;
 use tess_core::{
     Config, Domain, FactorContext, Parity, Partitioning, PatchFactors, ProcessedFactor,
-    ProcessedPatch, SplitOrder, place,
+    ProcessedPatch, SplitOrder,
 };
 
 /// Sends the bins of a case to `hit`; a bin may be sent more than once.

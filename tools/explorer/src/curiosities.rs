@@ -2,9 +2,10 @@
 
 use crate::json;
 use serde_json::{Value, json};
+use tess_core::place::place;
 use tess_core::{
     Config, Domain, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning,
-    PatchFactors, SplitOrder, place,
+    PatchFactors, SplitOrder,
 };
 use tess_verify::Case;
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -1,6 +1,7 @@
 //! Marks of the page: areas of triangles, middles and splits of edges.
 
-use tess_core::{FactorContext, OutputPrimitive, Patch, PatchFactors, PointOrigin, place};
+use tess_core::place::{place, placement};
+use tess_core::{FactorContext, OutputPrimitive, Patch, PatchFactors, PointOrigin};
 use tess_verify::vectors::Listing;
 
 /// Twice the signed area of each triangle, in units of 2^-32; nothing for points and lines.
@@ -12,8 +13,8 @@ pub(crate) fn areas(listing: &Listing) -> Vec<f64> {
         let point = listing.output.points.get(index as usize);
         point.map_or((0, 0), |p| (i64::from(p.u.to_bits()), i64::from(p.v.to_bits())))
     };
-    let area = |primitive: &[u32]| match primitive.iter().map(|&i| corner(i)).collect::<Vec<_>>()[..]
-    {
+    let corners = |primitive: &[u32]| primitive.iter().map(|&i| corner(i)).collect::<Vec<_>>();
+    let area = |primitive: &[u32]| match corners(primitive)[..] {
         [(u0, v0), (u1, v1), (u2, v2)] => {
             let doubled = (u1 - u0) * (v2 - v0) - (u2 - u0) * (v1 - v0);
             Some((orientation * doubled) as f64)
@@ -30,7 +31,7 @@ pub(crate) fn points(patch: &Patch) -> Vec<u8> {
 
 fn mark(patch: &Patch, i: u32) -> Option<u8> {
     let (context, p) = edge(patch, i)?;
-    let placement = place::placement(&context, p);
+    let placement = placement(&context, p);
     Some(match placement.blend {
         None => 1,
         Some(_) if placement.position == context.split_position => 2,

@@ -14,7 +14,8 @@ use tess_capi::process::{TESS_OUTCOME_CULLED, TessProcessedPatch};
 use tess_capi::status::{TESS_NULL_POINTER, TESS_OK, TESS_OUT_OF_RANGE, TESS_UNKNOWN_VALUE};
 use tess_capi::types::{TessConfig, TessContext};
 use tess_core::fixed_point::{HALF, ONE};
-use tess_core::{Domain, PatchFactors, place};
+use tess_core::place::place;
+use tess_core::{Domain, PatchFactors};
 use tess_verify::Case;
 use tess_verify::cover::Coverage;
 

@@ -154,7 +154,7 @@ fn processed_factors_contexts_and_places() {
             for p in 0..context.points {
                 let mut location = 0;
                 let status = unsafe { tess_place(context, p, &mut location) };
-                let expected = tess_core::place(&model.context, p).to_bits();
+                let expected = tess_core::place::place(&model.context, p).to_bits();
                 assert_eq!((status, location), (TESS_OK, expected), "point {p} of {context:?}");
                 places += 1;
             }

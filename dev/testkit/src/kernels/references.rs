@@ -10,10 +10,11 @@ use super::inputs::is_compact;
 use super::words::Words;
 use tess_core::factors::process;
 use tess_core::fixed_point::ONE;
+use tess_core::place::place;
 use tess_core::reciprocal::reciprocal;
 use tess_core::{
     Config, FactorContext, FixedFactor, OutputPrimitive, Partitioning, Patch, PatchFactors,
-    ProcessedFactor, ProcessedPatch, TriangleFactors, place,
+    ProcessedFactor, ProcessedPatch, TriangleFactors,
 };
 
 pub(crate) fn reciprocals(case: &Case, words: &mut Words) {

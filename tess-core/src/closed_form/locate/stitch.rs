@@ -31,7 +31,7 @@ use crate::model::factor_context::FactorContext;
 use crate::model::row::Row;
 use crate::model::ruler::has_point;
 use crate::model::state::{Parity, SplitOrder};
-use crate::model::stitch::Triangle;
+use crate::model::stitch::{Side, Step, Triangle};
 
 /// The positions of a half edge: bit `k - 1` is set if position `k` in 1..=32 has a point.
 #[derive(Clone, Copy)]
@@ -53,20 +53,9 @@ impl HalfEdge {
     }
 }
 
-/// One step of a stitch; `o` and `i` are the entries that the two rows are at before it.
-#[derive(Clone, Copy)]
-enum Step {
-    Outer { o: u32, i: u32 },
-    Inner { o: u32, i: u32 },
-}
-
-impl Step {
-    fn triangle(self, (outer, inner): (&Row, &Row)) -> Triangle {
-        match self {
-            Self::Outer { o, i } => [outer.index(o), outer.index(o + 1), inner.index(i)],
-            Self::Inner { o, i } => [inner.index(i), outer.index(o), inner.index(i + 1)],
-        }
-    }
+/// A step of a half: its triangle begins on the row that it advances.
+const fn step(advances: Side, outer: u32, inner: u32) -> Step {
+    Step { outer, inner, advances, begins: advances }
 }
 
 /// Triangle `t` of a transition stitch (spec section 7.2).
@@ -74,71 +63,77 @@ impl Step {
 /// The first half merges two masks in ascending position, and the second half mirrors the first, so
 /// a step's number is a count of mask bits.
 pub(crate) fn transition_triangle(
-    rows: (&Row, &Row),
+    (outer, inner): (&Row, &Row),
     outer_edge: &FactorContext,
     inside: &FactorContext,
     split: SplitOrder,
     t: u32,
 ) -> Triangle {
+    transition_step(outer_edge, inside, split, t).triangle(outer, inner)
+}
+
+fn transition_step(
+    outer_edge: &FactorContext,
+    inside: &FactorContext,
+    split: SplitOrder,
+    t: u32,
+) -> Step {
     let outer = HalfEdge::new(split, outer_edge.visited_positions());
     let inner = HalfEdge::new(split, inside.visited_positions());
-    let first = outer_edge.visited_positions().min(1); // 1 if there is an outer step from the corner
+    // 1 if there is an outer step from the corner.
+    let first = outer_edge.visited_positions().min(1);
     let outer_half = first + outer.points_up_to(32);
     let inner_half = inner.points_up_to(32);
     let half = outer_half + inner_half;
     let total = outer_edge.points + inside.points - 2 - 2; // K + M - 2 with M = n - 2
     if t < half {
-        return half_step(outer, inner, first, t).triangle(rows);
+        return half_step(outer, inner, first, t);
     }
     if t >= total - half {
-        let mirrored = half_step(outer, inner, first, total - 1 - t);
+        // What a step of the first half has behind it, its mirror image has before it.
+        let Step { outer: o, inner: i, advances, .. } =
+            half_step(outer, inner, first, total - 1 - t);
         let outer_steps = outer_edge.points - 1;
         let inner_steps = inside.points - 3;
-        return match mirrored {
-            Step::Outer { o, i } => Step::Outer { o: outer_steps - 1 - o, i: inner_steps - i },
-            Step::Inner { o, i } => Step::Inner { o: outer_steps - o, i: inner_steps - 1 - i },
-        }
-        .triangle(rows);
+        return match advances {
+            Side::Outer => step(advances, outer_steps - 1 - o, inner_steps - i),
+            Side::Inner => step(advances, outer_steps - o, inner_steps - 1 - i),
+        };
     }
-    middle_triangle(rows, outer_half, inner_half, inside.parity, outer_edge.parity, t - half)
+    middle_step(outer_half, inner_half, inside.parity, t - half)
 }
 
 /// Step `t` of the first half of a transition.
 fn half_step(outer: HalfEdge, inner: HalfEdge, first: u32, t: u32) -> Step {
     if t < first {
-        return Step::Outer { o: 0, i: 0 };
+        return step(Side::Outer, 0, 0);
     }
     let steps_up_to = |k| first + outer.points_up_to(k) + inner.points_up_to(k);
     // The largest k in 0..32 with steps_up_to(k) <= t, bit by bit; step t happens at k + 1.
     let mut k = 0;
-    for step in [16, 8, 4, 2, 1] {
-        if steps_up_to(k + step) <= t {
-            k += step;
+    for more in [16, 8, 4, 2, 1] {
+        if steps_up_to(k + more) <= t {
+            k += more;
         }
     }
     let (o, i) = (first + outer.points_up_to(k), inner.points_up_to(k));
     let second = t > steps_up_to(k);
     match (inner.has(k + 1), second) {
-        (true, false) => Step::Inner { o, i },
-        (true, true) => Step::Outer { o, i: i + 1 },
-        (false, _) => Step::Outer { o, i },
+        (true, false) => step(Side::Inner, o, i),
+        (true, true) => step(Side::Outer, o, i + 1),
+        (false, _) => step(Side::Outer, o, i),
     }
 }
 
-/// Triangle `t` of the middle, which starts at entries `o` and `i` of the rows.
-fn middle_triangle(
-    (outer, inner): (&Row, &Row),
-    o: u32,
-    i: u32,
-    inside: Parity,
-    outer_edge: Parity,
-    t: u32,
-) -> Triangle {
-    match (inside, outer_edge, t) {
-        (Parity::Odd, _, 0) => [inner.index(i), outer.index(o), inner.index(i + 1)],
-        (Parity::Odd, _, _) => [inner.index(i + 1), outer.index(o), outer.index(o + 1)],
-        (Parity::Even, _, _) => [inner.index(i), outer.index(o), outer.index(o + 1)],
-    }
+/// Step `t` of the middle, which starts at entries `outer` and `inner` of the rows: the inner row's
+/// if the inside factor is odd, then the outer row's. Both begin on the inner row.
+const fn middle_step(outer: u32, inner: u32, inside: Parity, t: u32) -> Step {
+    let (advances, inner) = match (inside, t) {
+        (Parity::Odd, 0) => (Side::Inner, inner),
+        (Parity::Odd, _) => (Side::Outer, inner + 1),
+        (Parity::Even, _) => (Side::Outer, inner),
+    };
+    Step { outer, inner, advances, begins: Side::Inner }
 }
 
 /// Triangle `t` of a ring stitch whose inner row has `inner_points` points (spec section 7.3).
@@ -188,12 +183,10 @@ mod tests {
     fn the_worked_transition() {
         let [outer, inner] = [3, 2].map(|half| HalfEdge::new(SplitOrder::Ruler, half));
         assert_eq!((outer.0, inner.0), ((1 << 8) | (1 << 16), 1 << 16), "positions 9 and 17");
-        let steps = [0, 1, 2, 3].map(|t| match half_step(outer, inner, 1, t) {
-            Step::Outer { o, i } => ("outer", o, i),
-            Step::Inner { o, i } => ("inner", o, i),
-        });
-        let expected = [("outer", 0, 0), ("outer", 1, 0), ("inner", 2, 0), ("outer", 2, 1)];
-        assert_eq!(steps, expected, "row that advances, and the positions before");
+        let steps = [0, 1, 2, 3].map(|t| half_step(outer, inner, 1, t));
+        let expected =
+            [(Side::Outer, 0, 0), (Side::Outer, 1, 0), (Side::Inner, 2, 0), (Side::Outer, 2, 1)];
+        assert_eq!(steps, expected.map(|(advances, o, i)| step(advances, o, i)), "as in the table");
     }
 
     /// The triangles of the picture above [`ring_triangle`].

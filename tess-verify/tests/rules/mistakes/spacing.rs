@@ -4,7 +4,8 @@
 
 use super::places::*;
 use super::*;
-use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder, place};
+use tess_core::place::place;
+use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder};
 
 pub(super) fn all() -> Vec<Mistake> {
     vec![whole_patch(), density(), edge(), inside(), split(), split_of_edge()]

@@ -4,9 +4,10 @@ use super::places;
 use crate::kernels::Case;
 use crate::kernels::words::{Words, coordinates};
 use tess_core::fixed_point::ONE;
+use tess_core::place::place;
 use tess_core::row::Row;
 use tess_core::stitch::{self, Diagonals};
-use tess_core::{Domain, DomainPoint, OutputPrimitive, Patch, Primitive, Sink, Step, place};
+use tess_core::{Domain, DomainPoint, OutputPrimitive, Patch, Primitive, Sink, Step};
 use tess_simd::{Format, Kernel};
 
 pub(crate) fn floats(case: &Case, words: &mut Words) {

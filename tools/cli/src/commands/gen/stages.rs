@@ -3,10 +3,9 @@
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
+use tess_core::place::place;
 use tess_core::stitch::Diagonals;
-use tess_core::{
-    FactorContext, FixedFactor, Parity, ProcessedPatch, Side, Step, StitchKind, place,
-};
+use tess_core::{FactorContext, FixedFactor, Parity, ProcessedPatch, Side, Step, StitchKind};
 use tess_verify::Case;
 use tess_verify::Named;
 
