@@ -22,7 +22,7 @@ pub(crate) struct ReportArgs {
     /// docs/campaigns.md explains the entries.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Write the result to this file as `JUnit` XML, for Jenkins and similar tools
+    /// Write the result to this file as JUnit XML, for Jenkins and similar tools
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
 }

@@ -29,7 +29,7 @@ pub(crate) struct MergeCommand {
     /// Reports of shards; - is stdin
     #[arg(value_name = "REPORT", required = true)]
     reports: Vec<PathBuf>,
-    /// Write a test case for each shard to this file, as `JUnit` XML
+    /// Write a test case for each shard to this file, as JUnit XML
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
 }
