@@ -1,4 +1,6 @@
 //! The third-party parts of an archive: a bill of materials in `CycloneDX`, and the licences.
+//! cargo-cyclonedx describes one package, beside its manifest; an archive has several, and its
+//! licences would still be collected here.
 
 use super::pack::Release;
 use crate::command::{self, cargo, in_file};
