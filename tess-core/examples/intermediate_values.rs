@@ -1,7 +1,7 @@
 //! Prints the signals of one patch: processed factors, factor contexts, and one placement.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
-use tess_core::place::{place, placement};
+use tess_core::place::placement;
 use tess_core::{Config, OutputPrimitive, Partitioning, Patch, QuadFactors};
 
 pub(crate) fn main() {

@@ -129,8 +129,10 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
                 for (ring, first) in (1..sector.end).zip(first) {
                     let begin = sector.border(ring, column);
                     let end = sector.border(ring, column + 1);
+                    // A ring begins one cell further from the corner than the one outside of it, so
+                    // the rings further in have no triangles in this column either.
                     if begin == end {
-                        break; // rings further in have no triangles in this column either
+                        break;
                     }
                     emit(first + begin..first + end);
                 }
@@ -178,19 +180,26 @@ impl Sector {
     /// ring` where that is positive and at most the stitch's size, else 0 or the whole stitch.
     fn borders(&self, end: u32, column: u32) -> u32 {
         let (first, whole) = (2 * COLUMN * column + 1, 2 * self.along);
+        // From this ring on, `first - 2 ring` is at least the stitch's size, `whole - 4 ring`.
         let half = (whole + 1).saturating_sub(first) / 2;
         let top = end.max(2);
+        // The rings 2..cut are cut at `first - 2 ring`, which is positive up to ring COLUMN column;
+        // the rings complete..top add their whole stitch. Those between the two add nothing.
         let cut = end.min(COLUMN * column + 1).min(half).max(2);
         let complete = half.clamp(2, top);
+        // Two arithmetic series: the number of rings times the mean of the first and the last.
         (cut - 2) * first.saturating_sub(cut + 1)
             + (top - complete) * (whole - 2 * (complete + top - 1))
     }
 
-    /// The column of a step.
+    /// The column of a step: the last one whose [`Self::border`] is at most `step`.
     fn column(&self, ring: u32, step: u32) -> u32 {
+        // 2 COLUMN column + 1 - 2 ring <= step, solved for the column.
         if ring > 1 {
             return (step + 2 * ring - 1) / (2 * COLUMN);
         }
+        // The largest number of regular steps whose share of the transition, rounded down, is at
+        // most `step`; then solved for the column as above, with ring 1.
         let last = ((step + 1) * (2 * self.along - 4) - 1) / self.transition;
         (last + 1) / (2 * COLUMN)
     }
@@ -198,6 +207,9 @@ impl Sector {
     /// How many triangles of the sector come before this one.
     fn triangles_before(&self, ring: u32, step: u32) -> u32 {
         let column = self.column(ring, step);
+        // A border counts the steps of a stitch before a column, so the sum over all stitches
+        // counts the triangles of the columns before; differences of borders are those of this
+        // column.
         let columns_before = self.border(1, column) + self.borders(self.end, column);
         let begin = self.border(ring, column);
         if ring == 1 {

@@ -94,6 +94,7 @@ fn is_one_sheet(
     twin: HalfEdge,
 ) -> bool {
     let edges = MeshEdges { mesh, vertices };
+    // Neighbours that run round the same way walk their common edge in opposite directions.
     if edges.is_forward(half) == edges.is_forward(twin) {
         return false;
     }
@@ -112,6 +113,8 @@ fn is_one_sheet(
         twins.map(|twin| twin.patch).chain([half.patch]).collect::<Vec<_>>()
     };
     let cosine = edges.normal(half).dot(edges.normal(twin));
+    // Folded flat; or one face has all corners of the other; or the bend is sharp, and the corners
+    // of one are those of the other and its neighbours, as in the picture above.
     let is_folded = cosine < FOLDED
         || all_within(twin.patch, &[half.patch])
         || all_within(half.patch, &[twin.patch])
@@ -147,6 +150,7 @@ fn normals_of_sheets(
     let joins = |half, twin| is_one_sheet(mesh, vertices, topology, half, twin);
     let beyond = |half| topology.twin(half).filter(|&twin| joins(half, twin)).into_iter();
     let mut normals = Vec::new();
+    // Each place by itself: the corners there, joined into fans across the edges of one sheet.
     for place in mixed(slots, is_mixed).chunk_by(|a, b| a.0 == b.0) {
         let corners: Vec<u32> = place.iter().map(|&(_, slot)| slot).collect();
         let fans = fans(&corners, |patch| mesh.faces[patch].positions.map(drop), beyond);
@@ -170,6 +174,8 @@ fn sheet_normals(fans: &[usize], own: &[Vec3]) -> Vec<Vec3> {
     fans.iter().zip(own).for_each(|(&fan, &normal)| sums[fan] += normal);
     // The sum and the fans of each sheet.
     let mut sheets: Vec<(Vec3, Vec<usize>)> = Vec::new();
+    // A fan joins the first sheet whose sum so far points its way, else it begins one. The order is
+    // that of the corners, so equal meshes get equal normals.
     for fan in (0..fans.len()).filter(|&fan| fans[fan] == fan) {
         let direction = unit(sums[fan]).unwrap_or(Vec3::ZERO);
         let near = sheets
@@ -183,6 +189,7 @@ fn sheet_normals(fans: &[usize], own: &[Vec3]) -> Vec<Vec3> {
             None => sheets.push((sums[fan], Vec::from([fan]))),
         }
     }
+    // Where the faces of a sheet cancel out, a corner keeps the normal of its own face.
     let normal_of = |at: usize| {
         let sheet = sheets.iter().find(|(_, of_sheet)| of_sheet.contains(&fans[at]));
         let shared = sheet.and_then(|(sum, _)| unit(*sum));

@@ -90,6 +90,7 @@ impl Topology {
         let mut sides: Vec<HalfEdge> = Vec::new();
         let mut others: Vec<HalfEdge> = Vec::new();
         for run in hashes.chunk_by(|a, b| a.0 == b.0) {
+            // Equal hashes may belong to several edges; each round takes the sides of one.
             others.extend(run.iter().map(|&(_, slot)| HalfEdge::of_slot(slot)));
             while let Some(&first) = others.first() {
                 let is_side = |half: &mut HalfEdge| *half == first || edges.same(*half, first);
@@ -104,6 +105,7 @@ impl Topology {
 
     /// Pairs all sides of one edge, which are in the order of slots.
     fn join(&mut self, sides: &[HalfEdge], edges: &impl HalfEdges) {
+        // Nearly every edge has two sides, and these are neighbours whichever way they run.
         let [first, _, _, ..] = *sides else {
             if let [one, other] = *sides {
                 self.connect(one, other);
@@ -126,6 +128,7 @@ impl Topology {
         }
         // A stable sort, so that slots decide between equal bends.
         pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        // The flattest pair first. Every side finds a partner, because as many run each way.
         for (_, one, other) in pairs {
             if self.twin(one).is_none() && self.twin(other).is_none() {
                 self.connect(one, other);
@@ -174,6 +177,7 @@ impl Topology {
 #[expect(clippy::cast_possible_truncation, reason = "faces index points with 32 bits")]
 pub(crate) fn weld(points: &[Vec3]) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
+    // Adding zero turns -0 into 0, which is the same place.
     let key = |point: &Vec3| (*point + Vec3::ZERO).to_array().map(f32::to_bits);
     // At least half of the places stay empty.
     let bits = (points.len() * 2).next_power_of_two().trailing_zeros();
@@ -212,6 +216,7 @@ fn sort(pairs: &mut Vec<(u64, u32)>) {
     let bucket = |hash: u64| (hash >> shift.min(63)) as usize;
     let mut ends = vec![0; bucket(largest) + 2];
     pairs.iter().for_each(|&(hash, _)| ends[bucket(hash) + 1] += 1);
+    // Counts become beginnings: `ends[b]` is the number of pairs in the buckets before b.
     let mut sum = 0;
     for end in &mut ends {
         sum += *end;
@@ -223,7 +228,7 @@ fn sort(pairs: &mut Vec<(u64, u32)>) {
         sorted[*place] = pair;
         *place += 1;
     }
-    // The beginnings of the buckets have become their ends.
+    // Each pair moved its bucket's beginning on by one, so these are the buckets' ends now.
     let mut start = 0;
     for end in ends {
         sorted[start..end].sort_unstable();

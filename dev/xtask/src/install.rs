@@ -7,8 +7,9 @@
 //! | macOS | `lib/libtess.a` | `lib/libtess.dylib` | `lib/pkgconfig/tess.pc` |
 //! | Windows (GNU) | `lib/libtess.a` | `bin/tess_capi.dll` | `lib/libtess.dll.a` |
 //!
-//! The headers go to `include`, CMake's package to `lib/cmake/tess`. cargo-c installs all of this but
-//! CMake's package. It is not used because it compiles cargo itself first, which takes minutes.
+//! The headers go to `include`, CMake's package to `lib/cmake/tess`. cargo-c installs all of this
+//! except CMake's package. It is not used because it compiles cargo itself first, which takes
+//! minutes.
 
 use crate::command::{self, cargo, in_file, workspace};
 use std::fs;

@@ -57,12 +57,14 @@ pub(crate) fn triangle(inside: &Inside<'_>, innermost: u32, t: u32) -> Option<Tr
         return None;
     }
     let interior = (u.points - 2) * (v.points - 2);
+    // What the rings outside of the innermost one leave of the interior.
     let size = interior - quad_points_before(inside, u.points.min(v.points) / 2 - 1);
     // The ring's first point begins row B if the strip runs along u, otherwise row A.
     let start = u32::from(along_u);
     let a = |k| innermost + start + k;
     let b = |k| innermost + (size + start - 1 - k) % size;
 
+    // Two triangles for each quad k of the strip.
     let (k, second) = (t / 2, t % 2 == 1);
     let mirrored = !along_u && v.parity == Parity::Odd;
     let is_middle = mirrored && k == (size - 2) / 4;

@@ -123,6 +123,7 @@ pub(crate) fn locate<const EDGES: usize>(
     if t >= in_rings {
         return PrimitiveOrigin::Centre { step: t - in_rings };
     }
+    // The search begins at 1 and stitches of rings at 2, hence both shifts by one.
     let ring = 1 + last_ring_at_or_before(t, end - 1, |r| patch.triangles_before(r + 1));
     let stitches: [u32; EDGES] = core::array::from_fn(|e| 2 * rings.inner_row_points(ring, e));
     let (edge, step) = slot_of(t - patch.triangles_before(ring), stitches);
@@ -170,6 +171,7 @@ fn rows<const EDGES: usize>(
     let inner_sizes: [u32; EDGES] = core::array::from_fn(|e| rings.inner_row_points(ring, e));
     let outer = ring_row(first_of_ring(patch, rings, ring - 1), &outer_sizes, edge);
     let inner_start = first_of_ring(patch, rings, ring);
+    // The second long edge of a row walks it back, from where the first one ended.
     let inner = if rings.walks_back(ring, edge) {
         Row::descending(inner_start + points_before_edge(&inner_sizes, edge))
     } else {

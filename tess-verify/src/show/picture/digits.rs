@@ -1,5 +1,5 @@
-//! Numbers as strokes, so that pictures look the same in every format. A font would need a crate that
-//! reads it, and its licence in every archive, for ten glyphs.
+//! Numbers as strokes, so that pictures look the same in every format. A font would need a crate
+//! that reads it, and its licence in every archive, for ten glyphs.
 #![expect(clippy::float_arithmetic, reason = "positions of a drawing, in pixels")]
 
 use super::Position;

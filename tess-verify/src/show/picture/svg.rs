@@ -1,5 +1,5 @@
-//! A picture as SVG: three kinds of elements, whose attributes are numbers and colours. A crate that
-//! writes any SVG would build a tree of nodes to print these lines.
+//! A picture as SVG: three kinds of elements, whose attributes are numbers and colours. A crate
+//! that writes any SVG would build a tree of nodes to print these lines.
 
 use super::{Colour, Picture, Position, Shape};
 use std::fmt::Write;
