@@ -27,10 +27,13 @@ fn totals(@builtin(local_invocation_index) thread: u32) {
         begin = vec2<u32>(status.points, status.primitives);
         high = vec2<u32>(status.points_high, status.primitives_high);
     }
+    // Modulo 2^32. A section has less than 2^32 elements, so its sum passes 2^32 at most once, and the carries of all
+    // sections add up to the upper word.
     let own_begin = begin + sums.before;
     let carry = vec2<u32>(own_begin + own < own_begin);
     atomicAdd(&carries[0], carry.x);
     atomicAdd(&carries[1], carry.y);
+    // All carries are counted, and all threads have read the portion before, which thread 0 replaces.
     workgroupBarrier();
     storageBarrier();
     if thread < sections {

@@ -61,6 +61,7 @@ fn process_block(block: u32, thread: u32) -> BlockSums {
             write_contexts(patch_index, processed);
         }
     }
+    // The barriers of the sums come between this and the comparison.
     if thread == 0u {
         first_topology = topology;
         atomicStore(&differs, 0u);
@@ -73,6 +74,8 @@ fn process_block(block: u32, thread: u32) -> BlockSums {
         }
     }
     workgroupBarrier();
+    // Patches of a block that are alike are copied from one of them, so only the first may need a slot: its points
+    // differ from patch to patch unless they can be copied too.
     let is_alike = atomicLoad(&differs) == 0u;
     var slot = vec2<u32>(0u, 0u);
     if !is_alike || (thread == 0u && !HAS_COPIED_POINTS) {

@@ -87,6 +87,8 @@ fn write_points(round: Round, thread: u32, out: u32) {
         var run = run_at(round, source, location);
         points_out[out + first] = format_point(point_of_run(run, run.step), patch_number + number);
         if first == element && element + 1u < round.end {
+            // The next point is nearly always of the same run: one edge of a ring. Else it begins a run, of the next edge
+            // or of the next patch.
             run.step++;
             if run.step == run.size {
                 let next = next_patch(round, number, element + 1u);

@@ -28,7 +28,8 @@ fn add_four(from_at: u32, to_at: u32) {
     sums[from_at + 3u] = third;
 }
 
-// The sums of `own`. Called in uniform control flow by all threads.
+// The sums of `own`. Called in uniform control flow by all threads. Four steps up the tree; the way down is one sum,
+// because each step has left, in place of its four numbers, the sums before them in their group of four.
 fn prefix_sums(thread: u32, own: vec2<u32>) -> Sums {
     sums[thread] = own;
     workgroupBarrier();
@@ -48,9 +49,11 @@ fn prefix_sums(thread: u32, own: vec2<u32>) -> Sums {
         add_four(SIXTY_FOURS, WHOLE);
     }
     workgroupBarrier();
+    // Before this thread in its four, before its four in their sixteen, and so on.
     let before = sums[thread] + sums[FOURS + (thread >> 2u)]
         + sums[SIXTEENS + (thread >> 4u)] + sums[SIXTY_FOURS + (thread >> 6u)];
     let all = sums[WHOLE];
+    // All have read, so the next call may write.
     workgroupBarrier();
     return Sums(before, all);
 }

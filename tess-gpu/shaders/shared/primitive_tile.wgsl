@@ -72,6 +72,8 @@ fn write_triangles(round: Round, thread: u32, out: u32) {
         if element + 1u < round.begin || element >= round.end {
             continue;
         }
+        // An even element and the one after it are stored together. At either end of the round one of the two belongs
+        // to other patches, which another round or tile writes.
         let first = max(element, round.begin);
         let number = find_patch(round, first);
         if number != source.number {
@@ -82,6 +84,7 @@ fn write_triangles(round: Round, thread: u32, out: u32) {
         let pair = stitch_triangles(stitch, location.step);
         let at = (out + element) >> 1u;
         let is_whole = first == element && element + 1u < round.end;
+        // Two steps of one stitch share two of their vertices, so both come at the price of one.
         if is_whole && ORDER == SPECIFICATION && location.step + 1u < stitch.size {
             write_triangle_pair(at, pair.first, pair.second);
         } else {
@@ -216,6 +219,7 @@ fn kept_index(repeat: Repeat, it: Corner) -> u32 {
 fn copy_triangles(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
     keep_triangles(repeat, thread);
     workgroupBarrier();
+    // From here on in indices: 16-bit ones are stored in pairs, and a pair may have indices of two triangles.
     let begin = 3u * (tile.begin - tile.base);
     let end = 3u * (tile.end - tile.base);
     for (var at = 2u * thread; at < end; at += 2u * THREADS) {

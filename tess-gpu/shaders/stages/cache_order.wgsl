@@ -78,6 +78,7 @@ fn location_in_sector(sector: Sector, t: u32) -> RingLocation {
     column = nearer_column(sector, column, 4u, t);
     column = nearer_column(sector, column, 2u, t);
     column = nearer_column(sector, column, 1u, t);
+    // A column begins with its steps of the transition; its steps of the rings follow.
     let rest = t - columns_before(sector, column);
     let begin = transition_border(sector, column);
     let transition = transition_border(sector, column + 1u) - begin;
@@ -120,6 +121,7 @@ fn drawn_behind(rings: Rings, location: RingLocation) -> RingLocation {
     }
     let sector = sector_of(rings, location.edge);
     let step = location.step + 1u;
+    // The column of the step at the location, which no search needs: a border solved for its column.
     var column = (location.step + 2u * location.ring - 1u) / (2u * COLUMN);
     if location.ring == 1u {
         column = (((step * (2u * sector.along - 4u) - 1u) / sector.transition) + 1u) / (2u * COLUMN);
@@ -127,6 +129,7 @@ fn drawn_behind(rings: Rings, location: RingLocation) -> RingLocation {
     if step < border(sector, location.ring, column + 1u) {
         return RingLocation(location.ring, location.edge, step);
     }
+    // The stitch has no more steps in this column: the column goes on in the next ring inwards, if that begins here.
     let ring = location.ring + 1u;
     let first = ring_border(sector, ring, column);
     let is_there = ring < sector.end && first < ring_border(sector, ring, column + 1u);
@@ -165,6 +168,7 @@ fn transition_border(sector: Sector, column: u32) -> u32 {
 // The sum of ring_border over the rings 2..end.
 fn borders(sector: Sector, end: u32, column: u32) -> u32 {
     let first = 2u * COLUMN * column + 1u;
+    // Rings 2..cut are cut by the column, rings complete..top are before it whole; two arithmetic series.
     let half = (max(2u * sector.along + 1u, first) - first) >> 1u;
     let top = max(end, 2u);
     let cut = max(min(min(end, COLUMN * column + 1u), half), 2u);

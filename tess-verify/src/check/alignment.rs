@@ -92,7 +92,12 @@ impl Row {
     /// Advances to the row for one more answer; `equal` marks the cases that it answers.
     fn next(&mut self, equal: &Bits, diagonal: &mut Bits) {
         let (mut carry, mut more_in, mut less_in) = (false, 1, 0);
+        // `carry` is that of the addition, from word to word; `more_in` and `less_in` are the bits
+        // that the shifts move from word to word. The first case has no case fewer: there each row
+        // is one more than the row below, hence 1 and 0.
         for ((up, down), equal) in self.up.iter_mut().zip(&mut self.down).zip(equal) {
+            // The carry of the addition runs along `up` from each equal case: an entry stays as
+            // cheap as its diagonal neighbour as long as each is one more than the one before.
             let (sum, over) = (equal & *up).overflowing_add(*up);
             let (sum, over_again) = sum.overflowing_add(u64::from(carry));
             carry = over || over_again;
@@ -101,6 +106,7 @@ impl Row {
             let (more, less) = (*down | !(same | *up), *up & same);
             let (more_left, less_left) = (more << 1 | more_in, less << 1 | less_in);
             (more_in, less_in) = (more >> 63, less >> 63);
+            // Compared with one case fewer, from the differences of the left neighbours.
             *up = less_left | !(same | more_left);
             *down = more_left & same;
             diagonal.push(same);
@@ -118,6 +124,8 @@ fn trace(answers: &[Option<Case>], asked: &[Case], whole: bool, said: &Said) -> 
             let bit = asked.len() - 1 - j;
             bits[row + bit / 64] >> (bit % 64) & 1 == 1
         };
+        // An entry that is not the diagonal one is one more than it: an edit replaces both. Else an
+        // edit of one side must explain it, a missing case before an answer too many.
         let pairing = if j == asked.len() {
             Pairing::Extra
         } else if answers[i] == Some(asked[j]) {
