@@ -28,17 +28,24 @@ fn of_a_short_batch() {
     assert_named(
         &batch,
         &[
-            ("prefix_sums", Stage::Short, Offsets),
-            ("short_batch_2", Stage::Short, Offsets),
-            ("short_batch_4", Stage::Short, Status),
-            ("write_tiles_3", Stage::Short, Tiles),
-            ("place_before_middle_2", Stage::ExpandShort, Points),
-            ("centre_stitch", Stage::ExpandShort, Indices),
+            ("prefix_sums: sixteens are taken for thirty-twos", Stage::Short, Offsets),
+            ("short_batch: a block begins where it ends", Stage::Short, Offsets),
+            ("short_batch: primitives end where points do", Stage::Short, Status),
+            ("write_tiles: primitives are entered for points", Stage::Short, Tiles),
+            (
+                "place_before_middle: the split itself counts as behind it",
+                Stage::ExpandShort,
+                Points,
+            ),
+            ("centre_stitch: diagonals turn for the wrong parity", Stage::ExpandShort, Indices),
         ],
     );
     let integer = setup(Domain::Triangle, Partitioning::Integer);
     let batch = Batch::new(integer, of(Domain::Triangle, 600, &[0.0, 1.0, 3.25, 7.5]));
-    assert_named(&batch, &[("edge_points", Stage::Short, Topologies)]);
+    assert_named(
+        &batch,
+        &[("edge_points: factor 1 has a point for the other parity", Stage::Short, Topologies)],
+    );
 }
 
 #[test]
@@ -49,16 +56,19 @@ fn of_a_long_batch() {
     assert_named(
         &Batch::new(integer, like),
         &[
-            ("process_block", Stage::Factors, Offsets),
-            ("entry_of", Stage::Partition, Tiles),
-            ("copy_points", Stage::ExpandPoints, Points),
-            ("kept_index", Stage::ExpandPrimitives, Indices),
+            ("process_block: every block is alike", Stage::Factors, Offsets),
+            ("entry_of: every tile begins in patch 0", Stage::Partition, Tiles),
+            ("copy_points: patches are numbered from the tile", Stage::ExpandPoints, Points),
+            ("kept_index: copies forget the first index", Stage::ExpandPrimitives, Indices),
         ],
     );
     let rows = Limits { workgroups: 1, ..Limits::WEBGPU };
     let unlike = of(Domain::Isoline, 66_000, &[1.0, 2.0]);
     let batch = Batch::new(setup(Domain::Isoline, Partitioning::Integer), unlike);
-    assert_named(&Batch { limits: rows, ..batch }, &[("scan", Stage::Scan, Offsets)]);
+    assert_named(
+        &Batch { limits: rows, ..batch },
+        &[("scan: sections of further rows are those of the first", Stage::Scan, Offsets)],
+    );
 }
 
 #[test]
@@ -67,11 +77,19 @@ fn of_a_batch_that_is_cut_up() {
     assert_named(
         &cut_up(),
         &[
-            ("factors", Stage::Factors, Resource::Catalogue),
-            ("totals", Stage::Totals, Offsets),
-            ("write_dispatch", Stage::Totals, Arguments),
-            ("groups_5", Stage::Groups, Draws),
-            ("write_primitive_tile_2", Stage::ExpandPoints, Resource::Points),
+            (
+                "factors: blocks of further rows are those of the first",
+                Stage::Factors,
+                Resource::Catalogue,
+            ),
+            ("totals: the first portion begins at the last run's end", Stage::Totals, Offsets),
+            ("write_dispatch: rows have 65535 workgroups", Stage::Totals, Arguments),
+            ("groups: a count is an end", Stage::Groups, Draws),
+            (
+                "write_primitive_tile: windows write from the first one",
+                Stage::ExpandPoints,
+                Resource::Points,
+            ),
         ],
     );
 }
@@ -83,14 +101,18 @@ fn of_a_catalogue() {
     assert_named(
         &Batch::new(even, catalogued(Domain::Quad)),
         &[
-            ("key_of", Stage::Factors, Catalogue),
-            ("described_point_3", Stage::List, Catalogue),
-            ("placed_point", Stage::ExpandPoints, Points),
+            ("key_of: inside u and v share a bit", Stage::Factors, Catalogue),
+            ("described_point: far constants are near", Stage::List, Catalogue),
+            ("placed_point: positions have two bits", Stage::ExpandPoints, Points),
         ],
     );
     let integer = setup(Domain::Quad, Partitioning::Integer);
     let listed = Batch::new(integer, catalogued(Domain::Quad));
-    let fault = ("write_listed_triangles", Stage::ExpandPrimitives, Indices);
-    assert_named(&listed, &[("listed_point", Stage::ExpandPoints, Points), fault]);
-    assert_named(&too_many(), &[("take_room", Stage::List, Catalogue)]);
+    let fault = (
+        "write_listed_triangles: the second of a pair is of the same patch",
+        Stage::ExpandPrimitives,
+        Indices,
+    );
+    assert_named(&listed, &[("listed_point: v is 0", Stage::ExpandPoints, Points), fault]);
+    assert_named(&too_many(), &[("take_room: the catalogue has no end", Stage::List, Catalogue)]);
 }

@@ -132,20 +132,28 @@ fn planted_faults_are_seen() {
         integer,
         &alike,
         &[
-            "process_block",
-            "common_topology",
-            "repeat_of",
-            "repeat_of_2",
-            "kept_index",
-            "packed_triangle",
-            "corner_at",
-            "next_corner",
-            "copy_points",
-            "keep_triangles",
+            "process_block: every block is alike",
+            "common_topology: one block decides for a tile",
+            "repeat_of: the inverse of a size is rounded down",
+            "repeat_of: a tile begins with its first patch",
+            "kept_index: copies forget the first index",
+            "packed_triangle: the third vertex is one bit high",
+            "corner_at: a third is too small",
+            "next_corner: a patch ends one triangle late",
+            "copy_points: patches are numbered from the tile",
+            "keep_triangles: the second half replaces the first",
         ],
     );
-    machine.assert_noticed(integer, &different_inside(), &["process_block_2"]);
-    machine.assert_noticed(fractional, &similar, &["has_same_points"]);
+    machine.assert_noticed(
+        integer,
+        &different_inside(),
+        &["process_block: inside factors are not compared"],
+    );
+    machine.assert_noticed(
+        fractional,
+        &similar,
+        &["has_same_points: fractional points are copied"],
+    );
 }
 
 /// A batch whose patches differ only in an inside factor.

@@ -101,29 +101,37 @@ fn planted_faults_are_seen() {
         integer,
         &quads,
         &[
-            "load_patch",
-            "unpacked_triangle",
-            "write_listed_triangles",
-            "write_listed_points",
-            "key_of",
-            "slot_of",
-            "listed_point",
+            "load_patch: the catalogue's points are one word each",
+            "unpacked_triangle: the second vertex is one bit high",
+            "write_listed_triangles: the second of a pair is of the same patch",
+            "write_listed_points: the second of a pair is of the same patch",
+            "key_of: inside u and v share a bit",
+            "slot_of: any used slot is taken",
+            "listed_point: v is 0",
         ],
     );
-    machine.assert_noticed(integer, &with_some(34.0), &["load_patch_2"]);
-    machine.assert_noticed(integer, &one_long_edge(), &["has_key"]);
-    machine.assert_noticed(integer, &too_many(), &["take_room"]);
-    machine.assert_noticed(odd, &triangles, &["described_point"]);
-    machine.assert_noticed(centred, &triangles, &["described_point_2"]);
+    machine.assert_noticed(
+        integer,
+        &with_some(34.0),
+        &["load_patch: patches that are not listed are taken as listed"],
+    );
+    machine.assert_noticed(integer, &one_long_edge(), &["has_key: 34 points fit a key"]);
+    machine.assert_noticed(integer, &too_many(), &["take_room: the catalogue has no end"]);
+    machine.assert_noticed(odd, &triangles, &["described_point: every corner is the first"]);
+    machine.assert_noticed(centred, &triangles, &["described_point: the centre is not marked"]);
     machine.assert_noticed(
         even,
         &quads,
-        &["described_point_3", "described_point_4", "placed_point"],
+        &[
+            "described_point: far constants are near",
+            "described_point: constants come from one factor",
+            "placed_point: positions have two bits",
+        ],
     );
     machine.assert_noticed(
         even,
         &unlike(Domain::Quad, COUNT, &[2.0, 5.0, 8.0]),
-        &["placed_point_2"],
+        &["placed_point: rings have one bit"],
     );
 }
 

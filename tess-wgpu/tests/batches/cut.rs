@@ -97,9 +97,12 @@ fn wrong_windows_and_rows_are_seen() {
     let expected = Expected::new(setup, &patches);
     let (points, indices) = expected.words();
     let mut machine = Machine::open();
-    for (limits, fault) in
-        [(LOW, "write_primitive_tile_2"), (LOW, "number"), (LOW, "factors"), (TWO, "scan")]
-    {
+    for (limits, fault) in [
+        (LOW, "write_primitive_tile: windows write from the first one"),
+        (LOW, "tiles of further rows of workgroups are those of the first"),
+        (LOW, "factors: blocks of further rows are those of the first"),
+        (TWO, "scan: sections of further rows are those of the first"),
+    ] {
         machine.plant(setup, fault);
         machine.limit(limits);
         let written = machine.write(setup, &patches, points, indices);
@@ -120,7 +123,7 @@ fn written_dispatch_sizes_keep_to_the_limit() {
         assert!(sizes.iter().any(|&[_, rows, _]| rows > 1), "there are rows");
         assert!(keep_to(limits, &sizes), "{sizes:?}");
     }
-    machine.plant(setup, "write_dispatch");
+    machine.plant(setup, "write_dispatch: rows have 65535 workgroups");
     machine.limit(LOW);
     assert!(!keep_to(LOW, &dispatch_sizes(&mut machine, setup, &patches)), "longer rows");
 }

@@ -27,7 +27,7 @@ fn a_tile_of_another_patch_is_seen() {
     let setup = Setup::new(Domain::Quad, config);
     let count = SHORT_PATCHES + 1;
     let patches = crate::common::patches::random(Domain::Quad, count, &mut SplitMix64::new(5));
-    machine.assert_noticed(setup, &patches, &["entry_of"]);
+    machine.assert_noticed(setup, &patches, &["entry_of: every tile begins in patch 0"]);
 }
 
 /// A test of this folder names each fault of the list.
@@ -48,32 +48,55 @@ const FAULTS: &[(Domain, Partitioning, &[&str])] = &[
         Domain::Quad,
         Partitioning::FractionalOdd,
         &[
-            "HALF",
-            "place_before_middle",
-            "place_before_middle_2",
-            "centre_stitch",
-            "centre_stitch_2",
-            "stitch_triangles",
-            "transition_stitch",
-            "nearer_ring",
-            "nearer_patch",
-            "prefix_sums",
+            "one half is a unit too large",
+            "place_before_middle: a fraction is a unit too large",
+            "place_before_middle: the split itself counts as behind it",
+            "centre_stitch: diagonals turn for the wrong parity",
+            "centre_stitch: the second row begins one index late",
+            "stitch_triangles: the first triangle has the turn of the second",
+            "transition_stitch: the steps are those of the next pair",
+            "nearer_ring: a ring begins one element late",
+            "nearer_patch: a patch begins one element late",
+            "prefix_sums: sixteens are taken for thirty-twos",
         ],
     ),
     (
         Domain::Triangle,
         Partitioning::FractionalEven,
-        &["TWO_THIRDS", "next_patch", "point_of_run", "shape_of", "place"],
+        &[
+            "two thirds are a unit too large",
+            "next_patch: the next patch begins one element late",
+            "point_of_run: half of a distance is rounded down",
+            "shape_of: another edge descends",
+            "place: the middle is one point late",
+        ],
     ),
     (
         Domain::Triangle,
         Partitioning::Integer,
-        &["ONE_THIRD", "centre_stitch_3", "next_edge", "edge_points"],
+        &[
+            "one third is a unit too large",
+            "centre_stitch: the centre triangle has a corner twice",
+            "next_edge: no edge is the last",
+            "edge_points: factor 1 has a point for the other parity",
+        ],
     ),
     (
         Domain::Quad,
         Partitioning::Pow2,
-        &["rows", "rows_2", "place_2", "place_3", "point_location", "centre_stitch_4", "corner"],
+        &[
+            "rows: a row that walks back does not turn",
+            "rows: a row that walks back turns at its end",
+            "place: the second half is not mirrored",
+            "place: the middle of an even edge is computed",
+            "point_location: the row has two edges",
+            "centre_stitch: the strip runs along the shorter axis",
+            "corner: the last corner of a quad is at u = 1",
+        ],
     ),
-    (Domain::Isoline, Partitioning::FractionalOdd, &["sequence_first"]),
+    (
+        Domain::Isoline,
+        Partitioning::FractionalOdd,
+        &["sequence_first: lines have one segment more"],
+    ),
 ];

@@ -138,15 +138,15 @@ fn planted_faults_are_seen() {
     let setup = setup(Domain::Triangle, OutputPrimitive::TriangleCw);
     let (patches, groups) = (many(), across_portions());
     for fault in [
-        "groups",
-        "groups_2",
-        "first_index_of",
-        "first_index_of_2",
-        "groups_3",
-        "groups_4",
-        "groups_5",
-        "first_index_of_3",
-        "first_index_of_4",
+        "groups: a group begins in the first portion",
+        "groups: a group ends in the first portion",
+        "first_index_of: the end of a portion is a patch",
+        "first_index_of: patches are numbered from the batch",
+        "groups: a group ends where it begins",
+        "groups: workgroups have one group",
+        "groups: a count is an end",
+        "first_index_of: points are counted",
+        "first_index_of: a portion ends where it begins",
     ] {
         machine.plant(setup, fault);
         machine.limit(LOW);
@@ -165,7 +165,7 @@ fn nothing_is_drawn_if_the_output_does_not_fit() {
         let draws = observed(&machine, &batch, 3);
         assert!(draws.iter().all(|draw| draw.index_count == 0), "{draws:?}");
     }
-    machine.plant(setup, "groups_6");
+    machine.plant(setup, "groups: a group of output that overflows is drawn");
     let batch = run(&mut machine, setup, (&patches, &[0, 7, 50]), [points - 1, indices]);
     assert_ne!(observed(&machine, &batch, 3)[1].index_count, 0, "the comparison would see it");
 }

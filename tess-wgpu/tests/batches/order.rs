@@ -101,13 +101,13 @@ fn planted_faults_are_seen() {
         triangles(Domain::Quad),
         &patches,
         &[
-            "triangle_location",
-            "borders",
-            "drawn_behind",
-            "drawn_behind_2",
-            "borders_2",
-            "location_in_sector",
-            "drawn_next",
+            "triangle_location: the vertex-cache order is ignored",
+            "borders: no ring is cut",
+            "drawn_behind: a column is one step too long",
+            "drawn_behind: a column goes on past the last ring",
+            "borders: each cut is one step too large",
+            "location_in_sector: the transition is one step too long",
+            "drawn_next: the next triangle is the same one",
         ],
     );
 }

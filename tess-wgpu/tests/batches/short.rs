@@ -73,7 +73,7 @@ fn a_batch_can_run_again() {
     for count in [300, 3000] {
         assert_eq!(run_twice(&mut machine, &low(count)), Ok(()), "{count} patches");
     }
-    machine.plant(setup(Domain::Quad), "totals");
+    machine.plant(setup(Domain::Quad), "totals: the first portion begins at the last run's end");
     assert!(run_twice(&mut machine, &low(3000)).is_err(), "totals that are not reset");
 }
 
@@ -88,20 +88,20 @@ fn planted_faults_are_seen() {
         setup,
         &patches,
         &[
-            "short_batch",
-            "short_batch_2",
-            "short_batch_3",
-            "short_batch_4",
-            "write_tiles",
-            "write_tiles_2",
-            "write_tiles_3",
-            "short_batch_5",
-            "short_batch_6",
-            "short_batch_7",
+            "short_batch: every block begins at 0",
+            "short_batch: a block begins where it ends",
+            "short_batch: the section begins at 1",
+            "short_batch: primitives end where points do",
+            "write_tiles: a tile that begins with a patch is not its own",
+            "write_tiles: a patch is entered for one tile",
+            "write_tiles: primitives are entered for points",
+            "short_batch: no entry follows the last tile of points",
+            "short_batch: no entry follows the last tile of primitives",
+            "short_batch: the last block is left out",
         ],
     );
     let (points, indices) = Expected::new(setup, &patches).words();
-    machine.plant(setup, "write_primitive_tile");
+    machine.plant(setup, "write_primitive_tile: output that overflows is written");
     let written = machine.write(setup, &patches, points - 2, indices);
     let mut all = written.points.iter().chain(&written.indices);
     assert!(all.any(|&word| word != POISON), "what does not fit is written");

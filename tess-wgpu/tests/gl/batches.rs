@@ -41,8 +41,12 @@ pub(crate) fn a_large_one_equals_the_model(gpu: Gpu) {
 pub(crate) fn planted_faults_are_seen(gpu: Gpu) {
     let mut machine = Machine::on(gpu);
     for (domain, partitioning, fault) in [
-        (Domain::Quad, Partitioning::FractionalOdd, "centre_stitch_2"),
-        (Domain::Triangle, Partitioning::FractionalEven, "TWO_THIRDS"),
+        (
+            Domain::Quad,
+            Partitioning::FractionalOdd,
+            "centre_stitch: the second row begins one index late",
+        ),
+        (Domain::Triangle, Partitioning::FractionalEven, "two thirds are a unit too large"),
     ] {
         let setup = Setup::new(domain, Config::new(partitioning, OutputPrimitive::TriangleCw));
         let patches = random(domain, 100, &mut SplitMix64::new(5));
