@@ -174,6 +174,8 @@ impl SurfacePatch {
     /// the corner.
     #[inline(always)]
     pub(crate) fn boundary(&self, vertices: &mut Vertices) {
+        // All eight lanes run through each edge that one of them is on; `is_on` selects which keep
+        // the result.
         vertices.on_edges = edges_of(self.edges(), &vertices.u, &vertices.v);
         if vertices.on_edges == [0; LANES] {
             return;

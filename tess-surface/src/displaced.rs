@@ -63,6 +63,7 @@ impl Anchors {
                 corners.push((corner < samples.len()).then_some(*sample));
             }
         }
+        // First guess: one anchor for each place. Sheets that only touch there get their own.
         let mut of_corner = weld(&positions);
         let mut anchors = sums(&corners, &of_corner);
         if separate_sheets(model, &corners, &anchors, &mut of_corner) {
@@ -102,6 +103,7 @@ fn separate_sheets(
     sums: &[Anchor],
     of_corner: &mut [u32],
 ) -> bool {
+    // Where a corner's normal points away from the sum, the place has more than one sheet.
     let mut is_mixed = vec![false; corners.len()];
     for (corner, &place) in corners.iter().zip(&*of_corner) {
         if let Some(sample) = corner {
@@ -194,6 +196,7 @@ impl DisplacedPatch<'_> {
     #[inline(always)]
     fn anchors(&self, beyond: &Sides<Option<Formulas<'_>>>, vertices: &Vertices) -> Anchors8 {
         let mut anchors = Anchors8 { direction: vertices.normal, texcoord: vertices.texcoord };
+        // Most blocks are inside: there the patch's own normals and coordinates do.
         if vertices.on_edges == [0; LANES] {
             return anchors;
         }
@@ -229,6 +232,8 @@ impl DisplacedPatch<'_> {
             return;
         }
         let (Some((patch, their_edge)), Some(formulas)) = (&side.beyond, beyond) else { return };
+        // The same places on the other side: own coordinate, canonical one, theirs. Both changes of
+        // direction are exact, so both patches evaluate the same two points.
         let theirs = patch.edges().as_slice()[*their_edge].direction;
         let own = running(self.patch.edges(), edge, vertices);
         let mut points = [INSIDE; LANES];
@@ -241,6 +246,7 @@ impl DisplacedPatch<'_> {
         let mut beyond = Vertices::at(&points);
         formulas.evaluate(&mut beyond);
         for lane in 0..LANES {
+            // The sum of both sides' normals, which is the same bits from either side.
             let (sum, exists) = unit_or_not(anchors.direction.get(lane) + beyond.normal.get(lane));
             let sum = select(exists, sum, Vec3::ZERO);
             let shared = vertices.is_on(edge, lane);
@@ -279,6 +285,7 @@ impl DisplacedPatch<'_> {
             let position = plain_zero(vertices.position.get(lane) + offset);
             vertices.position.set(lane, position);
         }
+        // The slope along u is the slope of the image times the way that u moves in it.
         let texcoords = self.patch.texcoords();
         for lane in 0..LANES {
             let (u, v) = (vertices.u[lane], vertices.v[lane]);

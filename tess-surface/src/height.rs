@@ -101,6 +101,8 @@ impl HeightMap {
     /// [`HeightMap::samples`], where `cell` finds the cell of a coordinate for one continuation.
     #[inline(always)]
     fn in_cells(&self, texcoords: &Lanes2, cell: impl Fn(f32, usize) -> Cell) -> (Lanes, Lanes2) {
+        // In three loops: cells and heights become vectors, and only the four loads of each lane
+        // between them do not.
         let (mut columns, mut rows) = ([Cell::default(); LANES], [Cell::default(); LANES]);
         for lane in 0..LANES {
             let texcoord = texcoords.get(lane);
