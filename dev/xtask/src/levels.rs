@@ -1,12 +1,12 @@
-//! The CPU levels of `tess-simd` that this machine must be tested at.
+//! The CPU levels that this machine must be tested at.
 
 /// The variable with the levels that tests must compare; they fail if one is not compared.
 pub(crate) const VARIABLE: &str = "TESS_REQUIRE_LEVELS";
 
-/// Every level, by its name in `tess-simd`.
+/// Every level, by its name in `tess-level`.
 const ALL: [&str; 3] = ["baseline", "avx2", "avx512"];
 
-/// The levels of this processor, detected without `tess-simd`, which might be wrong.
+/// The levels of this processor, detected without `tess-level`, which might be wrong.
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn required() -> Vec<&'static str> {
     macro_rules! has {
