@@ -23,7 +23,7 @@ fn the_most_capable_level_is_detected() {
 }
 
 /// The CPU features that the levels need, in one list.
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[test]
 fn the_machine_is_asked_for_every_instruction() {
     use std::is_x86_feature_detected as has;
