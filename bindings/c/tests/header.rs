@@ -23,8 +23,7 @@ const SOURCES: &[&str] = &[
 ];
 
 /// The first lines of the header.
-const HEAD: &str = "
-/*
+const HEAD: &str = "/*
  * Bit-exact Direct3D 11 class tessellation.
  *
  * The caller owns all memory. Only the functions on batches, tess_fuzz() and tess_check_rules()
