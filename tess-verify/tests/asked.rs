@@ -185,14 +185,14 @@ fn foreign_answers_take_the_time_of_right_ones() {
     let all = cases(80_000);
     let (asked, foreign) = all.split_at(40_000);
     let time = |answered: &[Case], mismatches: u64| {
-        let times = (0..3).map(|_| {
-            let start = Instant::now();
-            assert_eq!(check(asked, answered).mismatches, mismatches);
-            start.elapsed()
-        });
-        times.min().expect("three")
+        let start = Instant::now();
+        assert_eq!(check(asked, answered).mismatches, mismatches);
+        start.elapsed()
     };
-    let (right, foreign) = (time(asked, 0), time(foreign, 40_000));
+    // In turn, so that other work on the machine slows both.
+    let times: Vec<_> = (0..5).map(|_| (time(asked, 0), time(foreign, 40_000))).collect();
+    let right = times.iter().map(|(right, _)| *right).min().expect("five");
+    let foreign = times.iter().map(|(_, foreign)| *foreign).min().expect("five");
     assert!(foreign < 3 * right, "{foreign:?} is more than three times {right:?}");
 }
 
