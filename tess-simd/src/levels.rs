@@ -11,7 +11,7 @@ use crate::kernels::repeat::Repeat;
 use crate::stages::counts::PartCounts;
 #[cfg(target_arch = "x86_64")]
 use crate::stages::packet::PacketPatch;
-use crate::stages::packet::{OnePatch, Packet};
+use crate::stages::packet::{OnePatch, Packet, RawPair};
 use crate::stages::points::Lookup;
 #[cfg(target_arch = "x86_64")]
 use crate::stages::points::{Code, permute, permute::Permutes};
@@ -55,9 +55,9 @@ at_each_level! {
         one: &mut OnePatch,
         config: Config,
         domain: Domain,
-        a: u64,
-        b: u64,
-        c: u64,
+        a: RawPair,
+        b: RawPair,
+        c: RawPair,
     ) -> Counts = OnePatch::process;
 }
 
@@ -77,9 +77,9 @@ at_each_level! {
     /// [`kernels::emit::emit_one`] at a level, points as in [`emit`].
     fn emit_one<W: PointWriter, I: IndexFormat>(
         to: &mut OneWriters<'_, W, I>,
-        a: u64,
-        b: u64,
-        c: u64,
+        a: RawPair,
+        b: RawPair,
+        c: RawPair,
         lookup: &mut Lookup,
     ) -> bool = kernels::emit::emit_one, avx512 = emit_one_by_permutes;
 }
@@ -102,9 +102,9 @@ with_avx512! {
 
     fn emit_one_by_permutes<W: PointWriter, I: IndexFormat>(
         to: &mut OneWriters<'_, W, I>,
-        a: u64,
-        b: u64,
-        c: u64,
+        a: RawPair,
+        b: RawPair,
+        c: RawPair,
         _: &mut Lookup,
     ) -> bool {
         let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut W| {

@@ -60,7 +60,7 @@ use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointWriter;
 use crate::data::writer::Writer;
 use crate::stages::connect::{self, cache_order};
-use crate::stages::packet::{OnePatch, Packet, PacketPatch};
+use crate::stages::packet::{OnePatch, Packet, PacketPatch, RawPair};
 use crate::stages::points::{self, CompactPoints, LocationTables};
 use crate::stages::settings::Settings;
 use crate::stages::template::{CompactPoint, Start, Template, Templates, long};
@@ -184,9 +184,9 @@ pub(crate) struct OneWriters<'a, W, I> {
 #[inline(always)]
 pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     to: &mut OneWriters<'_, W, I>,
-    a: u64,
-    b: u64,
-    c: u64,
+    a: RawPair,
+    b: RawPair,
+    c: RawPair,
     compact_points: &mut M,
 ) -> bool {
     let OneWriters { settings, domain, points, most_points, indices, one, caches } = to;

@@ -64,7 +64,7 @@ mod one;
 
 #[cfg(all(feature = "taps", feature = "apart"))]
 pub(crate) use one::ROWS;
-pub(crate) use one::{OnePatch, one_counts, pairs};
+pub(crate) use one::{OnePatch, RawPair, one_counts, pairs};
 
 use crate::data::lanes::{Column, EdgePoints, Lanes, MAX_FACTORS, is_odd, set, set_rows};
 use crate::stages::counts::{PacketCounts, counts};

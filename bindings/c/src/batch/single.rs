@@ -89,8 +89,6 @@ unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     // SAFETY: as above.
     let indices = unsafe { boundary::room(indices.0, indices.1) }?;
     let (tessellator, room) = (&mut batch.tessellator, (points, indices));
-    // The factors are copied as one structure: separate stores would stall the tessellator, which
-    // reads factors in pairs.
     let (written, needed) = match patches.batch() {
         Batch::Isolines(&[factors]) => write(tessellator, factors, room, memory),
         Batch::Triangles(&[factors]) => write(tessellator, factors, room, memory),

@@ -10,29 +10,33 @@
 //! The factors have three forms, each made from the one before:
 //!
 //! ```text
-//! PatchFactors       the caller's factors
-//! RawPairs           3 numbers of 64 bits, in registers      [v0 u0] [v1 u1] [inside_v inside_u]
-//! RawFactors         a vector of 8, if the patch is new      u0 v0 u1 v1 inside_u inside_v 0 0
+//! PatchFactors       the caller's factors, in memory
+//! RawPair            6 floats in registers: 3 arguments    (u0, v0) (u1, v1) (inside_u, inside_v)
+//! RawFactors         a vector of 8                         u0 v0 u1 v1 inside_u inside_v 0 0
 //! ```
 //!
-//! The pairs exist because a kernel's arguments go through registers, the vector because the stages
-//! compute with vectors. If the patch repeats, the pairs are compared and the vector is not made.
+//! A kernel is a compiled function, so its arguments are what its caller loads. The compiler joins
+//! two loads of 32 bits into one of 64, or four into one of 128, wherever the result is one value;
+//! it cannot join floats that go to registers of their own.
 //!
 //! # Entries
 //!
 //! ```text
-//! OnePatch::process      one patch per call: keeps its packet, and does nothing if the factors are the same
-//! Packet::process_one    a patch of a small batch, or one that repeats: any lane of the batch's packet
+//! OnePatch::process      one patch per call: keeps its packet; equal factors change nothing
+//! Packet::process_one    a patch of a small batch, or one that repeats: any lane of a packet
 //! one_counts             a patch that is only counted: no packet
 //! ```
 //!
-//! All three take the same path: `pairs`, `apart`, `process`. They differ in the result that they
-//! keep, and one call takes only one of them.
+//! All three take the same path: `pairs`, `side_by_side`, `process`. They differ in the result that
+//! they keep, and one call takes only one of them.
 //!
 //! # What must hold
 //!
-//! - Factors reach the kernel in registers ([`pairs`]). A vector load from memory would wait until
-//!   the separately stored factors arrive: 7 to 17 % of a call.
+//! - Each factor is read from the caller's memory by a load of its own ([`pairs`]). A caller stores
+//!   factors one by one just before the call. A processor forwards a store to a later load only if
+//!   the store has all bytes of the load; a wider load waits until all earlier stores have left for
+//!   the cache. After a patch's output those are many: with loads of two factors, calls for small
+//!   quads that were made just before took 1.06 to 1.09 times as long (AVX-512).
 //! - [`OnePatch`] is the only writer of its packet, so the packet is still right when equal factors
 //!   come again.
 //! - [`key`] has everything that the packet and the sizes depend on: if it is equal, the rest is
@@ -43,14 +47,16 @@ use crate::data::lanes::{MAX_FACTORS, set};
 use crate::stages::counts::{PacketCounts, counts};
 use crate::stages::factor_context::point_counts;
 use crate::stages::factors::{Processed, all, process};
-use tess_core::{Config, Counts, Domain, PatchFactors, QuadFactors, TriangleFactors};
+use tess_core::{
+    Config, Counts, Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFactors,
+};
 
 /// A single patch, in the first lane of a packet.
 #[derive(Clone, Debug)]
 pub(crate) struct OnePatch {
     /// The packet of the patch that was processed last; nothing else writes to it.
     packet: Packet,
-    raw: RawPairs,
+    raw: RawFactors,
     /// [`key`] of the patch's processed factors, which the packet and the sizes depend on.
     key: [u32; ROWS],
     domain: Domain,
@@ -63,15 +69,15 @@ pub(crate) const ROWS: usize = 8;
 /// The raw factors of a patch, followed by zeros.
 type RawFactors = [[f32; 1]; ROWS];
 
-/// Pairs of raw factors, the first of each pair in the lower half, then zeros. They are passed in
-/// registers.
-type RawPairs = [u64; MAX_FACTORS / 2];
+/// Two raw factors, or zeros. A tuple of two floats is passed in two registers; an array of two
+/// would be one number of 64 bits, loaded at once.
+pub(crate) type RawPair = (f32, f32);
 
 impl OnePatch {
     /// A patch that is culled because all its factors are 0.
     pub(crate) const CULLED: Self = Self {
         packet: Packet::EMPTY,
-        raw: [0; _],
+        raw: [[0.0]; ROWS],
         key: [0; ROWS],
         domain: Domain::Quad,
         counts: Counts { points: 0, primitives: 0, indices: 0 },
@@ -88,8 +94,10 @@ impl OnePatch {
     }
 
     /// Whether the patch that was processed last has these factors and is not compact.
-    pub(crate) fn is_large_and_has(&self, domain: Domain, raw: RawPairs) -> bool {
-        !self.packet.patch(0).is_compact() && self.domain == domain && self.raw == raw
+    pub(crate) fn is_large_and_has(&self, domain: Domain, raw: [RawPair; 3]) -> bool {
+        !self.packet.patch(0).is_compact()
+            && self.domain == domain
+            && differences(&self.raw, &side_by_side(raw)) == 0
     }
 
     /// Processes the raw factors of one patch, given as [`pairs`], unless they equal those of the
@@ -100,23 +108,20 @@ impl OnePatch {
         &mut self,
         config: Config,
         domain: Domain,
-        a: u64,
-        b: u64,
-        c: u64,
+        a: RawPair,
+        b: RawPair,
+        c: RawPair,
     ) -> Counts {
         use Domain::{Isoline, Quad, Triangle};
-        let raw = [a, b, c];
-        // All factors in one comparison, because it is hard to predict which one differs first.
-        let differences = (0..raw.len()).fold(0, |any, i| any | (raw[i] ^ self.raw[i]));
+        let raw = side_by_side([a, b, c]);
         let other = domain != self.domain;
-        if differences != 0 || other {
+        if differences(&self.raw, &raw) != 0 || other {
             (self.raw, self.domain) = (raw, domain);
-            let factors = apart(raw);
             // In each arm the domain is a constant.
             match domain {
-                Isoline => self.process_as(config, Isoline, &factors, other),
-                Triangle => self.process_as(config, Triangle, &factors, other),
-                Quad => self.process_as(config, Quad, &factors, other),
+                Isoline => self.process_as(config, Isoline, &raw, other),
+                Triangle => self.process_as(config, Triangle, &raw, other),
+                Quad => self.process_as(config, Quad, &raw, other),
             }
         }
         self.counts
@@ -162,25 +167,31 @@ fn key(processed: &Processed<1, ROWS>) -> [u32; ROWS] {
 
 /// The raw factors of one patch in pairs, in the order of its domain.
 #[inline(always)]
-pub(crate) fn pairs(factors: &PatchFactors) -> RawPairs {
-    let pair = |one: f32, other: f32| u64::from(one.to_bits()) | (u64::from(other.to_bits()) << 32);
+pub(crate) const fn pairs(factors: &PatchFactors) -> [RawPair; MAX_FACTORS / 2] {
     match *factors {
-        PatchFactors::Isoline(factors) => [pair(factors.density, factors.detail), 0, 0],
+        PatchFactors::Isoline(IsolineFactors { density, detail }) => {
+            [(density, detail), (0.0, 0.0), (0.0, 0.0)]
+        }
         PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside }) => {
-            [pair(u0, v0), pair(w0, inside), 0]
+            [(u0, v0), (w0, inside), (0.0, 0.0)]
         }
         PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v }) => {
-            [pair(u0, v0), pair(u1, v1), pair(inside_u, inside_v)]
+            [(u0, v0), (u1, v1), (inside_u, inside_v)]
         }
     }
 }
 
-/// The factors from which [`pairs`] made these pairs, as vectors of one lane.
+/// The factors of [`pairs`] as vectors of one lane.
 #[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "the lower half")]
-fn apart(raw: RawPairs) -> RawFactors {
-    let [a, b, c] = raw.map(|pair| [pair as u32, (pair >> 32) as u32].map(f32::from_bits));
-    [a[0], a[1], b[0], b[1], c[0], c[1], 0.0, 0.0].map(|factor| [factor])
+const fn side_by_side([a, b, c]: [RawPair; MAX_FACTORS / 2]) -> RawFactors {
+    [[a.0], [a.1], [b.0], [b.1], [c.0], [c.1], [0.0], [0.0]]
+}
+
+/// 0 if all factors have the same bits. All are compared at once, because it is hard to predict
+/// which one differs first.
+#[inline(always)]
+fn differences(a: &RawFactors, b: &RawFactors) -> u32 {
+    (0..ROWS).fold(0, |any, i| any | (a[i][0].to_bits() ^ b[i][0].to_bits()))
 }
 
 impl Packet {
@@ -194,7 +205,7 @@ impl Packet {
         factors: PatchFactors,
     ) -> Counts {
         use Domain::{Isoline, Quad, Triangle};
-        let raw = apart(pairs(&factors));
+        let raw = side_by_side(pairs(&factors));
         let mut keep = |domain| {
             self.keep_one(config, domain, lane, &process(config.partitioning, domain, &raw))
         };
@@ -226,7 +237,7 @@ impl Packet {
 #[inline(always)]
 pub(crate) fn one_counts(config: Config, factors: &PatchFactors) -> PacketCounts<1> {
     use Domain::{Isoline, Quad, Triangle};
-    let raw = apart(pairs(factors));
+    let raw = side_by_side(pairs(factors));
     let of = |domain| {
         let processed = process(config.partitioning, domain, &raw);
         counts(config, domain, &processed, &point_counts(&processed.fixed, &processed.odd))
