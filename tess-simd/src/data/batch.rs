@@ -240,6 +240,9 @@ fn run<T>(all: &[T], first: usize, differ: impl Fn(&T, &T) -> u32) -> usize {
     if others.first().is_none_or(|next| differ(one, next) != 0) {
         return 1;
     }
+    // `alike` patches are known to be equal. Nearly every call ends above: neighbours differ. A run
+    // that has begun is usually long, so from here whole blocks are compared, each element with the
+    // next, which needs no copy of the first.
     let mut alike = 1;
     let blocks =
         all.as_chunks::<COMPARED_AT_ONCE>().0.iter().zip(others.as_chunks::<COMPARED_AT_ONCE>().0);

@@ -51,7 +51,10 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         element: impl Fn(S) -> T,
     ) {
         let room = self.out.get_mut(self.at..).unwrap_or_default();
+        // The position moves by the true length: what is written past it belongs to the next run.
         self.at += length;
+        // Lengths are hard to predict, but nearly all are at most `LEAST`: then this branch always
+        // goes the same way, and a block too many costs less than a misprediction.
         if length <= LEAST
             && let (Some(target), Some(source)) =
                 (room.first_chunk_mut::<LEAST>(), source.first_chunk::<LEAST>())
@@ -59,6 +62,8 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
             write_blocks::<_, _, N>(target, source, element);
             return;
         }
+        // One check for the whole run. After it, both sides are whole blocks and no loop has a
+        // bounds check.
         let padded = length.next_multiple_of(N);
         match (room.get_mut(..padded), source.get(..padded)) {
             (Some(target), Some(source)) => write_blocks::<_, _, N>(target, source, element),
@@ -223,6 +228,9 @@ fn fill<T>(
     copied: usize,
     copy: impl Fn(&mut [T], &[T], u32),
 ) {
+    // In each turn: `made` elements are right, a whole number of periods. The next ones are made
+    // from the first `periods` of them, so what is copied doubles until it is `most`, and the
+    // source stays in the first-level cache.
     let Some(all) = all.get_mut(..period * times) else { return };
     let most = (copied / size_of::<T>()).max(period);
     let mut made = period;

@@ -220,6 +220,8 @@ fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     let Caches { tables, templates } = caches;
     let mut starts = [Start::default(); LANES];
     let lanes = ranges.iter().enumerate().filter(|(_, range)| range.points != 0);
+    // `make_room` was called, so a template that is made here moves no other: all starts stay valid
+    // to the end of this function.
     for (lane, _) in lanes.clone() {
         starts[lane] = templates.find(packet.patch(lane), (settings, tables), M::stored);
     }

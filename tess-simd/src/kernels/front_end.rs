@@ -43,6 +43,8 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
         if first == 0 {
             run = times;
         }
+        // A patch that repeats, or the last one: a packet of one patch would cost as much as one of
+        // sixteen.
         if patches == 1
             && let Some(factors) = batch.patch(first)
         {
@@ -70,6 +72,7 @@ pub(crate) fn count_and_keep(
 ) -> Option<PartCounts> {
     let (patches, run) = (batch.len(), batch.run(0));
     let all_equal = run == patches;
+    // A run at the beginning is worth repeating, but packets have no place for its length.
     if run >= Stretch::WORTH_REPEATING && !all_equal {
         return None;
     }

@@ -158,6 +158,8 @@ impl Packet {
         } else {
             self.spacings.keep(lane, processed, config.split)
         };
+        // Rows that the domain lacks have numbers of factors that nobody gave: zeros replace them,
+        // so that topologies of different domains differ.
         let mut edges = [[0; L]; MAX_FACTORS];
         edges[..domain.factors()].copy_from_slice(&points[..domain.factors()]);
         (self.config, self.domain) = (config, domain);
@@ -331,11 +333,15 @@ fn small_topologies<const L: usize>(
     let mut small = [0; L];
     for points in &points[..domain.factors()] {
         for lane in 0..L {
+            // The rank: integer factors have 2, 3, 4 .. points, fractional ones every other number.
+            // A rank that needs more bits than it has room for sets a bit above the whole number,
+            // which then is beyond the table.
             let place = points[lane].wrapping_sub(2) >> fractional;
             small[lane] = (small[lane] << bits) | place | ((place >> bits) << (SMALL_BITS + 1));
         }
     }
     for lane in 0..L {
+        // `minimum - 1` is a mask: none of a minimum patch's bits stay, all of another's.
         small[lane] = (small[lane] & minimum[lane].wrapping_sub(1)) | quad;
     }
     small

@@ -170,6 +170,8 @@ impl Templates {
         with: Making<'_>,
         stored: Stored,
     ) -> Start {
+        // One load replaces a product and four comparisons for the smallest topologies. Until there
+        // are many templates the table is empty, and `get` gives `None` for every number.
         match self.small.get(patch.small_topology()) {
             Some(&start) if start != Start::NONE => start,
             _ => self.find_in_sets(patch, with, stored),
@@ -182,6 +184,7 @@ impl Templates {
             Some(start) => start,
             None => self.make_compact(patch, with, stored),
         };
+        // Numbers of larger topologies are out of the table's range, so they are not entered.
         if let Some(small) = self.small.get_mut(patch.small_topology()) {
             *small = start;
         }
@@ -214,6 +217,8 @@ impl Templates {
     #[inline(always)]
     fn is_wanted(&mut self, patch: PacketPatch<'_>) -> bool {
         let topology = patch.topology();
+        // A guess: a large topology that comes twice in a row will come again. Making a template
+        // costs more than writing the patch, and of unlike large patches hardly one is met again.
         patch.points() as usize <= ALWAYS_KEPT
             || core::mem::replace(&mut self.last_large, topology) == topology
     }
@@ -230,6 +235,8 @@ impl Templates {
     #[inline(never)]
     fn make_compact(&mut self, patch: PacketPatch<'_>, with: Making<'_>, stored: Stored) -> Start {
         let (settings, domain) = (with.0, patch.domain());
+        // `make_room` was called for this packet, so the template fits, and nothing that was found
+        // for the packet moves.
         self.made.make(patch, with);
         let to = &mut self.compact.points.free(patch.points() as usize)[..patch.points() as usize];
         if patch.integer() {
@@ -237,6 +244,8 @@ impl Templates {
                 *to = short(point);
             }
         } else {
+            // A fractional patch's points differ from patch to patch; its codes do not. A minimum
+            // patch has no rings to walk, but its corners have codes too.
             if patch.is_minimum() {
                 for (to, &point) in to.iter_mut().zip(&self.made.points) {
                     *to = corner(domain, point);
@@ -247,6 +256,8 @@ impl Templates {
             to.as_flattened_mut().iter_mut().for_each(|code| *code = stored(domain, *code));
         }
         let start = self.made.keep(&mut self.compact, settings, patch, patch.points());
+        // With few templates their sets stay in the first-level cache, and the table of 32 KiB
+        // would push them out.
         if self.compact.has_many() {
             self.make_small();
         }
@@ -257,6 +268,7 @@ impl Templates {
     #[inline(never)]
     fn make_other(&mut self, patch: PacketPatch<'_>, with: Making<'_>) -> Start {
         let settings = with.0;
+        // Fractional points are not kept: these patches have too many for codes.
         let points = if patch.integer() { patch.points() } else { 0 };
         self.others.make_room(points as usize, patch.indices() as usize);
         self.made.make(patch, with);

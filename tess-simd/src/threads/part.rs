@@ -119,6 +119,8 @@ impl Workspace {
     ) -> Result<Counts, Error> {
         let (domain, raw @ [a, b, c]) = (factors.domain(), pairs(factors));
         let WorkspaceMemory { one, lookup, caches, .. } = self.memory();
+        // The kernel of one patch gives up on large patches after their front end. If the previous
+        // patch was this one and large, it would compare factors and give up: it is not called.
         let written = !one.is_large_and_has(domain, raw) && {
             let most_points = points.len();
             let (points, indices) = (points.writer(), &mut *indices);
@@ -126,10 +128,12 @@ impl Workspace {
                 &mut OneWriters { settings, domain, points, most_points, indices, one, caches };
             levels::emit_one(level, to, a, b, c, lookup)
         };
+        // In every case `one` now has this patch.
         let counts = one.counts();
         if written {
             return Ok(counts);
         }
+        // Too little room, culled, or not compact. Nothing was written yet.
         let mut points = points.first(counts.points as usize, MORE)?;
         let indices = first(indices, BatchBuffer::Indices, counts.indices as usize, MORE)?;
         if counts.points != 0 {
@@ -172,11 +176,15 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
     let own = &mut **chunk.get_or_insert_with(ChunkMemory::new);
     let Job { level, settings, numbering, kept } = job;
     let (mut start, all) = (0, batch.len());
+    // In each turn: patches `start..` are unwritten, and the buffers begin with their output.
     while start < all {
         let (Stretch { patches, times }, packets) = if let Some(kept) = kept {
+            // The count has already made the packets of the whole batch, or one patch's if all are
+            // equal: this is the only turn.
             let (patches, times) = if run == all { (1, run) } else { (all, 1) };
             (Stretch { patches, times }, kept)
         } else {
+            // The count measured the first run; later runs are looked for here.
             let stretch = if start == 0 && run > 1 {
                 Stretch { patches: 1, times: run }
             } else {
@@ -186,10 +194,12 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
             levels::process(level, settings.config, &batch, &mut own.packets);
             (stretch, &own.packets)
         };
+        // `emit` reads the ranges, so they are written even if the caller wants none.
         let ranges_here = ranges.next_or(&mut own.ranges[..patches]);
         let packets = Packets { packets, first, numbering, ranges: &mut *ranges_here };
         let room = (points.writer(), &mut *indices);
         let mut end = levels::emit(level, settings, packets, room, caches, lookup);
+        // The patch that was just written is the first of `times`; the others are copies of it.
         if times > 1 {
             let range = ranges_here[0];
             let room = (points.writer(), &mut *indices);
@@ -197,6 +207,7 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
             end = levels::repeat(level, repeat, room, &mut ranges);
         }
         start += patches * times;
+        // `emit` may have written past `end`, in whole blocks. The next turn overwrites that.
         points = points.split_at((end.points - first.points) as usize).1;
         indices = indices.split_at_mut((end.indices - first.indices) as usize).1;
         first = end;

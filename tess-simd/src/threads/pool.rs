@@ -98,10 +98,14 @@ impl Workspaces {
             };
             return self.lend(write);
         };
+        // A slice is taken out of its lock by the thread that writes it. Each thread takes each
+        // lock once, which is little beside the slice that it protects.
         let slices: Vec<_> = share.into_parts().map(|part| Mutex::new(Some(part))).collect();
         let written = AtomicUsize::new(0);
         let write = || {
             self.lend(|workspace| {
+                // Every thread goes through all slices, its own first: a slice is written by
+                // whoever reaches it first, and found empty by the others.
                 for slice in self.own_first(counts, &slices) {
                     let part = slice.lock().unwrap_or_else(PoisonError::into_inner).take();
                     if let Some(part) = part {
@@ -110,6 +114,8 @@ impl Workspaces {
                     }
                 }
             });
+            // Nothing is left to take. `Relaxed` is enough: the count only ends a wait, and
+            // rayon's join orders the writes before the caller reads them.
             let start = Instant::now();
             while written.load(Ordering::Relaxed) < slices.len() && start.elapsed() < TOGETHER {
                 std::thread::yield_now();
@@ -126,6 +132,8 @@ impl Workspaces {
         slices: &'a [T],
     ) -> impl Iterator<Item = &'a T> {
         let (own, threads) = (self.own() as u64, self.0.len() as u64);
+        // The byte at which this thread's share of the output begins. The same batch gives the same
+        // byte every time, so a thread finds its part of the buffer in its caches.
         let before = PartCounts::sum(counts).bytes() * own / threads;
         let mut sum = 0;
         let first = counts.iter().position(|slice| {
@@ -144,6 +152,7 @@ impl Workspaces {
     /// Lends a free workspace, if possible always the same one to each thread. Waits for one if the
     /// pool has more threads than there are workspaces.
     fn lend<T>(&self, borrow: impl FnOnce(&mut Workspace) -> T) -> T {
+        // A thread's own workspace has the templates of the slices that it writes every time.
         let own = self.own();
         let (before, from_own) = self.0.split_at(own);
         let free = from_own.iter().chain(before).find_map(|workspace| workspace.try_lock().ok());

@@ -147,6 +147,9 @@ const fn plus(term: Term, ring: u32) -> u16 {
 /// The code, without a term, of a point of a factor, or of the same point seen from the other end.
 #[expect(clippy::cast_possible_truncation, reason = "below 16 points of 6 factors")]
 fn location(edges: &EdgePoints, AxisPoint { factor, point, mirrored }: AxisPoint) -> u16 {
+    // Only the first half of an edge has locations; a point beyond it is `ONE` minus the one at the
+    // same distance from the other end. Seen from that end, it is the location itself: two
+    // reflections cancel.
     let opposite = edges[factor] - 1 - point;
     let position = point.min(opposite);
     let beyond_half = point > opposite;

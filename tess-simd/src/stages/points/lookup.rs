@@ -134,6 +134,7 @@ impl<W: PointWriter> CompactPoints<W> for Lookup {
         } else {
             self.fill_edges::<W::Point, QUAD_FACTORS>(patch);
         }
+        // One array of exactly 256 entries, so that a byte is always an index.
         let [coordinates] = self.rows.as_flattened().as_chunks::<ENTRIES>().0 else {
             return debug_assert!(false, "an entry's number is a byte");
         };
@@ -167,10 +168,14 @@ impl Lookup {
         let insets = inside.map(Inset::new);
         self.rows[HELD] = row::<P>(insets.map(|inset| inset.perpendicular), |x| x);
         self.rows[HELD][RINGS] = P::coordinate(ONE_THIRD);
+        // Only the rings that the patch has: a ring is four rows of eight, one or two vectors each,
+        // and small triangles have one ring or none.
         let rings = self.rows[INNER..HELD].as_chunks_mut::<ROWS_OF_RING>().0;
         let end = (patch.edge_points(TRIANGLE_OUTER) as usize / 2).min(RINGS);
         for ring in 1..end {
             let Inset { perpendicular, shift } = insets[ring];
+            // Both terms are smaller than ONE, but a sum may pass through a negative number: all of
+            // this is modulo 2^32.
             let (last, third) = (ONE - shift, shift.wrapping_sub(perpendicular));
             // In the order of the terms.
             rings[ring - 1] = [

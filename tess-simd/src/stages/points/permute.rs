@@ -147,19 +147,28 @@ with_avx512! {
     /// Writes the points of a compact patch of fractional factors.
     pub(crate) fn emit(patch: PacketPatch<'_>, codes: &[Code], out: &mut impl PointWriter) {
         let points = patch.points() as usize;
+        // From here on no memory is read except codes: every number that one can name is in `a` to
+        // `d`. For a triangle, `b` has factor 2 and the inside factor, number 3.
         let [a, b] = [locations(patch, 0), locations(patch, 2)];
         if patch.domain() == Domain::Triangle {
             let [c, d] = terms(b);
             out.blocks::<_, POINTS_AT_ONCE, LEAST>(points, codes, move |codes| {
                 let codes = extended(codes);
+                // `vpermi2d` reads only the lowest five bits of a lane, so the bits above need no
+                // mask. After this shift the lowest five are the location's number.
                 let number = _mm512_srli_epi32::<LOCATION>(codes);
                 let location = _mm512_permutex2var_epi32(a, number, b);
+                // Unshifted, the lowest five are the term's.
                 let term = _mm512_permutex2var_epi32(c, codes, d);
                 let sum = _mm512_add_epi32(term, location);
+                // `minus` is bit 15 of a code, hence the sign of a lane. The lanes that have it get
+                // the difference in place of the sum: one instruction instead of two and a blend.
                 let minus = _mm512_movepi32_mask(codes);
                 point(_mm512_mask_sub_epi32(sum, minus, term, location))
             });
         } else {
+            // A quad has no terms, but 48 locations, and one permute has room for 32: those of the
+            // outer factors are in `a` and `b`, those of the inside factors in `c`.
             let c = locations(patch, 4);
             let one = _mm512_set1_epi32(ONE.cast_signed());
             let inside = _mm512_set1_epi32(INSIDE);
@@ -167,6 +176,8 @@ with_avx512! {
                 let codes = extended(codes);
                 let number = _mm512_srli_epi32::<LOCATION>(codes);
                 let outer = _mm512_permutex2var_epi32(a, number, b);
+                // Both permutes are made for every lane; bit 10 of the code chooses. A branch would
+                // mispredict, because edges and interior change every few points.
                 let is_inside = _mm512_test_epi32_mask(codes, inside);
                 let location =
                     _mm512_mask_blend_epi32(is_inside, outer, _mm512_permutexvar_epi32(number, c));
@@ -185,11 +196,14 @@ with_avx512! {
     fn locations(patch: PacketPatch<'_>, first: usize) -> __m512i {
         const POSITIONS: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7];
         const MIDDLE_OF: [u32; 16] = [1, 3, 5, 7, 9, 11, 13, 15, 1, 3, 5, 7, 9, 11, 13, 15];
+        // `place_in_half` for sixteen positions: eight of one factor, eight of the next.
         let (one, other) = (patch.fractional_spacing(first), patch.fractional_spacing(first + 1));
         let both = |one: u32, other: u32| {
             let one = _mm512_set1_epi32(one.cast_signed());
             _mm512_mask_set1_epi32(one, 0xFF00, other.cast_signed())
         };
+        // The place before rounding: position * step, less lag after the split (`stages/place`).
+        // Products are modulo 2^32; the result is at most 2^31, which is HALF in 0.32.
         let positions = must_cast(POSITIONS);
         let sums = _mm512_mullo_epi32(positions, both(one.step, other.step));
         let splits = both(one.split_position, other.split_position);
@@ -197,6 +211,8 @@ with_avx512! {
         let sums = _mm512_mask_sub_epi32(sums, behind, sums, both(one.lag, other.lag));
         let half = _mm512_set1_epi32(HALF.cast_signed());
         let rounded = _mm512_srli_epi32::<16>(_mm512_add_epi32(sums, half));
+        // The middle of an odd number of points is HALF, which rounded reciprocals may miss.
+        // Positions that the factor lacks have unspecified numbers, which no code names.
         let middle = _mm512_cmpeq_epi32_mask(must_cast(MIDDLE_OF), both(one.points, other.points));
         _mm512_mask_mov_epi32(rounded, middle, half)
     }
@@ -210,11 +226,15 @@ with_avx512! {
     /// the lanes of the masks.
     fn half_of_terms<const HALF_OF: usize>(inside: __m512i) -> __m512i {
         let recipe = const { &RECIPES[HALF_OF] };
+        // The ring's location in each lane; five terms have the same ring.
         let location = _mm512_permutexvar_epi32(must_cast(recipe.location), inside);
         let sum = _mm512_mullo_epi32(location, _mm512_set1_epi32(TWO_THIRDS.cast_signed()));
         let half = _mm512_set1_epi32(HALF.cast_signed());
+        // `Inset::new`: two thirds of the location, rounded, and half of that, rounded up.
         let perpendicular = _mm512_srli_epi32::<16>(_mm512_add_epi32(sum, half));
         let shift = _mm512_sub_epi32(perpendicular, _mm512_srli_epi32::<1>(perpendicular));
+        // Each mask has the lanes whose term contains that summand. Lanes of ring 0 have location
+        // 0, so their summands are 0.
         let sum = must_cast(recipe.constant);
         let sum = _mm512_mask_add_epi32(sum, recipe.perpendicular, sum, perpendicular);
         let sum = _mm512_mask_sub_epi32(sum, recipe.less_perpendicular, sum, perpendicular);
@@ -224,6 +244,8 @@ with_avx512! {
 
     /// Eight points from their coordinates.
     fn point<P: OutputPoint>(coordinates: __m512i) -> [P; POINTS_AT_ONCE] {
+        // The lanes already alternate u, v as points do in memory: for 16.16 this compiles to one
+        // store, for binary32 to an `or` and a subtraction before it.
         let mut points = [P::default(); POINTS_AT_ONCE];
         let coordinates = must_cast::<_, [[u32; 2]; POINTS_AT_ONCE]>(coordinates);
         for (point, [u, v]) in points.iter_mut().zip(coordinates) {

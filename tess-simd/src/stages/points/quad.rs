@@ -63,6 +63,8 @@ pub(super) fn walk(&[u0, v0, u1, v1, n_u, n_v]: &EdgePoints, walker: &mut impl Q
     walker.run(v0 - 1, along(1, 0), zero);
     walker.run(u1 - 1, one, along(2, 0));
     walker.run(v1 - 1, back(3, 0), one);
+    // The outer ring is done: each edge without its last point, which begins the next edge. The
+    // inner rings run around in the same direction: down v, up u, up v, down u.
     let ring_end = n_u.min(n_v) / 2;
     for ring in 1..ring_end {
         let (count_u, count_v) = (n_u - 1 - 2 * ring, n_v - 1 - 2 * ring);
@@ -74,6 +76,8 @@ pub(super) fn walk(&[u0, v0, u1, v1, n_u, n_v]: &EdgePoints, walker: &mut impl Q
         walker.run(count_v, last_u, along(V, ring));
         walker.run(count_u, back(U, ring), last_v);
     }
+    // What is left in the middle, if anything, is one row along the longer axis: the shorter axis
+    // has an odd number of points, the middle one at HALF. With equal counts it is one point.
     if n_u > n_v {
         if !is_odd(n_v) {
             let half = walker.at(middle(V, n_v));

@@ -45,6 +45,8 @@ impl LocationTables {
         let slot = |factor| {
             if integer { MAX_FACTORS + patch.edge_points(factor) as usize % COUNTS } else { factor }
         };
+        // Integer factors: a table is made once for each point count and never again. Fractional
+        // factors: comparing keys costs little, and saves each table that the previous patch had.
         for factor in 0..patch.domain().factors() {
             let slot = slot(factor);
             let key = if integer { patch.edge_points(factor) } else { patch.key(factor) };

@@ -73,6 +73,8 @@ impl Codes<'_> {
         };
         let (outer_index, inner_index) =
             (I::wrapping_from(outer_index), I::wrapping_from(inner_index));
+        // Every code is compared with both replaced entries. `NOWHERE` is none's code, so a row
+        // without a replaced entry needs no branch of its own.
         out.map::<_, CODES_AT_ONCE>(self.length, self.codes, |code: i8| {
             let position = I::from_code(code);
             let index = if code < 0 {

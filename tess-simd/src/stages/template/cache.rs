@@ -66,6 +66,8 @@ impl Set {
     /// The slot of a topology; [`WAYS`] or more if it has none.
     #[inline(always)]
     fn find(&self, topology: u64) -> usize {
+        // All four are compared without a branch: which of them matches cannot be predicted. If
+        // none does, `found` is 0 and has 32 trailing zeros, which is no way.
         let mut found = 0_u32;
         for (way, &other) in self.topologies.iter().enumerate() {
             found |= u32::from(other == topology) << way;
@@ -168,6 +170,8 @@ where
 
     /// Enters a topology that has no slot. If its set is full, adds sets, up to the most.
     fn enter(&mut self, topology: u64, start: Start) {
+        // A set that is full is rarely full of topologies that will all be used again, so more sets
+        // are tried first. This ends: after 2048 sets a slot is taken from another topology.
         let free = loop {
             let set = self.sets.get(self.set(topology));
             let free = set.and_then(|set| set.free());
@@ -176,6 +180,7 @@ where
             }
             self.make_sets();
         };
+        // The slots of all sets are replaced in turn, which needs no clock per set.
         let way = free.unwrap_or(self.way);
         self.way = (way + 1) % WAYS;
         let set = self.set(topology);
@@ -188,6 +193,8 @@ where
         let sets = (self.sets.len() * MORE_SETS).max(FIRST_SETS);
         let before = core::mem::replace(&mut self.sets, alloc::vec![Set::EMPTY; sets]);
         self.other_bits = u64::BITS - sets.ilog2();
+        // Starts stay valid, because the rooms do not move their elements. Each new set gets
+        // topologies of one old set, at most four: none is lost here.
         for Set { topologies, starts } in before {
             for (topology, start) in topologies.into_iter().zip(starts).filter(|entry| entry.0 != 0)
             {
