@@ -94,8 +94,12 @@ impl Tessellator {
     /// The threads belong to the rayon pool that the caller runs in. Outside any pool they belong
     /// to a pool that all tessellators of the process share, with one thread per processor or as
     /// many as `RAYON_NUM_THREADS` asks for. The first large batch starts that pool; if it cannot
-    /// be started, batches are written on the calling thread. A forked child starts its own. Each
-    /// thread takes up to 1.2 MB.
+    /// be started, batches are written on the calling thread. A forked child starts its own.
+    ///
+    /// Each thread that writes keeps up to 1.2 MB in this tessellator; 300 threads are clamped to
+    /// 256 and take up to 310 MB. The memory is taken as threads meet new point counts, and freed
+    /// when the threads are set again. [`Tessellator::reserve`] takes all of it at once, and later
+    /// calls keep it.
     #[cfg(feature = "rayon")]
     pub fn set_threads(&mut self, threads: usize) {
         self.workspaces = Workspaces::of_threads(threads);
