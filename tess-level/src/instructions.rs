@@ -75,7 +75,8 @@ macro_rules! with_avx512 {
 /// Defines a function that runs `$kernel` at a level, with one compiled instance per level. The
 /// caller has checked that the level is available ([`Level::is_available`] asks for the same
 /// instructions). With `avx512 = $special`, the level AVX-512 runs `$special` instead, a function
-/// of [`with_avx512!`](crate::with_avx512).
+/// of [`with_avx512!`](crate::with_avx512). With `baseline = $compiled`, the baseline runs
+/// `$compiled` instead.
 ///
 /// The kernel and what it calls must be inlined into the instance, for example by
 /// `#[inline(always)]`: otherwise they have the instructions of the baseline.
@@ -83,16 +84,17 @@ macro_rules! with_avx512 {
 /// Only for this project's crates. A crate that uses it depends on `multiversion`.
 #[macro_export]
 macro_rules! at_each_level {
-    (@avx512 $args:tt $kernel:path) => {
+    (@last $args:tt $kernel:path) => {
         $kernel $args
     };
-    (@avx512 $args:tt $kernel:path, $special:path) => {
+    (@last $args:tt $kernel:path, $special:path) => {
         $special $args
     };
     (
         $(#[$doc:meta])*
         fn $name:ident $(<$($type:ident: $bound:ident),*>)? ($($arg:ident: $arg_type:ty),* $(,)?)
-            $(-> $result:ty)? = $kernel:path $(, avx512 = $special:path)?;
+            $(-> $result:ty)? = $kernel:path
+            $(, avx512 = $special:path)? $(, baseline = $compiled:path)?;
     ) => {
         $(#[$doc])*
         #[inline]
@@ -117,7 +119,7 @@ macro_rules! at_each_level {
             fn avx512 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
                 multiversion::target::match_target! {
                     "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
-                        => $crate::at_each_level!(@avx512 ($($arg),*) $kernel $(, $special)?),
+                        => $crate::at_each_level!(@last ($($arg),*) $kernel $(, $special)?),
                     _ => self::$name($crate::Level::Baseline, $($arg),*),
                 }
             }
@@ -125,7 +127,7 @@ macro_rules! at_each_level {
             // Not inlined, so that choosing a level needs no registers and no stack.
             #[inline(never)]
             fn baseline $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
-                $kernel($($arg),*)
+                $crate::at_each_level!(@last ($($arg),*) $kernel $(, $compiled)?)
             }
 
             match level {

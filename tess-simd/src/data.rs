@@ -5,6 +5,7 @@ pub(crate) mod chunk;
 pub(crate) mod error;
 pub(crate) mod format;
 pub(crate) mod lanes;
+pub(crate) mod numbers;
 pub(crate) mod output;
 pub(crate) mod point_writer;
 pub(crate) mod ranges;

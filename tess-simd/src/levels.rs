@@ -20,10 +20,12 @@ use tess_core::{Config, Counts, Domain};
 use tess_level::at_each_level;
 #[cfg(target_arch = "x86_64")]
 use tess_level::with_avx512;
+use wide::i32x8;
 
 at_each_level! {
     /// [`kernels::front_end::count`] at a level.
-    fn count(config: Config, batch: &Batch<'_>) -> PartCounts = kernels::front_end::count;
+    fn count(config: Config, batch: &Batch<'_>) -> PartCounts = kernels::front_end::count::<i32>,
+        baseline = kernels::front_end::count::<i32x8>;
 }
 
 at_each_level! {
@@ -32,7 +34,8 @@ at_each_level! {
         config: Config,
         batch: &Batch<'_>,
         kept: &mut [Packet; Chunk::PACKETS],
-    ) -> Option<PartCounts> = kernels::front_end::count_and_keep;
+    ) -> Option<PartCounts> = kernels::front_end::count_and_keep::<i32>,
+        baseline = kernels::front_end::count_and_keep::<i32x8>;
 }
 
 at_each_level! {
@@ -41,7 +44,8 @@ at_each_level! {
         config: Config,
         batch: &Batch<'_>,
         packets: &mut [Packet; Chunk::PACKETS],
-    ) = kernels::front_end::process;
+    ) = kernels::front_end::process::<i32>,
+        baseline = kernels::front_end::process::<i32x8>;
 }
 
 at_each_level! {

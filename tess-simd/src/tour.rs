@@ -21,7 +21,7 @@ pub(crate) fn packet() -> Packet {
         raw[number][0] = factor;
     }
     let mut packet = Packet::EMPTY;
-    packet.process(CONFIG, Domain::Quad, &raw);
+    packet.process::<i32>(CONFIG, Domain::Quad, &raw);
     packet
 }
 

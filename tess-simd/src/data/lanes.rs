@@ -61,16 +61,3 @@ pub(crate) const fn at_mut<T, const L: usize, const F: usize>(
 ) -> &mut T {
     if L == 1 { &mut rows[i][0] } else { &mut rows.as_flattened_mut()[i] }
 }
-
-/// The results of `f` for each element.
-#[inline(always)]
-pub(crate) fn each<T: Copy, U: Copy + Default, const L: usize, const F: usize>(
-    rows: &[[T; L]; F],
-    f: impl Fn(T) -> U,
-) -> [[U; L]; F] {
-    let mut made = [[U::default(); L]; F];
-    for i in 0..L * F {
-        *at_mut(&mut made, i) = f(at(rows, i));
-    }
-    made
-}

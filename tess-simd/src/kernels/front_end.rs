@@ -1,8 +1,11 @@
 //! The front end over a batch: raw factors to packets, or only to output sizes.
+//!
+//! `V` are the numbers with which whole packets are processed: see [`Numbers`].
 
 use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
 use crate::data::lanes::LANES;
+use crate::data::numbers::Numbers;
 use crate::stages::counts::{PacketCounts, PartCounts};
 use crate::stages::packet::{Packet, one_counts, packet_counts};
 use tess_core::Config;
@@ -10,17 +13,25 @@ use tess_core::Config;
 /// Takes up to a chunk of patches through the front end. Packets past the end keep their contents.
 /// So do the lanes past the end if there are at most [`FEW`] patches; otherwise they are culled.
 #[inline(always)]
-pub(crate) fn process(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk::PACKETS]) {
+pub(crate) fn process<V: Numbers>(
+    config: Config,
+    batch: &Batch<'_>,
+    packets: &mut [Packet; Chunk::PACKETS],
+) {
     if batch.len() <= FEW {
         process_few(config, batch, batch.len(), &mut packets[0]);
     } else {
-        process_many(config, batch, packets);
+        process_many::<V>(config, batch, packets);
     }
 }
 
 /// Takes up to a chunk of patches through the front end, a packet at a time.
 #[inline(always)]
-fn process_many(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk::PACKETS]) {
+fn process_many<V: Numbers>(
+    config: Config,
+    batch: &Batch<'_>,
+    packets: &mut [Packet; Chunk::PACKETS],
+) {
     let mut chunk = Chunk::EMPTY;
     chunk.load(batch);
     let (patches, domain) = (batch.len(), batch.domain());
@@ -28,13 +39,13 @@ fn process_many(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk:
         if number * LANES >= patches {
             break;
         }
-        packet.process(config, domain, &chunk.packet(number));
+        packet.process::<V>(config, domain, &chunk.packet(number));
     }
 }
 
 /// Predicts the output sizes of patches.
 #[inline(always)]
-pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
+pub(crate) fn count<V: Numbers>(config: Config, batch: &Batch<'_>) -> PartCounts {
     let mut sums = Sums::default();
     let mut chunk = Chunk::EMPTY;
     let (mut first, mut run, domain) = (0, 0, batch.domain());
@@ -52,7 +63,7 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
         } else {
             chunk.load(&batch.slice(&(first..first + patches)));
             for number in 0..patches.div_ceil(LANES) {
-                sums.add(&packet_counts(config, domain, &chunk.packet(number)));
+                sums.add(&packet_counts::<V>(config, domain, &chunk.packet(number)));
             }
         }
         first += patches * times;
@@ -65,7 +76,7 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
 /// Of a batch of equal patches, one is kept. Returns `None`, and keeps nothing, if a batch begins
 /// with a run and has other patches after it: [`count`] is for those.
 #[inline(always)]
-pub(crate) fn count_and_keep(
+pub(crate) fn count_and_keep<V: Numbers>(
     config: Config,
     batch: &Batch<'_>,
     kept: &mut [Packet; Chunk::PACKETS],
@@ -81,7 +92,7 @@ pub(crate) fn count_and_keep(
         let counts = process_few(config, batch, unlike, &mut kept[0]);
         return Some(if all_equal { counts.times(run) } else { counts });
     }
-    process_many(config, batch, kept);
+    process_many::<V>(config, batch, kept);
     let mut sums = Sums::default();
     for packet in kept.iter().take(patches.div_ceil(LANES)) {
         sums.add(&packet.counts);

@@ -21,8 +21,8 @@ pub(crate) fn fixed_factors(
         let (mut outer, mut inside) = (PLAIN, PLAIN);
         outer[0][..values.len()].copy_from_slice(values);
         inside[INSIDE][..values.len()].copy_from_slice(values);
-        let outer = factors::process(partitioning, Domain::Triangle, &outer);
-        let inside = factors::process(partitioning, Domain::Triangle, &inside);
+        let outer = factors::process::<i32, _, _>(partitioning, Domain::Triangle, &outer);
+        let inside = factors::process::<i32, _, _>(partitioning, Domain::Triangle, &inside);
         for (lane, factors) in factors.iter_mut().enumerate() {
             let bits = [outer.fixed[0][lane] * outer.alive[lane], inside.fixed[INSIDE][lane]];
             *factors = bits.map(FixedFactor::from_bits);

@@ -1,10 +1,17 @@
 //! Factor processing (spec section 3), with the step numbers of that section.
 //!
+//! The formulas are over [`Numbers`]: one number of a loop at the levels that are chosen at run
+//! time, eight at once at the baseline.
+//!
 //! A packet has sixteen patches and a row for each factor of its domain. A single patch has eight
 //! rows of one element, which fill a short vector.
 
-use crate::data::lanes::{LANES, MAX_FACTORS, at, at_mut, each};
+use crate::data::lanes::{LANES, MAX_FACTORS};
+use crate::data::numbers::Numbers;
 use crate::stages::reciprocal::{MANTISSA, TWO_POW_23};
+use bytemuck::Pod;
+use core::array::{from_mut, from_ref};
+use core::ops::Range;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, Partitioning};
 
@@ -22,88 +29,122 @@ pub(crate) struct Processed<const L: usize = LANES, const F: usize = MAX_FACTORS
     pub(crate) minimum: [u32; L],
 }
 
-/// Processes raw factors. Rows after the domain's factors are zeros. Total: every bit pattern is
-/// valid.
+/// Processes raw factors, `V` at a time. Rows after the domain's factors are zeros. Total: every
+/// bit pattern is valid.
 #[inline(always)]
-pub(crate) fn process<const L: usize, const F: usize>(
+pub(crate) fn process<V: Numbers, const L: usize, const F: usize>(
     partitioning: Partitioning,
     domain: Domain,
     raw: &[[f32; L]; F],
 ) -> Processed<L, F> {
     let outer = domain.outer_factors();
-    let clamped = clamped(partitioning, outer, raw);
+    let clamped = clamped::<V, L, F>(partitioning, outer, raw);
     let (mut fixed, mut odd) = match partitioning {
-        Partitioning::Integer | Partitioning::Pow2 => integers(&clamped, outer),
-        Partitioning::FractionalOdd => (each(&clamped, to_fixed), [[1; L]; F]),
-        Partitioning::FractionalEven => (each(&clamped, to_fixed), [[0; L]; F]),
+        Partitioning::Integer | Partitioning::Pow2 => integers::<V, L, F>(&clamped, outer),
+        Partitioning::FractionalOdd => (each(&clamped, to_fixed::<V>), [[1; L]; F]),
+        Partitioning::FractionalEven => (each(&clamped, to_fixed::<V>), [[0; L]; F]),
     };
-    let mut minimum = all(&fixed[..domain.factors()], |factor| factor == ONE);
+    let is_one = |factor: V| !factor.exceeds(integer(ONE));
+    let mut minimum = all(&fixed[..domain.factors()], is_one);
     if domain == Domain::Isoline {
         // The density is an integer under every partitioning.
-        for lane in 0..L {
-            let density = ceil(clamp(raw[0][lane], 1.0, 64.0));
-            (fixed[0][lane], odd[0][lane]) = (density << 16, density & 1);
-        }
+        steps::<V>(0..L, |lane| {
+            let density = ceil(clamp(V::load(raw, lane), number(1.0), number(64.0)));
+            (density << 16).store(&mut fixed, lane);
+            (density & V::splat(1)).store(&mut odd, lane);
+        });
         minimum = [0; L];
     }
-    Processed { fixed, odd, alive: all(&raw[..outer], |factor| is_greater(factor, 0.0)), minimum }
+    let alive = all(&raw[..outer], |factor: V| is_greater(factor, 0.0));
+    Processed { fixed, odd, alive, minimum }
 }
 
-/// Steps 2, 4 and 5.
+/// Steps 2, 4 and 5. The results are the bits of floats.
 #[inline(always)]
-fn clamped<const L: usize, const F: usize>(
+fn clamped<V: Numbers, const L: usize, const F: usize>(
     partitioning: Partitioning,
     outer: usize,
     raw: &[[f32; L]; F],
-) -> [[f32; L]; F] {
+) -> [[u32; L]; F] {
     let (low, high) = partitioning.range();
-    let mut inside_low = [low; L];
+    let (low, high) = (number::<V>(low), number(high));
+    let mut inside_low = [[0; L]];
+    steps::<V>(0..L, |lane| low.store(&mut inside_low, lane));
     if partitioning == Partitioning::FractionalOdd {
-        let plain = all(raw, |factor| !is_greater(factor, ONE_PLUS_2_POW_MINUS_17));
-        for lane in 0..L {
-            inside_low[lane] = if plain[lane] == 1 { low } else { ONE_PLUS_2_POW_MINUS_16 };
-        }
+        let plain = [all(raw, |factor: V| !is_greater(factor, ONE_PLUS_2_POW_MINUS_17))];
+        let more = number::<V>(ONE_PLUS_2_POW_MINUS_16).minus(low);
+        steps::<V>(0..L, |lane| {
+            // 0 minus 1, or 0 minus 0: a mask.
+            let plain = V::splat(0).minus(V::load(&plain, lane));
+            number::<V>(ONE_PLUS_2_POW_MINUS_16).minus(plain & more).store(&mut inside_low, lane);
+        });
     }
-    let mut clamped = *raw;
-    for i in 0..L * outer {
-        *at_mut(&mut clamped, i) = clamp(at(raw, i), low, high);
-    }
-    for row in &mut clamped[outer..] {
-        for lane in 0..L {
-            row[lane] = clamp(row[lane], inside_low[lane], high);
-        }
+    let mut clamped = [[0; L]; F];
+    steps::<V>(0..L * outer, |i| clamp(V::load(raw, i), low, high).store(&mut clamped, i));
+    for (clamped, raw) in clamped[outer..].iter_mut().zip(&raw[outer..]) {
+        steps::<V>(0..L, |lane| {
+            let low = V::load(&inside_low, lane);
+            clamp(V::load(from_ref(raw), lane), low, high).store(from_mut(clamped), lane);
+        });
     }
     clamped
 }
 
 /// Steps 3, 6 and 7 for integer partitionings.
 #[inline(always)]
-fn integers<const L: usize, const F: usize>(
-    clamped: &[[f32; L]; F],
+fn integers<V: Numbers, const L: usize, const F: usize>(
+    clamped: &[[u32; L]; F],
     outer: usize,
 ) -> ([[u32; L]; F], [[u32; L]; F]) {
     let (mut fixed, mut odd) = ([[0; L]; F], [[0; L]; F]);
-    for i in 0..L * F {
-        let integer = ceil(at(clamped, i));
-        (*at_mut(&mut fixed, i), *at_mut(&mut odd, i)) = (integer << 16, integer & 1);
-    }
+    steps::<V>(0..L * F, |i| {
+        let integer = ceil(V::load(clamped, i));
+        (integer << 16).store(&mut fixed, i);
+        (integer & V::splat(1)).store(&mut odd, i);
+    });
     for (odd, fixed) in odd[outer..].iter_mut().zip(&fixed[outer..]) {
-        for lane in 0..L {
-            odd[lane] &= u32::from(fixed[lane] != ONE);
-        }
+        steps::<V>(0..L, |lane| {
+            let more_than_one = V::load(from_ref(fixed), lane).exceeds(integer(ONE));
+            (V::load(from_ref(odd), lane) & more_than_one).store(from_mut(odd), lane);
+        });
     }
     (fixed, odd)
 }
 
-/// For each lane, 1 if `has` is true in every row, else 0.
+/// Calls `step` with every place of the range at which numbers begin.
 #[inline(always)]
-pub(crate) fn all<T: Copy, const L: usize>(rows: &[[T; L]], has: impl Fn(T) -> bool) -> [u32; L] {
-    let mut all = [1; L];
-    for row in rows {
-        for lane in 0..L {
-            all[lane] &= u32::from(has(row[lane]));
-        }
+fn steps<V: Numbers>(range: Range<usize>, mut step: impl FnMut(usize)) {
+    let mut i = range.start;
+    while i < range.end {
+        step(i);
+        i += V::COUNT;
     }
+}
+
+/// The results of `f` for all numbers.
+#[inline(always)]
+fn each<V: Numbers, const L: usize, const F: usize>(
+    rows: &[[u32; L]; F],
+    f: impl Fn(V) -> V,
+) -> [[u32; L]; F] {
+    let mut made = [[0; L]; F];
+    steps::<V>(0..L * F, |i| f(V::load(rows, i)).store(&mut made, i));
+    made
+}
+
+/// For each lane, 1 if `has` gives all bits for every row, or 0 if it gives none for some.
+#[inline(always)]
+pub(crate) fn all<V: Numbers, T: Pod, const L: usize>(
+    rows: &[[T; L]],
+    has: impl Fn(V) -> V,
+) -> [u32; L] {
+    let mut all = [[1; L]];
+    for row in rows {
+        steps::<V>(0..L, |lane| {
+            (V::load(&all, lane) & has(V::load(from_ref(row), lane))).store(&mut all, lane);
+        });
+    }
+    let [all] = all;
     all
 }
 
@@ -112,32 +153,43 @@ pub(crate) fn all<T: Copy, const L: usize>(rows: &[[T; L]], has: impl Fn(T) -> b
 ///
 /// Factors are compared as integers for the reason given in `tess-core` (`d3d_float`). The integers
 /// are signed because every level has instructions for those.
-const INFINITY: i32 = f32::INFINITY.to_bits().cast_signed();
+const INFINITY: f32 = f32::INFINITY;
 
-/// Whether `x > low`. `low` is not negative.
+/// The bits of a float, in each place.
 #[inline(always)]
-fn is_greater(x: f32, low: f32) -> bool {
-    let bits = x.to_bits().cast_signed();
-    (bits > low.to_bits().cast_signed()) & (bits <= INFINITY)
+fn number<V: Numbers>(float: f32) -> V {
+    integer(float.to_bits())
+}
+
+/// An integer, in each place.
+#[inline(always)]
+fn integer<V: Numbers>(integer: u32) -> V {
+    V::splat(integer.cast_signed())
+}
+
+/// Whether `x > low`, as all bits or none. `low` is not negative.
+#[inline(always)]
+pub(crate) fn is_greater<V: Numbers>(x: V, low: f32) -> V {
+    x.exceeds(number(low)) & !x.exceeds(number(INFINITY))
 }
 
 /// Steps 2 and 5, for `0.0 <= low <= high`; NaN gives `low`.
 #[inline(always)]
-pub(crate) fn clamp(x: f32, low: f32, high: f32) -> f32 {
-    let [bits, low, high] = [x, low, high].map(|number| number.to_bits().cast_signed());
-    let bits = if bits > INFINITY { 0 } else { bits };
-    f32::from_bits(bits.max(low).min(high).cast_unsigned())
+pub(crate) fn clamp<V: Numbers>(x: V, low: V, high: V) -> V {
+    let x = x & !x.exceeds(number(INFINITY));
+    x.or_more(low).or_less(high)
 }
 
 const ONE_PLUS_2_POW_MINUS_17: f32 = f32::from_bits(0x3F80_0040);
 const ONE_PLUS_2_POW_MINUS_16: f32 = f32::from_bits(0x3F80_0080);
 
-/// The ceiling of a number in 0..2^22: the nearest integer, plus one if that is below the number.
+/// The ceiling of a number in 0..2^22, as an integer: the nearest integer, plus one if that is
+/// below the number. Both are positive floats, whose order is that of their bits.
 #[inline(always)]
-#[expect(clippy::float_arithmetic, reason = "sums below 2^24 round to the nearest integer")]
-pub(crate) fn ceil(x: f32) -> u32 {
-    let sum = x + TWO_POW_23;
-    (sum.to_bits() & MANTISSA) + u32::from(sum - TWO_POW_23 < x)
+pub(crate) fn ceil<V: Numbers>(x: V) -> V {
+    let sum = x.float_sum(TWO_POW_23);
+    let is_below = x.exceeds(sum.float_sum(-TWO_POW_23));
+    (sum & integer(MANTISSA)).minus(is_below)
 }
 
 /// A number in 0..=64 in multiples of 2^-16, ties to even.
@@ -146,9 +198,8 @@ pub(crate) fn ceil(x: f32) -> u32 {
 /// exactly the integers: the addition rounds to the nearest integer, ties to even, and leaves it in
 /// the mantissa.
 #[inline(always)]
-#[expect(clippy::float_arithmetic, reason = "the rounding of the sum is the conversion's own")]
-pub(crate) fn to_fixed(x: f32) -> u32 {
-    (x * 65536.0 + TWO_POW_23).to_bits() & MANTISSA
+pub(crate) fn to_fixed<V: Numbers>(x: V) -> V {
+    x.float_product(65536.0).float_sum(TWO_POW_23) & integer(MANTISSA)
 }
 
 #[cfg(test)]
@@ -160,6 +211,7 @@ pub(crate) fn to_fixed(x: f32) -> u32 {
 )]
 mod tests {
     use super::*;
+    use wide::i32x8;
 
     /// Numbers of every sign and exponent, NaNs and infinities included.
     fn any_numbers() -> impl Iterator<Item = f32> {
@@ -173,18 +225,31 @@ mod tests {
         multiples.flat_map(|x| [(x as f32).next_down().max(0.0), x as f32, (x as f32).next_up()])
     }
 
+    /// The results of a formula for one number, and for eight of which it is the last.
+    fn of_both(x: f32, one: impl Fn(i32) -> i32, eight: impl Fn(i32x8) -> i32x8) -> [u32; 2] {
+        let x = x.to_bits().cast_signed();
+        let mut others = [f32::NAN.to_bits().cast_signed(); 8];
+        others[7] = x;
+        [one(x), eight(others.into()).to_array()[7]].map(i32::cast_unsigned)
+    }
+
     #[test]
     fn clamping() {
         for x in any_numbers() {
-            let expected = if x.is_nan() { 2.0 } else { x.clamp(2.0, 64.0) };
-            assert_eq!(clamp(x, 2.0, 64.0).to_bits(), expected.to_bits(), "{x:e}");
+            let expected = if x.is_nan() { 2.0 } else { x.clamp(2.0, 64.0) }.to_bits();
+            let clamp = of_both(
+                x,
+                |x| clamp(x, number(2.0), number(64.0)),
+                |x| clamp(x, number(2.0), number(64.0)),
+            );
+            assert_eq!(clamp, [expected; 2], "{x:e}");
         }
     }
 
     #[test]
     fn ceilings() {
         for x in factors() {
-            assert_eq!(ceil(x), x.ceil() as u32, "{x:e}");
+            assert_eq!(of_both(x, ceil, ceil), [x.ceil() as u32; 2], "{x:e}");
         }
     }
 
@@ -192,7 +257,7 @@ mod tests {
     fn conversions() {
         for x in factors().filter(|&x| x <= 64.0) {
             let expected = (f64::from(x) * 65536.0).round_ties_even() as u32;
-            assert_eq!(to_fixed(x), expected, "{x:e}");
+            assert_eq!(of_both(x, to_fixed, to_fixed), [expected; 2], "{x:e}");
         }
     }
 }

@@ -56,9 +56,9 @@
 //! # The simpler form
 //!
 //! Eight patches per packet were slower: half of the vector loads waited for two narrower stores.
-//! The vector types of the crate `wide` take two to three times as long, because they choose their
-//! instructions when they are compiled (`docs/experiments.md`). Lanes are therefore plain arrays,
-//! and the compiler makes vectors of each level's width.
+//! Lanes are plain arrays, of which the compiler makes vectors of each level's width. The vectors
+//! of the crate `wide` choose their instructions when they are compiled, so only factor processing
+//! at the baseline uses them ([`Numbers`], `docs/experiments.md`).
 
 mod one;
 
@@ -67,6 +67,7 @@ pub(crate) use one::ROWS;
 pub(crate) use one::{OnePatch, RawPair, one_counts, pairs};
 
 use crate::data::lanes::{Column, EdgePoints, Lanes, MAX_FACTORS, is_odd, set, set_rows};
+use crate::data::numbers::Numbers;
 use crate::stages::counts::{PacketCounts, counts};
 use crate::stages::factor_context::{PlainContext, point_counts};
 use crate::stages::factors::{Processed, process};
@@ -121,24 +122,32 @@ impl Packet {
     ///
     /// Writes to `self`, because returning a packet would copy it.
     #[inline(always)]
-    pub(crate) fn process(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
+    pub(crate) fn process<V: Numbers>(
+        &mut self,
+        config: Config,
+        domain: Domain,
+        raw: &Column<f32>,
+    ) {
         use Domain::{Isoline, Quad, Triangle};
         // In each arm the domain and the number of rows are constants.
         match (domain, raw) {
-            (Isoline, &[a, b, ..]) => self.process_lanes(config, Isoline, &[a, b]),
-            (Triangle, &[a, b, c, d, ..]) => self.process_lanes(config, Triangle, &[a, b, c, d]),
-            (Quad, all) => self.process_lanes(config, Quad, all),
+            (Isoline, &[a, b, ..]) => self.process_lanes::<V, _>(config, Isoline, &[a, b]),
+            (Triangle, &[a, b, c, d, ..]) => {
+                self.process_lanes::<V, _>(config, Triangle, &[a, b, c, d]);
+            }
+            (Quad, all) => self.process_lanes::<V, _>(config, Quad, all),
         }
     }
 
     #[inline(always)]
-    fn process_lanes<const F: usize>(
+    fn process_lanes<V: Numbers, const F: usize>(
         &mut self,
         config: Config,
         domain: Domain,
         raw: &[Lanes<f32>; F],
     ) {
-        self.counts = self.keep(config, domain, 0, &process(config.partitioning, domain, raw));
+        let processed = process::<V, _, _>(config.partitioning, domain, raw);
+        self.counts = self.keep(config, domain, 0, &processed);
     }
 
     /// Sets all lanes, or the lane with this number, from processed factors. Does not set the
@@ -187,18 +196,26 @@ impl Packet {
 
 /// The output sizes of a packet's patches, without the rest of the packet.
 #[inline(always)]
-pub(crate) fn packet_counts(config: Config, domain: Domain, raw: &Column<f32>) -> PacketCounts {
+pub(crate) fn packet_counts<V: Numbers>(
+    config: Config,
+    domain: Domain,
+    raw: &Column<f32>,
+) -> PacketCounts {
     #[inline(always)]
-    fn of<const F: usize>(config: Config, domain: Domain, raw: &[Lanes<f32>; F]) -> PacketCounts {
-        let processed = process(config.partitioning, domain, raw);
+    fn of<V: Numbers, const F: usize>(
+        config: Config,
+        domain: Domain,
+        raw: &[Lanes<f32>; F],
+    ) -> PacketCounts {
+        let processed = process::<V, _, _>(config.partitioning, domain, raw);
         let points = point_counts(&processed.fixed, &processed.odd);
         counts(config, domain, &processed, &points)
     }
     use Domain::{Isoline, Quad, Triangle};
     match (domain, raw) {
-        (Isoline, &[a, b, ..]) => of(config, Isoline, &[a, b]),
-        (Triangle, &[a, b, c, d, ..]) => of(config, Triangle, &[a, b, c, d]),
-        (Quad, all) => of(config, Quad, all),
+        (Isoline, &[a, b, ..]) => of::<V, _>(config, Isoline, &[a, b]),
+        (Triangle, &[a, b, c, d, ..]) => of::<V, _>(config, Triangle, &[a, b, c, d]),
+        (Quad, all) => of::<V, _>(config, Quad, all),
     }
 }
 
@@ -395,7 +412,7 @@ mod tests {
                 lanes[0] = if factor < outer_factors { outer } else { inside };
             }
             let mut packet = Packet::EMPTY;
-            packet.process(config, domain, &raw);
+            packet.process::<i32>(config, domain, &raw);
             packet.patch(0).is_compact()
         };
         assert!(is_compact(Domain::Quad, 15.0, 15.0), "16 by 16 points");
@@ -410,7 +427,7 @@ mod tests {
     fn topologies_of_domains_differ() {
         let [triangle, quad] = [Domain::Triangle, Domain::Quad].map(|domain| {
             let mut packet = Packet::EMPTY;
-            packet.process(tour::CONFIG, domain, &[[4.0; LANES]; MAX_FACTORS]);
+            packet.process::<i32>(tour::CONFIG, domain, &[[4.0; LANES]; MAX_FACTORS]);
             packet.patch(0).topology()
         });
         assert_ne!(triangle, quad, "{:?}", QuadFactors::uniform(4.0));

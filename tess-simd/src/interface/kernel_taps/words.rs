@@ -37,17 +37,19 @@ impl KernelTap {
         let (patches, factors) = (work.patches.len(), work.domain.factors());
         let lanes = (0..patches).map(|patch| (patch / LANES, patch % LANES));
         match self.kernel {
-            Kernel::Factors => words.extend(
+            Kernel::Factors | Kernel::FactorsByEight => words.extend(
                 lanes.flat_map(|(packet, lane)| record(&made.processed[packet], lane, factors)),
             ),
             Kernel::FactorsOfOne => {
                 words.extend(made.ones.iter().flat_map(|one| record(one, 0, factors)));
             }
-            Kernel::Counts => words.extend(lanes.flat_map(|(packet, lane)| {
-                let PacketCounts { points, indices } = &made.counts[packet];
-                [points[lane], indices[lane]]
-            })),
-            Kernel::Packet | Kernel::PacketOfOne => {
+            Kernel::Counts | Kernel::CountsByEight => {
+                words.extend(lanes.flat_map(|(packet, lane)| {
+                    let PacketCounts { points, indices } = &made.counts[packet];
+                    [points[lane], indices[lane]]
+                }))
+            }
+            Kernel::Packet | Kernel::PacketByEight | Kernel::PacketOfOne => {
                 let patch = |(packet, lane): (usize, usize)| made.packets[packet].patch(lane);
                 words.extend(lanes.flat_map(|at| patch_words(patch(at))));
             }

@@ -4,9 +4,11 @@ use super::Kernel;
 use super::{TapInput, TapOutput};
 use crate::data::format::OutputPoint;
 use crate::data::lanes::LANES;
+use crate::data::numbers::Numbers;
 use crate::kernels::taps::locations;
+use crate::stages::counts::PacketCounts;
 use crate::stages::factor_context::{PlainContext, point_count};
-use crate::stages::factors;
+use crate::stages::factors::{self, Processed};
 use crate::stages::packet::{Packet, ROWS, packet_counts};
 use crate::stages::place::{Spacing, place_in_half};
 use crate::stages::reciprocal::reciprocal;
@@ -15,6 +17,7 @@ use alloc::vec::Vec;
 use tess_core::Partitioning;
 use tess_core::fixed_point::ONE;
 use tess_core::stitch::Diagonals;
+use wide::i32x8;
 
 /// Runs a stage whose input is numbers or raw factors; returns whether the kernel is such a stage.
 #[inline(always)]
@@ -26,11 +29,11 @@ pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) 
         Kernel::Reciprocal => columns(numbers, words, |n| [reciprocal(n)]),
         Kernel::Clamp => {
             let (low, high) = bounds(work.settings.config.partitioning);
-            let clamp = |x| factors::clamp(f32::from_bits(x), low, high);
-            columns(numbers, words, |x| [clamp(x).to_bits()]);
+            let [low, high] = [low, high].map(|bound| bound.to_bits().cast_signed());
+            columns(numbers, words, |x| signed(x, |x| factors::clamp(x, low, high)));
         }
-        Kernel::Ceil => columns(numbers, words, |x| [factors::ceil(f32::from_bits(x))]),
-        Kernel::ToFixed => columns(numbers, words, |x| [factors::to_fixed(f32::from_bits(x))]),
+        Kernel::Ceil => columns(numbers, words, |x| signed(x, factors::ceil)),
+        Kernel::ToFixed => columns(numbers, words, |x| signed(x, factors::to_fixed)),
         Kernel::PointCount => columns(numbers, words, |fixed| [point_count(fixed, odd)]),
         Kernel::Context => columns(numbers, words, |fixed| {
             let made = PlainContext::new(fixed, odd, split);
@@ -73,32 +76,24 @@ pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) 
 fn of_raw(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool {
     let config = work.settings.config;
     match kernel {
-        Kernel::Factors => {
-            made.processed.clear();
-            for raw in &work.raw {
-                made.processed.push(factors::process(config.partitioning, work.domain, raw));
-            }
-        }
+        Kernel::Factors => process::<i32>(work, &mut made.processed),
+        Kernel::FactorsByEight => process::<i32x8>(work, &mut made.processed),
         Kernel::FactorsOfOne => {
             made.ones.clear();
             for factors in &work.patches {
                 let mut raw = [[0.0]; ROWS];
                 raw.iter_mut().zip(factors.iter()).for_each(|(raw, factor)| *raw = [factor]);
-                made.ones.push(factors::process(config.partitioning, work.domain, &raw));
+                made.ones.push(factors::process::<i32, _, _>(
+                    config.partitioning,
+                    work.domain,
+                    &raw,
+                ));
             }
         }
-        Kernel::Counts => {
-            made.counts.clear();
-            for raw in &work.raw {
-                made.counts.push(packet_counts(config, work.domain, raw));
-            }
-        }
-        Kernel::Packet => {
-            made.packets.resize(work.raw.len(), Packet::EMPTY);
-            for (packet, raw) in made.packets.iter_mut().zip(&work.raw) {
-                packet.process(config, work.domain, raw);
-            }
-        }
+        Kernel::Counts => counts::<i32>(work, &mut made.counts),
+        Kernel::CountsByEight => counts::<i32x8>(work, &mut made.counts),
+        Kernel::Packet => packets::<i32>(work, &mut made.packets),
+        Kernel::PacketByEight => packets::<i32x8>(work, &mut made.packets),
         Kernel::PacketOfOne => {
             made.packets.resize(work.raw.len(), Packet::EMPTY);
             for (packet, patches) in made.packets.iter_mut().zip(work.patches.chunks(LANES)) {
@@ -110,6 +105,37 @@ fn of_raw(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool {
         _ => return false,
     }
     true
+}
+
+#[inline(always)]
+fn process<V: Numbers>(work: &TapInput, processed: &mut Vec<Processed>) {
+    let partitioning = work.settings.config.partitioning;
+    processed.clear();
+    for raw in &work.raw {
+        processed.push(factors::process::<V, _, _>(partitioning, work.domain, raw));
+    }
+}
+
+#[inline(always)]
+fn counts<V: Numbers>(work: &TapInput, counts: &mut Vec<PacketCounts>) {
+    counts.clear();
+    for raw in &work.raw {
+        counts.push(packet_counts::<V>(work.settings.config, work.domain, raw));
+    }
+}
+
+#[inline(always)]
+fn packets<V: Numbers>(work: &TapInput, packets: &mut Vec<Packet>) {
+    packets.resize(work.raw.len(), Packet::EMPTY);
+    for (packet, raw) in packets.iter_mut().zip(&work.raw) {
+        packet.process::<V>(work.settings.config, work.domain, raw);
+    }
+}
+
+/// The result of a formula over signed numbers.
+#[inline(always)]
+fn signed(x: u32, formula: impl Fn(i32) -> i32) -> [u32; 1] {
+    [formula(x.cast_signed()).cast_unsigned()]
 }
 
 /// The bounds of an inside factor if all other factors are 3.

@@ -139,7 +139,7 @@ impl OnePatch {
         if !other && self.is_minimum() && are_at_most_one(&raw[..domain.factors()]) {
             return;
         }
-        let processed = process(config.partitioning, domain, raw);
+        let processed = process::<i32, _, _>(config.partitioning, domain, raw);
         let key = key(&processed);
         let differences = (0..ROWS).fold(0, |any, i| any | (key[i] ^ self.key[i]));
         if differences != 0 || other {
@@ -153,7 +153,10 @@ impl OnePatch {
 /// make one.
 #[inline(always)]
 fn are_at_most_one(raw: &[[f32; 1]]) -> bool {
-    all(raw, |factor| factor.to_bits().wrapping_sub(1) < 1.0_f32.to_bits()) == [1]
+    all(raw, |factor: i32| {
+        let is_at_most_one = factor.cast_unsigned().wrapping_sub(1) < 1.0_f32.to_bits();
+        -i32::from(is_at_most_one)
+    }) == [1]
 }
 
 /// The processed factors in one vector; zeros if the patch is culled, which no other patch has,
@@ -207,7 +210,12 @@ impl Packet {
         use Domain::{Isoline, Quad, Triangle};
         let raw = side_by_side(pairs(&factors));
         let mut keep = |domain| {
-            self.keep_one(config, domain, lane, &process(config.partitioning, domain, &raw))
+            self.keep_one(
+                config,
+                domain,
+                lane,
+                &process::<i32, _, _>(config.partitioning, domain, &raw),
+            )
         };
         // In each arm the domain is a constant.
         match factors.domain() {
@@ -239,7 +247,7 @@ pub(crate) fn one_counts(config: Config, factors: &PatchFactors) -> PacketCounts
     use Domain::{Isoline, Quad, Triangle};
     let raw = side_by_side(pairs(factors));
     let of = |domain| {
-        let processed = process(config.partitioning, domain, &raw);
+        let processed = process::<i32, _, _>(config.partitioning, domain, &raw);
         counts(config, domain, &processed, &point_counts(&processed.fixed, &processed.odd))
     };
     // In each arm the domain is a constant.
