@@ -120,31 +120,38 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
     /// the specification's order. No range is empty. Triangles inside the innermost ring follow in
     /// the specification's order and are not sent.
     pub fn runs(&self, mut emit: impl FnMut(Range<u32>)) {
+        let firsts = self.firsts();
         for (edge, sector) in self.sectors.iter().enumerate() {
-            let mut first = [0; MAX_RINGS];
-            for (ring, first) in (1..sector.end).zip(&mut first) {
-                *first = self.first_of_stitch(ring, edge);
-            }
-            for column in 0..sector.columns() {
-                for (ring, first) in (1..sector.end).zip(first) {
-                    let begin = sector.border(ring, column);
-                    let end = sector.border(ring, column + 1);
+            // The border at which each ring's part of the column before ended.
+            let mut borders = [0; MAX_RINGS];
+            for column in 1..=sector.columns() {
+                for ((ring, firsts), begin) in (1..sector.end).zip(&firsts).zip(&mut borders) {
+                    let end = sector.border(ring, column);
                     // A ring begins one cell further from the corner than the one outside of it, so
                     // the rings further in have no triangles in this column either.
-                    if begin == end {
+                    if *begin == end {
                         break;
                     }
-                    emit(first + begin..first + end);
+                    emit(firsts[edge] + *begin..firsts[edge] + end);
+                    *begin = end;
                 }
             }
         }
     }
 
-    /// The number of a stitch's first triangle in the specification's order.
-    fn first_of_stitch(&self, ring: u32, edge: usize) -> u32 {
-        let earlier = |sector: &Sector| sector.transition + sector.borders(ring, sector.columns());
-        let earlier: u32 = if ring == 1 { 0 } else { self.sectors.iter().map(earlier).sum() };
-        earlier + self.sectors[..edge].iter().map(|sector| sector.stitch(ring)).sum::<u32>()
+    /// The number of each stitch's first triangle in the specification's order, which goes ring by
+    /// ring and in each ring edge by edge. Element 0 is ring 1.
+    fn firsts(&self) -> [[u32; EDGES]; MAX_RINGS] {
+        let (mut firsts, mut next) = ([[0; EDGES]; MAX_RINGS], 0);
+        // All sectors have the same rings.
+        let end = self.sectors.iter().map(|sector| sector.end).min().unwrap_or(0);
+        for (ring, firsts) in (1..end).zip(&mut firsts) {
+            for (first, sector) in firsts.iter_mut().zip(&self.sectors) {
+                *first = next;
+                next += sector.stitch(ring);
+            }
+        }
+        firsts
     }
 }
 

@@ -308,8 +308,8 @@ fn emit_patch<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     let Some(template) = templates.other(patch, (settings, tables)) else {
         points::emit(patch, tables, &mut out.points);
         if cache_order::reorders(settings, patch) {
-            let specified = templates.specified(settings, patch);
-            cache_order::emit(settings, patch, specified, &mut out.indices, add);
+            let (specified, runs) = templates.specified(settings, patch);
+            cache_order::emit(runs, specified, &mut out.indices, add);
         } else {
             connect::emit(settings, patch, base, &mut out.indices);
         }

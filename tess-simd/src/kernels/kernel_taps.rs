@@ -12,6 +12,7 @@ pub(crate) use writers::{of_indices, of_points};
 
 use crate::data::lanes::{Column, LANES};
 use crate::data::output::PatchRange;
+use crate::stages::connect::cache_order::Run;
 use crate::stages::counts::PacketCounts;
 use crate::stages::factors::Processed;
 use crate::stages::packet::{Packet, PacketPatch, ROWS};
@@ -120,6 +121,7 @@ pub(crate) struct TapOutput {
     pub(crate) lookup: Lookup,
     /// The numbers 0, 1, 2 and so on: indices that equal their places.
     pub(crate) places: Vec<u16>,
+    pub(crate) runs: Vec<Run>,
 }
 
 impl TapOutput {
@@ -141,6 +143,7 @@ impl TapOutput {
             templates: Templates::new(),
             lookup: Lookup::new(),
             places: (0..25_000).collect(),
+            runs: Vec::new(),
         }
     }
 }

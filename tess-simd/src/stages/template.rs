@@ -78,7 +78,8 @@ pub(crate) use cache::{Start, Template};
 use crate::data::format::OutputPoint;
 use crate::data::lanes::LANES;
 use crate::data::writer::Writer;
-use crate::stages::connect::{self, cache_order};
+use crate::stages::connect;
+use crate::stages::connect::cache_order::{self, MOST_RUNS, Run};
 use crate::stages::packet::{COMPACT_EDGE, PacketPatch, SMALL_TOPOLOGIES};
 use crate::stages::points::{self, LocationTables, corner};
 use crate::stages::settings::Settings;
@@ -115,6 +116,8 @@ struct MadePatch {
     points: Vec<DomainPoint>,
     /// In the specification's order.
     indices: Vec<u16>,
+    /// The order of a patch that has no template.
+    runs: Vec<Run>,
 }
 
 /// A point of a compact template: its coordinates if factors are integers ([`short`]), otherwise
@@ -130,7 +133,7 @@ type Making<'a> = (&'a Settings, &'a mut LocationTables);
 impl Templates {
     /// No templates, and no memory for any.
     pub(crate) const fn new() -> Self {
-        let made = MadePatch { points: Vec::new(), indices: Vec::new() };
+        let made = MadePatch { points: Vec::new(), indices: Vec::new(), runs: Vec::new() };
         Self { compact: Cache::new(), small: Vec::new(), others: Cache::new(), last_large: 0, made }
     }
 
@@ -146,6 +149,7 @@ impl Templates {
         self.make_small();
         self.others.reserve();
         self.made.make_room(MAX_POINTS, MAX_INDICES);
+        self.made.runs.reserve_exact(MOST_RUNS);
     }
 
     /// Makes room for the templates of a packet of compact patches. If the packet might not fit,
@@ -224,11 +228,16 @@ impl Templates {
     }
 
     /// The indices of a patch without a template, counted from its first point, in the
-    /// specification's order, followed by unspecified elements.
+    /// specification's order, followed by unspecified elements; and the runs of them to write.
     #[inline(never)]
-    pub(crate) fn specified(&mut self, settings: &Settings, patch: PacketPatch<'_>) -> &[u16] {
+    pub(crate) fn specified(
+        &mut self,
+        settings: &Settings,
+        patch: PacketPatch<'_>,
+    ) -> (&[u16], &[Run]) {
         self.made.make_indices(settings, patch);
-        &self.made.indices
+        cache_order::note(settings, patch, &mut self.made.runs);
+        (&self.made.indices, &self.made.runs)
     }
 
     #[cold]
@@ -280,7 +289,9 @@ impl Templates {
 
 impl MadePatch {
     const fn bytes(&self) -> usize {
-        self.points.capacity() * size_of::<DomainPoint>() + self.indices.capacity() * 2
+        self.points.capacity() * size_of::<DomainPoint>()
+            + self.indices.capacity() * size_of::<u16>()
+            + self.runs.capacity() * size_of::<Run>()
     }
 
     /// Makes room for a patch, and for whole blocks after it.

@@ -3,6 +3,7 @@
 use crate::data::writer::Writer;
 use crate::stages::packet::PacketPatch;
 use crate::stages::settings::Settings;
+use alloc::vec::Vec;
 use core::ops::Range;
 use tess_core::cache_order::CacheOrder;
 use tess_core::{Domain, Order, OutputPrimitive};
@@ -43,19 +44,36 @@ pub(crate) fn runs(
     emit(written..patch.indices() as usize);
 }
 
-/// Writes a patch's indices. `specified` has them in the specification's order, followed by
-/// unspecified elements.
+/// A run's place in the specification's order and its length, in indices.
+pub(crate) type Run = [u16; 2];
+
+/// The most runs of a patch: for each edge, column and ring, and for what is inside all rings.
+pub(crate) const MOST_RUNS: usize = 4 * 17 * 32 + 1;
+
+/// Notes all [`runs`] of a patch in place of what the list had. The list's capacity becomes
+/// [`MOST_RUNS`].
+#[expect(clippy::cast_possible_truncation, reason = "a patch has fewer than 2^16 indices")]
+pub(crate) fn note(settings: &Settings, patch: PacketPatch<'_>, list: &mut Vec<Run>) {
+    list.clear();
+    list.reserve_exact(MOST_RUNS);
+    runs(settings, patch, |run| list.push([run.start as u16, run.len() as u16]));
+}
+
+/// Writes the indices of a patch, run by run. `specified` has them in the specification's order,
+/// followed by unspecified elements.
+// The runs are a list because a loop over it has the instructions of the level. A function to which
+// the core sends them has those of the baseline.
 #[inline(always)]
 pub(crate) fn emit<I: Copy + Default>(
-    settings: &Settings,
-    patch: PacketPatch<'_>,
+    runs: &[Run],
     specified: &[u16],
     out: &mut Writer<'_, I>,
     index: impl Fn(u16) -> I,
 ) {
-    runs(settings, patch, |run| {
-        out.map::<_, RUN>(run.len(), specified.get(run.start..).unwrap_or_default(), &index);
-    });
+    for &[start, length] in runs {
+        let source = specified.get(usize::from(start)..).unwrap_or_default();
+        out.map::<_, RUN>(length.into(), source, &index);
+    }
 }
 
 /// Indices written at a time: the number that a column has of a ring stitch.
