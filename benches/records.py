@@ -17,7 +17,8 @@ RECORDS = ROOT / "benches/records"
 RESULTS = ROOT / "docs/performance.md"
 EXPERIMENTS = ROOT / "docs/experiments.md"
 
-# Columns of rows of `tess bench --json`: key, title, and divisor of the values.
+# Columns of rows of `tess bench --json`: key, title, and divisor of the values. Rows of a CPU have times instead of the first.
+TIME = "ns a patch"
 RATES = {
     "patches_per_s": ("M patches/s", 1e6),
     "triangles_per_s": ("G triangles/s", 1e9),
@@ -71,9 +72,12 @@ def table(record, targets):
 
 def bench_table(rows, targets):
     """The titles and cells of rows of `tess bench`. Settings that differ follow the workload; targets are last."""
+    rows = [without_fill(row) for row in rows]
     columns = [key for key in RATES if any(row.get(key) is not None for row in rows)]
+    is_timed = all(row["backend"] != "gpu" for row in rows)
+    titles_of = {key: title for key, (title, _) in RATES.items()} | ({"patches_per_s": TIME} if is_timed else {})
     has_target = any(targets_of(row, targets) for row in rows)
-    titles = ["workload", *(RATES[key][0] for key in columns), *["target"] * has_target]
+    titles = ["workload", *(titles_of[key] for key in columns), *["target"] * has_target]
     settings = ("working_set", "threads", "index_type", "level")
     varying = [key for key in settings if any(row.get(key) != rows[0].get(key) for row in rows)]
 
@@ -81,11 +85,18 @@ def bench_table(rows, targets):
         of_settings = (shown(row.get(key)) + " threads" * (key == "threads") for key in varying)
         yield ", ".join([row["workload"], *of_settings])
         for key in columns:
-            yield "" if row.get(key) is None else digits(row[key] / RATES[key][1])
+            value = row.get(key)
+            is_time = titles_of[key] == TIME
+            yield "" if value is None else digits(1e9 / value if is_time else value / RATES[key][1])
         if has_target:
             yield "; ".join(verdict(row, target) for target in targets_of(row, targets))
 
     return titles, [list(cells(row)) for row in rows]
+
+
+def without_fill(row):
+    """The row; with one patch per call without a comparison with a fill, which takes less time than a call."""
+    return {**row, "fill_ratio": None} if row["workload"].startswith("single/") else row
 
 
 def targets_of(row, targets):

@@ -2,7 +2,7 @@
 
 from fresh import code_in
 from measure import MEASUREMENTS, fastest, of_ablation, of_crossover, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
-from records import digits, svg, table, with_tables
+from records import bench_table, digits, svg, table, with_tables
 
 
 def test_three_digits_count():
@@ -18,10 +18,17 @@ def test_a_table_names_what_varies_and_whether_targets_are_reached():
     few = {"command": "tess bench", "machine": "a machine", "date": "2026-01-02", "commit": "abc", "rows": rows}
     assert table(few, targets) == (
         "    tess bench\n\na machine; 2026-01-02, commit abc.\n\n"
-        "| workload | M patches/s | of fill | target |\n| --- | --- | --- | --- |\n"
-        "| worst, cache | 4.07 | 0.5 | 0.45 of fill: reached |\n"
-        "| worst, stream | 4.07 | 1.25 | 1.3 of fill: missed |\n"
+        "| workload | ns a patch | of fill | target |\n| --- | --- | --- | --- |\n"
+        "| worst, cache | 246 | 0.5 | 0.45 of fill: reached |\n"
+        "| worst, stream | 246 | 1.25 | 1.3 of fill: missed |\n"
     )
+
+
+def test_single_patches_are_not_compared_with_a_fill():
+    row = {"workload": "single/worst", "backend": "simd", "patches_per_s": 1e7, "fill_ratio": 0.5}
+    assert bench_table([row], []) == (["workload", "ns a patch"], [["single/worst", "100"]]), bench_table([row], [])
+    on_device = {**row, "workload": "worst", "backend": "gpu"}
+    assert bench_table([on_device], []) == (["workload", "M patches/s", "of fill"], [["worst", "10", "0.5"]])
 
 
 def test_tables_stand_between_their_markers():

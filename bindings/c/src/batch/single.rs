@@ -23,11 +23,11 @@ use tess_simd::{Batch, CountedPatch, IndexFormat, Tessellator};
 /// buffer, but never past its capacity; calls are fastest with that much room. Buffers, factors and
 /// `counts` must not overlap (`TESS_OVERLAP`).
 ///
-/// A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of
-/// 2022 with AVX-512). With `TESS_MEMORY_INITIALISED` and the same factors as the previous patch,
-/// it takes 19 ns and 28 ns on a server of 2024. It is faster than `tess_batch_run` with one patch,
-/// which counts twice; for large patches the two take equally long. A call allocates if a patch has
-/// point counts that are new to this batch; after `tess_batch_reserve` no call does.
+/// A call takes 43 to 68 ns for factors up to 8 (one core of a server with AVX-512). With
+/// `TESS_MEMORY_INITIALISED` and the same factors as the previous patch, it takes 19 ns for factors
+/// up to 4 and 28 ns for factor 8. It is faster than `tess_batch_run` with one patch, which counts
+/// twice; for large patches the two take equally long. A call allocates if a patch has point counts
+/// that are new to this batch; after `tess_batch_reserve` no call does.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
