@@ -3,8 +3,8 @@
 //! The parts are functions of few numbers, and are compared for all of them elsewhere. Here they
 //! are joined a second time, by functions whose arguments are everything that the output may depend
 //! on: factors from their own bits, role and settings; stitches from point counts; points from
-//! locations. Patches are compared with these for each class that the joining distinguishes. Tests
-//! that are ignored do it for all classes: `cargo xtask prove` runs them.
+//! locations. Patches are compared with these for each class that the joining distinguishes. Slow
+//! tests do it for all classes: `cargo xtask test all` runs them, and so does `cargo xtask prove`.
 
 #![expect(clippy::print_stdout, reason = "the number of classes, for a reader of the proof")]
 
@@ -427,4 +427,43 @@ fn points_are_made_of_locations() {
 fn points_are_made_of_locations_in_every_class() {
     let patches = check_all_points(1);
     println!("classes: {patches} patches, each pair of inside counts under every setting");
+}
+
+/// The premises of `dev/proofs/triangle.smt2`, for the locations of every factor of a parity: no
+/// point of a ring is before the ring, except by up to 10 where the ring is far from the edge.
+fn check_premises(split: SplitOrder, parity: Parity, step: usize) -> u64 {
+    let mut rings = 0;
+    for bits in ((2 - parity.odd()) << 16..=(64 - parity.odd()) << 16).step_by(step) {
+        let context = FactorContext::new(FixedFactor::from_bits(bits), parity, split);
+        let mut least = if parity == Parity::Even { HALF } else { ONE };
+        // From the middle to the edge; the other half mirrors these.
+        for ring in (1..context.points / 2).rev() {
+            let at = place(&context, ring).to_bits();
+            least = least.min(at).min(ONE - at);
+            let is_near = least >= at || (at >= 0x400 && at <= least + 10);
+            assert!(is_near && at <= HALF + 10, "{split:?}, {parity:?}, {bits:#x}, ring {ring}");
+            rings += 1;
+        }
+    }
+    rings
+}
+
+fn check_all_premises(step: usize) -> u64 {
+    let parities = |split| [Parity::Even, Parity::Odd].map(|parity| (split, parity));
+    let all = SplitOrder::ALL.into_iter().flat_map(parities);
+    all.map(|(split, parity)| check_premises(split, parity, step)).sum()
+}
+
+#[test]
+fn no_point_is_far_before_its_ring() {
+    check_all_premises(61);
+}
+
+#[test]
+#[ignore = "slow: all factors"]
+fn no_point_is_far_before_its_ring_in_every_class() {
+    println!(
+        "classes: {} rings, of every factor in both parities and orders",
+        check_all_premises(1)
+    );
 }

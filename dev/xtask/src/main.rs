@@ -31,6 +31,7 @@ mod models;
 mod mutants;
 mod packages;
 mod ports;
+mod prove;
 mod publish;
 mod python;
 mod rtl;
@@ -133,6 +134,10 @@ usage: cargo xtask [--yes | --no-install] <command>
           measure everything that docs/performance.md states about this machine's CPU or GPU, in ten minutes: builds
           the programs and writes benches/records, the tables and the charts. `ci` fails if a record is older than
           what it measures
+  prove [composition | triangle | exhaustive | circuit]...
+          run the checks of docs/proof.md that take long, or these: every class of the composition, a proof by Z3,
+          everything finite by the model's second formulation and the CPU backend, the proofs of the circuit; print the
+          lemmas with counts, and what is proved and what only tested; `exhaustive` takes most of the time
   performance
           write the tables of docs/performance.md and the charts from the records";
 
@@ -196,6 +201,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),
         ["semver", baseline] => publish::semver(baseline),
+        ["prove", ref names @ ..] => prove::run(names),
         ["records", set] => script::run(script::MEASURE, &["here", set]),
         ["performance"] => script::run(script::RECORDS, words),
         ["help" | "--help" | "-h"] => {

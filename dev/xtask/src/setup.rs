@@ -3,7 +3,7 @@
 mod needs;
 
 use crate::command;
-pub(crate) use needs::{CELLS, ICARUS, NODE, PYTHON, SYSTEMC, VERILATOR, YOSYS};
+pub(crate) use needs::{CELLS, ICARUS, NODE, PYTHON, SYSTEMC, VERILATOR, YOSYS, Z3};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};

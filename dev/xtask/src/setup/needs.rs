@@ -83,6 +83,13 @@ pub(crate) const YOSYS: Need = Need {
     is_there: || has_program("yosys") && has_program("yosys-smtbmc"),
 };
 
+/// The solver of the proof about triangles.
+pub(crate) const Z3: Need = Need {
+    what: "Z3 (a proof about the points of triangles)",
+    packages: &["z3"],
+    is_there: || has_program("z3"),
+};
+
 /// The library of cells that a netlist of the circuit is made of.
 pub(crate) const CELLS: Need = Need {
     what: "the OSU 0.18 um cells (the circuit as gates)",

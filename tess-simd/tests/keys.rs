@@ -1,0 +1,134 @@
+//! Output is reused where a key is equal: that of the same patch again, of a run, of a template. A
+//! key must have everything that the output depends on, which `docs/proof.md` needs.
+//!
+//! Every patch here differs from the one before it in one number: a factor, in every position and
+//! with every point count; or the domain, with the same factors. One tessellator writes all of
+//! them, so that a key without that number finds the output of the patch before.
+
+use tess_core::{
+    Config, Domain, DomainPoint, MAX_INDICES, MAX_POINTS, OutputPrimitive, Partitioning, Patch,
+    PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
+};
+use tess_simd::{ExactOutput, Level, Numbering, OwnedBatch, Tessellator};
+
+fn levels() -> impl Iterator<Item = Level> {
+    Level::ALL.into_iter().filter(|level| level.is_available())
+}
+
+fn configs() -> impl Iterator<Item = Config> {
+    let output = OutputPrimitive::TriangleCw;
+    Partitioning::ALL.into_iter().flat_map(move |partitioning| {
+        SplitOrder::ALL.map(|split| Config { partitioning, output, split })
+    })
+}
+
+fn expected(config: Config, factors: PatchFactors) -> Tessellation {
+    Patch::new(config, factors).tessellate()
+}
+
+/// Patches with all factors `base`, twice, so that the output of a large one is kept, then twice
+/// with another value in one position: in every position, every integer factor, and the factors
+/// beside the base.
+#[expect(clippy::float_arithmetic, reason = "exact, or rounded to a factor as good")]
+fn one_by_one(domain: Domain, base: f32) -> Vec<PatchFactors> {
+    let near = [base.next_down(), base.next_up(), base - 0.375, base + 0.375];
+    let values: Vec<f32> = (1..=64_u8).map(f32::from).chain(near).collect();
+    let mut all = Vec::new();
+    for place in 0..domain.factors() {
+        for &value in &values {
+            let other = PatchFactors::from_fn(domain, |at| if at == place { value } else { base });
+            all.extend([[PatchFactors::uniform(domain, base); 2], [other; 2]].as_flattened());
+        }
+    }
+    all
+}
+
+/// The factors that all others are: of a minimum patch, of compact ones, of one with a template,
+/// and of a large one.
+const BASES: [f32; 5] = [1.0, 2.0, 3.5, 17.0, 40.0];
+
+/// Checks one call for each patch, and one batch of all.
+fn check(config: Config, level: Level, patches: &[PatchFactors]) {
+    let mut tessellator = Tessellator::with_level(config, level).expect("an available level");
+    let mut points = vec![DomainPoint::default(); MAX_POINTS];
+    let mut indices = vec![0_u32; MAX_INDICES];
+    let all: Vec<Tessellation> = patches.iter().map(|&patch| expected(config, patch)).collect();
+    for (patch, expected) in patches.iter().zip(&all) {
+        let counts = tessellator.patch(*patch, &mut points, &mut indices).expect("enough room");
+        let found = (&points[..counts.points as usize], &indices[..counts.indices as usize]);
+        let equal = found == (&expected.points[..], &expected.indices[..]);
+        assert!(equal, "{level}, {config:?}: a call with {patch:?}");
+    }
+    let batch = OwnedBatch::try_from(patches).expect("patches of one domain");
+    let mut output = ExactOutput::new();
+    let written = tessellator.tessellate(batch.batch(), Numbering::PerPatch, &mut output);
+    written.expect("the output is no larger than memory");
+    let (mut points, mut indices) = (output.points(), output.indices());
+    for (number, expected) in all.iter().enumerate() {
+        let own =
+            (points.split_at(expected.points.len()), indices.split_at(expected.indices.len()));
+        let ((own_points, more_points), (own_indices, more_indices)) = own;
+        let equal = (own_points, own_indices) == (&expected.points[..], &expected.indices[..]);
+        assert!(equal, "{level}, {config:?}: patch {number} of a batch, {:?}", patches[number]);
+        (points, indices) = (more_points, more_indices);
+    }
+    assert!(points.is_empty() && indices.is_empty(), "{level}, {config:?}: more output");
+}
+
+#[test]
+fn a_key_has_every_factor() {
+    for level in levels() {
+        for config in configs() {
+            for domain in [Domain::Triangle, Domain::Quad] {
+                for base in BASES {
+                    check(config, level, &one_by_one(domain, base));
+                }
+            }
+            check(config, level, &one_by_one(Domain::Isoline, 3.0));
+        }
+    }
+}
+
+/// More topologies than the smallest sets of templates have slots for, so that templates are also
+/// found by their small numbers.
+#[test]
+fn a_small_key_has_every_factor() {
+    for level in levels() {
+        for config in configs().filter(|config| config.split == SplitOrder::Ruler) {
+            let digit = |number: u32, place: usize| {
+                [1.0, 2.0, 3.0, 4.0][(number >> (2 * place)) as usize % 4]
+            };
+            let quads: Vec<PatchFactors> = (0..4096)
+                .map(|number| PatchFactors::from_fn(Domain::Quad, |place| digit(number, place)))
+                .collect();
+            let twice = [&quads[..], &quads[..]].concat();
+            check(config, level, &twice);
+        }
+    }
+}
+
+/// Factors of a triangle and of a quad whose inside factors are 0 are the same six numbers.
+#[test]
+fn a_key_has_the_domain() {
+    for level in levels() {
+        for config in configs() {
+            let mut tessellator = Tessellator::with_level(config, level).expect("available");
+            let mut points = vec![DomainPoint::default(); MAX_POINTS];
+            let mut indices = vec![0_u32; MAX_INDICES];
+            for factor in (1..=64_u8).map(f32::from) {
+                let [u0, v0, u1, v1] = [factor; 4];
+                let quad = QuadFactors { u0, v0, u1, v1, inside_u: 0.0, inside_v: 0.0 };
+                let triangle = TriangleFactors { u0, v0, w0: u1, inside: v1 };
+                for patch in [PatchFactors::Quad(quad), PatchFactors::Triangle(triangle)] {
+                    let counts = tessellator.patch(patch, &mut points, &mut indices);
+                    let counts = counts.expect("enough room");
+                    let expected = expected(config, patch);
+                    let found =
+                        (&points[..counts.points as usize], &indices[..counts.indices as usize]);
+                    let equal = found == (&expected.points[..], &expected.indices[..]);
+                    assert!(equal, "{level}, {config:?}: {patch:?}");
+                }
+            }
+        }
+    }
+}
