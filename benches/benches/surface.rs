@@ -1,5 +1,6 @@
 //! Times the evaluation of surfaces on one thread at every CPU level, and filling as many vertices.
-//! Elements are vertices, at the domain points of factor 8.
+//! Elements are vertices, at the domain points of factor 8. Each level's vertices are compared with
+//! evaluation point by point before anything is timed.
 #![expect(clippy::float_arithmetic, reason = "heights and corners are floats")]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
@@ -53,6 +54,17 @@ fn surface(criterion: &mut Criterion) {
         bencher.iter(|| black_box(&mut samples[..quad.len()]).fill(Sample::default()));
     });
     for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+        let one_by_one = |patch: &SurfacePatch, points: &[[f32; 2]]| {
+            points.iter().map(|&point| patch.sample(point)).collect::<Vec<_>>()
+        };
+        check(level, &one_by_one(&bicubic, &quad), |samples| {
+            bicubic.samples_at_level(level, &quad, samples)
+        });
+        check(level, &one_by_one(&pn, &triangle), |samples| {
+            pn.samples_at_level(level, &triangle, samples)
+        });
+        let all: Vec<_> = quad.iter().map(|&point| displaced.sample(point)).collect();
+        check(level, &all, |samples| displaced.samples_at_level(level, &quad, samples));
         group.throughput(Throughput::Elements(quad.len() as u64));
         group.bench_function(BenchmarkId::new("bicubic", level), |bencher| {
             bencher.iter(|| bicubic.samples_at_level(level, black_box(&quad), &mut samples));
@@ -65,6 +77,23 @@ fn surface(criterion: &mut Criterion) {
             bencher.iter(|| pn.samples_at_level(level, black_box(&triangle), &mut samples));
         });
     }
+}
+
+/// Checks that a level gives the bits that evaluation point by point gives.
+fn check<E: std::fmt::Debug>(
+    level: Level,
+    expected: &[Sample],
+    evaluate: impl FnOnce(&mut [Sample]) -> Result<(), E>,
+) {
+    let mut samples = vec![Sample::default(); expected.len()];
+    evaluate(&mut samples).expect("the level is available");
+    let bits = |sample: &Sample| {
+        let Sample { position, normal, texcoord } = sample;
+        let [u, v] = texcoord.to_array();
+        [position.to_array(), normal.to_array(), [u, v, 0.0]].map(|all| all.map(f32::to_bits))
+    };
+    let wrong = samples.iter().zip(expected).position(|(found, right)| bits(found) != bits(right));
+    assert_eq!(wrong, None, "{level}, not timed: the first vertex that differs");
 }
 
 criterion_group!(benches, surface);
