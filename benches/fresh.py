@@ -35,7 +35,9 @@ def fresh():
             changed = sorted(path for path in now.keys() | then.keys() if now.get(path) != then.get(path))
             problem = f"{changed[0]} has changed since {commit}" if changed else None
         if problem and name not in exceptions:
-            problems.append(f"benches/records/{name}.json: {problem}: cargo xtask records {getattr(measurement, 'set', '')}")
+            measured_by = getattr(measurement, "set", "")
+            command = measured_by if measured_by == "study" else f"records {measured_by}"
+            problems.append(f"benches/records/{name}.json: {problem}: cargo xtask {command}")
         elif name in exceptions and not problem:
             problems.append(f"{EXCEPTIONS}: {name} needs no exception")
     if problems:

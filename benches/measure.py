@@ -1,10 +1,10 @@
 """Takes the measurements of benches/records. A set is measured in one call on one machine.
 
-    measure.py here cpu|gpu
-    measure.py run cpu|gpu FOLDER [--programs FOLDER] [--only NAME...]
+    measure.py here cpu|gpu|study
+    measure.py run cpu|gpu|study FOLDER [--programs FOLDER] [--only NAME...]
     measure.py take FOLDER --commit HASH [--machine TEXT]
 
-`here`, which is `cargo xtask records`, builds the programs, then does `run` and `take`. `run` starts the programs, and
+`here`, which is `cargo xtask records` and `cargo xtask study`, builds the programs, then does `run` and `take`. `run` starts the programs, and
 writes their rows to FOLDER/NAME.json and their output to FOLDER/NAME.txt. It needs neither the repository nor a
 compiler, so another machine can do it. `take` makes records of the rows, and tables and charts of the records.
 """
@@ -12,6 +12,7 @@ compiler, so another machine can do it. `take` makes records of the rows, and ta
 import argparse
 import datetime
 import json
+import os
 import re
 import subprocess
 import sys
@@ -20,6 +21,9 @@ from pathlib import Path
 from typing import Callable, NamedTuple
 
 from records import RECORDS, ROOT, performance, text_of
+
+# The folder of cargo's builds.
+TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 
 CORE = ["tess-core/src", "tess-verify/src/workloads.rs", "tess-verify/src/workloads/scenes.rs"]
 CPU = [*CORE, "tess-level/src", "tess-simd/src"]
@@ -33,6 +37,7 @@ ALL = ["uniform", *UNLIKE, "meshes", "worst"]
 class Measurement(NamedTuple):
     """Commands of one set. `rows` makes the rows of a record from their output."""
 
+    # It needs a GPU, if its programs do.
     set: str
     # The folders whose code is measured.
     sources: list
@@ -40,6 +45,7 @@ class Measurement(NamedTuple):
     rows: Callable
     # The keys of the rows in the order of the table; empty for rows of `tess bench`.
     columns: list = []
+    needs_gpu: bool = False
 
 
 def bench(*arguments, workloads):
@@ -166,6 +172,22 @@ def of_surface(outputs):
     return [{"surface": name, "level": level, "ns a vertex": f"{time:.1f}", "fills": f"{time / fill:.0f}"} for (name, level), time in rows]
 
 
+def lines_of(outputs):
+    """The rows of a program that prints a JSON object a line."""
+    return [json.loads(line) for line in outputs[0].splitlines()]
+
+
+def sweep(*backends, sources, needs_gpu=False):
+    """Comparisons of the recorded sweep in steps of 0.01, of which a row is a hundred patches."""
+
+    def rows(outputs):
+        found = [re.search(r"^(\d+) cases, (\d+) mismatches", output, re.MULTILINE) for output in outputs]
+        return [{"backend": name, "rows": int(row[1]), "mismatches": int(row[2])} for name, row in zip(backends, found, strict=True)]
+
+    commands = [["tess", "check", "golden/uniform.csv", "--backend", backend] for backend in backends]
+    return Measurement("study", sources, commands, rows, needs_gpu=needs_gpu)
+
+
 EDITS = ["gpu", "ablation", "benches/edits"]
 BATCHES = ["uniform", *UNLIKE, "meshes/triangles-at-once", "meshes/quads-at-once", "worst"]
 DRAWN = ["uniform", *UNLIKE, "worst"]
@@ -235,6 +257,10 @@ MEASUREMENTS = {
         of_stage,
         ["points", "triangles", "prepare_us", "draw_us", "G_triangles/s"],
     ),
+    "study-cpu": Measurement("study", [*CPU, "benches/src"], [["study"]], lines_of),
+    "study-gpu": Measurement("study", [*GPU, "benches/src"], [["gpu", "study"]], lines_of, needs_gpu=True),
+    "study-sweep": sweep("core", "simd", sources=CPU),
+    "study-sweep-gpu": sweep("gpu", sources=GPU, needs_gpu=True),
 }
 
 
@@ -246,6 +272,7 @@ BUILDS = {
         "build --release -p tess-benches --features gpu --bin gpu",
         "build --release --manifest-path tess-wgpu/examples/Cargo.toml --target-dir target",
     ],
+    "study": ["build --release -p tess-program", "build --release -p tess-benches --features gpu --bin gpu --bin study"],
 }
 
 
@@ -256,7 +283,7 @@ def here(arguments):
     for build in BUILDS[arguments.set]:
         subprocess.run(["cargo", *build.split()], cwd=ROOT, check=True)
     with tempfile.TemporaryDirectory() as folder:
-        run(argparse.Namespace(set=arguments.set, folder=folder, programs=ROOT / "target/release", only=None))
+        run(argparse.Namespace(set=arguments.set, folder=folder, programs=TARGET / "release", only=None))
         commit = output("git", "rev-parse", "--short=10", "HEAD").strip()
         take(argparse.Namespace(folders=[folder], commit=commit, machine=None))
 
@@ -280,6 +307,9 @@ def run(arguments):
     for name, measurement in MEASUREMENTS.items():
         if measurement.set != arguments.set or arguments.only and name not in arguments.only:
             continue
+        if measurement.needs_gpu and card() is None:
+            print(f"{name}: left out, because `nvidia-smi` names no GPU; its record stays", flush=True)
+            continue
         try:
             outputs = []
             for command, *words in measurement.commands:
@@ -300,13 +330,17 @@ def machine():
     """The processor, and the first GPU of NVIDIA's driver, if there is one."""
     found = re.search(r"^model name\s*: (.*)", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
     cores = len(re.findall(r"^processor\s*:", Path("/proc/cpuinfo").read_text(), re.MULTILINE))
-    try:
-        query = ["nvidia-smi", "--query-gpu=name,driver_version", "--format=csv,noheader"]
-        card = subprocess.run(query, check=True, text=True, stdout=subprocess.PIPE).stdout.splitlines()[0].replace(", ", ", driver ")
-    except (OSError, subprocess.CalledProcessError, IndexError):
-        card = None
     processor = f"{found[1] if found else 'unknown processor'}, {cores} cores"
-    return f"{card}; {processor}" if card else processor
+    return "; ".join(filter(None, [card(), processor]))
+
+
+def card():
+    """The first GPU of NVIDIA's driver, and the driver's version; None if there is none."""
+    query = ["nvidia-smi", "--query-gpu=name,driver_version", "--format=csv,noheader"]
+    try:
+        return subprocess.run(query, check=True, text=True, stdout=subprocess.PIPE).stdout.splitlines()[0].replace(", ", ", driver ")
+    except (OSError, subprocess.CalledProcessError, IndexError):
+        return None
 
 
 def command_of(measurement):
@@ -316,11 +350,12 @@ def command_of(measurement):
         "gpu": "cargo run --release -p tess-benches --features gpu --bin gpu --",
         "tess-examples": "cargo example --release",
         "surface": "cargo bench -p tess-benches --bench surface",
+        "study": "cargo run --release -p tess-benches --bin study --",
     }
     command, *words = measurement.commands[0]
     if len(measurement.commands) > 1:
-        words = ["N" if word == str(THREADS[0]) else word for word in words]
-    return f"{in_workspace[command]} {' '.join(word for word in words if command != 'surface')}".strip()
+        words = ["BACKEND" if word == "core" else "N" if word == str(THREADS[0]) else word for word in words]
+    return f"{in_workspace[command]} {' '.join(word for word in words if command != 'surface')}".strip().removesuffix(" --")
 
 
 def record_of(name, measured, commit):
@@ -363,9 +398,9 @@ def main(words):
     whole = commands.add_parser("here", help="build the programs, run a set on this machine, and make its records")
     running = commands.add_parser("run", help="run a set of measurements on this machine")
     for one in (whole, running):
-        one.add_argument("set", choices=["cpu", "gpu"])
+        one.add_argument("set", choices=sorted(BUILDS))
     running.add_argument("folder", help="folder to write NAME.json and NAME.txt to")
-    running.add_argument("--programs", default=ROOT / "target/release", help="folder of tess, gpu, tess-examples, surface")
+    running.add_argument("--programs", default=TARGET / "release", help="folder of tess, gpu, tess-examples, surface, study")
     running.add_argument("--only", nargs="+", choices=sorted(MEASUREMENTS), help="run only these measurements of the set")
     taking = commands.add_parser("take", help="make records of the rows that `run` wrote")
     taking.add_argument("folders", nargs="+", metavar="folder", help="of one run, or of several: each row is then the fastest")

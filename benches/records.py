@@ -1,4 +1,4 @@
-"""Makes the tables of docs/performance.md and the charts from the records of measurements, `records/NAME.json`.
+"""Makes the tables of docs/performance.md and docs/study.md, and the charts, from the records of measurements, `records/NAME.json`.
 
     records.py performance    write tables and charts
     records.py check          check that tables and charts agree with the records
@@ -12,10 +12,14 @@ import re
 import sys
 from pathlib import Path
 
+import study
+
 ROOT = Path(__file__).resolve().parent.parent
 RECORDS = ROOT / "benches/records"
 RESULTS = ROOT / "docs/performance.md"
 EXPERIMENTS = ROOT / "docs/experiments.md"
+STUDY = ROOT / "docs/study.md"
+CIRCUIT = ROOT / "docs/rtl.md"
 
 # Columns of rows of `tess bench --json`: key, title, and divisor of the values. Rows of a CPU have times instead of the first.
 TIME = "ns a patch"
@@ -124,7 +128,7 @@ def with_tables(text, table_of):
 # Charts
 
 # Colours of the series, which are distinct in any order, also for colour-blind readers and in grey.
-COLOURS = ["#4477aa", "#ee8866", "#44aa77"]
+COLOURS = ["#4477aa", "#ee8866", "#44aa77", "#aa3377", "#999999"]
 # Lengths in pixels. LEFT has room for the labels; the value of the longest bar is to its right.
 LEFT, LONGEST, WIDTH, BAR, GAP, HEAD = 180, 500, 760, 13, 9, 62
 
@@ -154,6 +158,9 @@ def charts():
         bars.setdefault(f"{digits(row['triangles'] / 1e6)} M triangles", []).append(row["G_triangles/s"])
     title = f"Terrain by the stage of tess-wgpu on an {card_of('stage')}, billions of triangles per second"
     yield "pixels", title, False, ["points stored", "points pulled", "pulled without indices"], bars
+
+    title = "The study's inputs: nanoseconds per patch"
+    yield "study", title, True, *study.chart(read("study-cpu"), read("study-gpu"))
 
 
 def svg(title, is_logarithmic, series, bars):
@@ -201,12 +208,16 @@ def made():
     targets = json.loads((ROOT / "benches/targets.json").read_text())
     assert all(target["key"] in RATES for target in targets), "targets.json: a key that no row has"
     text, used = with_tables(RESULTS.read_text(), lambda name: table(read(name), targets))
-    files, experiments = {RESULTS: text}, EXPERIMENTS.read_text()
+    of_study = study.tables(read, CIRCUIT.read_text())
+    studied, used_there = with_tables(STUDY.read_text(), of_study.__getitem__)
+    assert set(used_there) == of_study.keys(), f"{STUDY} has the tables {used_there}, not {sorted(of_study)}"
+    used += used_there
+    files, experiments = {RESULTS: text, STUDY: studied}, EXPERIMENTS.read_text()
     for name in sorted(path.stem for path in RECORDS.glob("*.json")):
         is_named = name in used or f"](../benches/records/{name}.json)" in experiments
-        assert is_named, f"{RESULTS} has no table of {name}, {EXPERIMENTS} no link to it"
+        assert is_named, f"{RESULTS} and {STUDY} have no table of {name}, {EXPERIMENTS} no link to it"
     for name, *chart in charts():
-        assert f"](images/{name}.svg)" in text, f"{RESULTS} does not show the chart {name}"
+        assert f"](images/{name}.svg)" in text + studied, f"neither {RESULTS} nor {STUDY} shows the chart {name}"
         files[ROOT / f"docs/images/{name}.svg"] = svg(*chart)
     return files
 

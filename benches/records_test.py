@@ -1,5 +1,6 @@
 """Tests of the tables and charts of records, and of faults that must be detected."""
 
+import study
 from fresh import code_in
 from measure import MEASUREMENTS, fastest, of_ablation, of_crossover, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
 from records import bench_table, digits, svg, table, with_tables
@@ -90,6 +91,44 @@ def test_each_row_is_the_fastest():
     assert fastest(vertices) == vertices[1], "the least time"
     tables = [[{"1": "9 / 0.8"}], [{"1": "11 / 0.9"}]]
     assert fastest(tables) == tables[0], "no single speed: the first run"
+
+
+CIRCUIT = "| `uniform-64` | 24 | 101400 | 196608 | 196667 | 0.515 | 0.999 | 0 |\n| clock, seed 1 | 104.2 MHz; seeds 2 to 4: 110.8 | 101.0 MHz |\n"
+
+
+def study_records(card="NVIDIA H200"):
+    """Records of the study: one call takes a tenth of the study's time, one patch on the GPU a hundredth."""
+    machine = {"machine": f"{card}, driver 1; processor", "command": "c", "date": "d", "commit": "abc"}
+    names = {**study.INPUTS, study.ISOLINES: ("", 1.0, 1.0)}
+    ours = lambda name, cpu, gpu: {"workload": name, "triangles": 8000, "call_ns": cpu * 1e5, "model_ns": cpu * 1e6, "device_us": gpu * 10}
+    rows = [{**ours(name, cpu, gpu), "batch_ns": 4000.0, "host_us": 1.0, "frame_us": 1.0, "ghz": 2.5, "mhz": 2000} for name, (_, cpu, gpu) in names.items()]
+    stage = {"workload": "w", "stage_alone": 1.0, "in_vertex_cache_order_alone": 50.0, "stage_drawn": 1.0, "in_vertex_cache_order_drawn": 1.5}
+    swept = [{"backend": "gpu", "rows": 792, "mismatches": 3}]
+    made = {"study-cpu": rows, "study-gpu": rows, "study-sweep": swept, "study-sweep-gpu": swept, "drawn": [stage]}
+    made["gpu"] = [{"workload": "w", "triangles_per_s": 5e10}]
+    return {name: {**machine, "rows": rows} for name, rows in made.items()}
+
+
+def test_the_study_is_compared():
+    tables = study.tables(study_records().__getitem__, CIRCUIT)
+    assert "| 16^6 | 8000 | 7.18 | 0.718 | 4.00 | 7.18 | 10 |" in tables["study-cpu"], tables["study-cpu"]
+    assert "| 64^6 | 8000 | 2369.81 | 23.7 | 1.00 | 1.00 | 4.00 | 100 |" in tables["study-gpu"], tables["study-gpu"]
+    assert "| 6 of 1584 [" in tables["study-answers"], "the rows that differ are added up"
+    assert "making triangles, 50 to 50 times as fast; with drawing, 1.50 to 1.50 times" in tables["study-answers"]
+    assert "| 3.0 to 3.0 % of a frame" in tables["study-answers"]
+    assert "`w` | 50000 | 2.00 GHz, read from its driver | 25.0 |" in tables["study-clocks"], tables["study-clocks"]
+    assert "`uniform-64` | 101 | 101 MHz on an ECP5 | 0.999 |" in tables["study-clocks"], tables["study-clocks"]
+
+
+def test_a_clock_of_another_gpu_is_named():
+    records = study_records() | {name: record for name, record in study_records("NVIDIA H100").items() if name in ("gpu", "drawn")}
+    clocks = study.tables(records.__getitem__, CIRCUIT)["study-clocks"]
+    assert clocks.count("as the NVIDIA H200") == 2 and "on an NVIDIA H100, `w`" in clocks, clocks
+
+
+def test_a_sweep_counts_rows_that_differ():
+    swept = MEASUREMENTS["study-sweep"].rows(["792 cases, 0 mismatches\n", "head\n792 cases, 5 mismatches\n"])
+    assert swept == [{"backend": "core", "rows": 792, "mismatches": 0}, {"backend": "simd", "rows": 792, "mismatches": 5}], swept
 
 
 def fails(function, *arguments):

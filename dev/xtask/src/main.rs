@@ -138,8 +138,10 @@ usage: cargo xtask [--yes | --no-install] <command>
           run the checks of docs/proof.md that take long, or these: every class of the composition, a proof by Z3,
           everything finite by the model's second formulation and the CPU backend, the proofs of the circuit; print the
           lemmas with counts, and what is proved and what only tested; `exhaustive` takes most of the time
+  study   repeat the study of 2015: measure its inputs on this machine's CPU, and on its GPU if NVIDIA's driver names
+          one, compare the sweep in steps of 0.01, and write records, docs/study.md and its chart; two minutes
   performance
-          write the tables of docs/performance.md and the charts from the records";
+          write the tables of docs/performance.md and docs/study.md and the charts from the records";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -202,6 +204,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["deny", "advisories"] => publish::deny(true),
         ["semver", baseline] => publish::semver(baseline),
         ["prove", ref names @ ..] => prove::run(names),
+        ["study"] => script::run(script::MEASURE, &["here", "study"]),
         ["records", set] => script::run(script::MEASURE, &["here", set]),
         ["performance"] => script::run(script::RECORDS, words),
         ["help" | "--help" | "-h"] => {

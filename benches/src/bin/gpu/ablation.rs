@@ -1,15 +1,14 @@
 //! Times workloads with edited shaders, stage by stage.
 
 use crate::Result;
+use crate::digest::digest;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-use tess_core::{DomainPoint, Tessellation};
-use tess_gpu::layout::{PackedPoint, factor_words};
+use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup, Stage};
 use tess_testkit::listed::{self, ListedFault};
-use tess_verify::vectors::Fnv1a;
 use tess_verify::workloads::{IndexWidth, Totals, Workload};
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
 
@@ -158,18 +157,7 @@ impl<'a> WorkloadBench<'a> {
     /// The digest of the workload's output; `None` if the output is not consistent.
     fn observed(&self, gpu: &Gpu, tessellator: &mut Tessellator) -> Option<u64> {
         let output = tessellator.tessellate(gpu, self.setup, &self.workload.patches).ok()?;
-        let each = self.setup.indices_per_primitive() as usize;
-        let mut ends = output.begins.iter().skip(1).map(|begin| begin.map(|at| at as usize));
-        let mut digest = Fnv1a::default();
-        for begin in &output.begins {
-            let begin = begin.map(|at| at as usize);
-            let end = ends.next().unwrap_or([output.points.len(), output.indices.len() / each]);
-            let points = output.points.get(begin[0]..end[0])?;
-            let points: Vec<DomainPoint> = points.iter().map(|&p| PackedPoint(p).point()).collect();
-            let indices = output.indices.get(begin[1] * each..end[1] * each)?.to_vec();
-            digest.patch(&Tessellation { points, indices });
-        }
-        Some(digest.finish())
+        digest(&output, self.setup)
     }
 }
 

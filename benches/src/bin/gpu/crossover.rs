@@ -2,8 +2,9 @@
 
 use crate::Result;
 use crate::groups::batch;
-use crate::timing::{SAMPLES, median};
+use crate::timing::SAMPLES;
 use std::time::{Duration, Instant};
+use tess_benches::median;
 use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
 use tess_gpu::Numbering;
 use tess_verify::workloads::Workload;

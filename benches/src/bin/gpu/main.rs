@@ -1,10 +1,11 @@
-//! Measures the GPU backend on the first adapter that has timestamps, for `docs/performance.md` and
-//! `docs/experiments.md`; `tess bench --backend gpu` is for users.
+//! Measures the GPU backend on the first adapter that has timestamps, for `docs/performance.md`,
+//! `docs/experiments.md` and `docs/study.md`; `tess bench --backend gpu` is for users.
 //!
 //! ```text
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- crossover
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- groups
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- evaluated
+//! cargo run --release -p tess-benches --features gpu --bin gpu -- study
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- ablation benches/edits uniform-16 character
 //! ```
 //!
@@ -16,8 +17,10 @@
 
 mod ablation;
 mod crossover;
+mod digest;
 mod evaluated;
 mod groups;
+mod study;
 mod timing;
 
 use clap::{Parser, Subcommand};
@@ -40,6 +43,8 @@ enum Command {
     Evaluated,
     /// Compare many meshes in one batch with as many batches
     Groups,
+    /// Time the inputs of the study of 2015, as one patch and as 4096
+    Study(study::StudyArguments),
     /// Time each stage with parts of the shaders changed or left out
     Ablation(ablation::AblationArguments),
 }
@@ -49,6 +54,7 @@ fn main() -> Result<()> {
         Command::Crossover => crossover::run(),
         Command::Evaluated => evaluated::run(),
         Command::Groups => groups::run(),
+        Command::Study(arguments) => study::run(&arguments),
         Command::Ablation(arguments) => ablation::run(&arguments),
     }
 }

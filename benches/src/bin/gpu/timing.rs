@@ -1,7 +1,8 @@
-//! Medians of times.
+//! Times on a device.
 
 use crate::Result;
 use std::time::{Duration, Instant};
+use tess_benches::median;
 use tess_wgpu::{Gpu, Stopwatch};
 
 /// The smallest number of runs whose median is taken.
@@ -22,11 +23,4 @@ pub(crate) fn device_time(
     }
     // The second half: by then the device has reached its full clock.
     Ok(median(times.split_off(times.len() / 2)))
-}
-
-/// The median of these times, in microseconds.
-#[expect(clippy::float_arithmetic, reason = "a unit of time")]
-pub(crate) fn median(mut times: Vec<Duration>) -> f64 {
-    times.sort_unstable();
-    times.get(times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6)
 }
