@@ -72,8 +72,8 @@ impl Job {
     }
 }
 
-/// How a test's head says that only `test all` runs it: `#[ignore = "slow: all 96 configurations"]`,
-/// or with libtest-mimic a kind that begins so.
+/// How a test's head says that only `test all` runs it: `#[ignore = "slow: all 96 setups"]`, or
+/// with libtest-mimic a kind that begins so.
 const SLOW: &str = "slow: ";
 
 /// The number of tests that commands ran, and the commands that failed.
