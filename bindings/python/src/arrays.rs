@@ -35,6 +35,7 @@ pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<
     if untyped.ndim() != 2 || untyped.shape()[1] != factors {
         return Err(wrong(described(untyped)));
     }
+    let made = aligned(made)?;
     let borrowed = |error| argument(format!("factors: {error}"));
     if let Ok(array) = made.cast::<PyArray2<f32>>() {
         let array = array.try_readonly().map_err(borrowed)?;
@@ -52,7 +53,16 @@ pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<
         }
         copied(array.as_array().iter().map(|factor| narrowed(*factor).unwrap_or(f32::NAN)))
     } else {
-        Err(wrong(described(untyped)))
+        Err(wrong(described(made.cast()?)))
+    }
+}
+
+/// The array, or a copy if its elements are not aligned, as those that `numpy.frombuffer` takes from
+/// the middle of a buffer. References to such elements would be undefined.
+fn aligned(array: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
+    match array.getattr("flags")?.getattr("aligned")?.is_truthy()? {
+        true => Ok(array),
+        false => array.call_method0("copy"),
     }
 }
 
@@ -71,7 +81,7 @@ pub(crate) fn exact_words<'py>(
 ) -> PyResult<Bound<'py, PyArrayDyn<u32>>> {
     let py = integers.py();
     refuse_masked(what, integers)?;
-    let array = numpy::get_array_module(py)?.call_method1("asarray", (integers,))?;
+    let array = aligned(numpy::get_array_module(py)?.call_method1("asarray", (integers,))?)?;
     if let Ok(words) = array.cast::<PyArrayDyn<u32>>() {
         return Ok(words.clone());
     }

@@ -53,6 +53,18 @@ def misaligned(array: "np.ndarray[Any, Any]") -> Any:
     return raw.view(array.dtype).reshape(array.shape)
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.uint32])
+def test_factors_that_are_not_aligned(dtype: Any) -> None:
+    """As numpy.frombuffer takes them from the middle of a buffer."""
+    factors = quads().astype(np.float32)
+    factors = factors.view(np.uint32) if dtype is np.uint32 else factors.astype(dtype)
+    apart = misaligned(factors)
+    apart[:] = factors
+    assert not apart.flags.aligned
+    for one, other in zip(tessellate("quad", apart), tessellate("quad", factors)):
+        np.testing.assert_array_equal(one, other)
+
+
 @pytest.mark.parametrize("which", [0, 1, 2])
 @pytest.mark.parametrize(
     "change, message",
