@@ -47,11 +47,11 @@ pub(crate) fn guarded<T>(
 
 /// Starts to listen for the signals with which users and batch systems end a process. The cleanups
 /// run first; the process then ends as it would have without them. If no thread can be started,
-/// signals end the process at once. So does a closing terminal, because `nohup` sets that signal to
-/// be ignored.
+/// signals end the process at once. A closing terminal is such a signal too, unless it is ignored,
+/// as under `nohup`.
 #[cfg(unix)]
 fn listen() {
-    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::{iterator::Signals, low_level};
     let (give, take) = std::sync::mpsc::sync_channel::<Signals>(1);
     let wait = move || {
@@ -66,11 +66,23 @@ fn listen() {
         _ = low_level::emulate_default_handler(signal);
     };
     // Signals are caught once there is a thread to handle them, and before anything is made.
+    let hangup = (!hangup_is_ignored()).then_some(SIGHUP);
     if std::thread::Builder::new().spawn(wait).is_ok()
-        && let Ok(signals) = Signals::new([SIGINT, SIGTERM])
+        && let Ok(signals) = Signals::new([SIGINT, SIGTERM].into_iter().chain(hangup))
     {
         _ = give.send(signals);
     }
+}
+
+/// Whether the process was started with the signal of a closing terminal ignored. Listening to it
+/// would undo that. Only Linux tells; elsewhere it is taken as ignored.
+#[cfg(unix)]
+fn hangup_is_ignored() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    let bit = 1 << (signal_hook::consts::SIGHUP - 1);
+    mask.is_none_or(|mask| mask & bit != 0)
 }
 
 /// On other systems, temporary files remain when the process is ended from outside.

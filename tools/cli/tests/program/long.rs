@@ -54,6 +54,25 @@ fn interrupted_files_leave_nothing() {
     }
 }
 
+/// A closing terminal. The test itself may run where that signal is ignored, so that the program
+/// gets back its default.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_closing_terminal_leaves_nothing() {
+    let folder = directory("a_closing_terminal_leaves_nothing");
+    let words = format!("{ENDLESS} -o {}", folder.join("out").display());
+    let mut command = Command::new("env");
+    command.args(["--default-signal=HUP", env!("CARGO_BIN_EXE_tess")]).args(words.split(' '));
+    let mut child = command.spawn().expect("there is env");
+    while fs::read_dir(&folder).expect("the folder").next().is_none() {
+        assert!(child.try_wait().expect("a child").is_none(), "it goes on");
+        std::thread::yield_now();
+    }
+    send("HUP", &child);
+    assert_eq!(child.wait().expect("it ends").signal(), Some(1), "it ends as HUP ends programs");
+    assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 0, "nothing is left");
+}
+
 /// A background job that should survive the end of its terminal does so.
 #[test]
 fn ignored_signals_stay_ignored() {
