@@ -35,7 +35,10 @@ pub(super) fn files_of(folder: &Path) -> Vec<String> {
     struct WrittenStage {
         file: String,
     }
-    let text = fs::read_to_string(folder.join(FILE)).unwrap_or_default();
+    let path = folder.join(FILE);
+    // A link could lead to a device without an end, and a pipe would wait for its writer.
+    let is_file = path.symlink_metadata().is_ok_and(|found| found.is_file());
+    let text = if is_file { fs::read_to_string(path).unwrap_or_default() } else { String::new() };
     match serde_json::from_str::<Written>(&text) {
         Ok(written) if written.format == FORMAT => {
             let own = [FILE, TABLES_FILE, HEADER_FILE, surfaces::FOLDER].map(str::to_owned);
