@@ -12,7 +12,8 @@ pub struct HeightMap {
     width: usize,
     height: usize,
     texels: Vec<f32>,
-    address: Address,
+    /// The continuation to the left and right, and up and down.
+    address: [Address; 2],
 }
 
 /// The continuation of the heights beyond the image, named as in samplers.
@@ -43,12 +44,19 @@ impl HeightMap {
         if let Some(index) = texels.iter().position(|&texel| !is_in_range(&[texel])) {
             return Err(HeightError::TooLarge { index });
         }
-        Ok(Self { width, height, texels, address: Address::Repeat })
+        Ok(Self { width, height, texels, address: [Address::Repeat; 2] })
     }
 
-    /// The same image with another continuation.
+    /// The same image with another continuation in all directions.
     #[must_use]
     pub fn with_address(self, address: Address) -> Self {
+        self.with_addresses([address; 2])
+    }
+
+    /// The same image with other continuations along u and v. On a planet u goes round and v ends at
+    /// the poles: `[Address::Repeat, Address::Clamp]`.
+    #[must_use]
+    pub fn with_addresses(self, address: [Address; 2]) -> Self {
         Self { address, ..self }
     }
 
@@ -77,38 +85,26 @@ impl HeightMap {
     /// [`HeightMap::sample`] at a place that is counted from the top, in texels rounded by
     /// `precision`.
     fn at(&self, place: Vec2, precision: fn(f32) -> f32) -> (f32, Vec2) {
-        let cell = match self.address {
-            Address::Repeat => repeated,
-            Address::Clamp => clamped,
-            Address::Mirror => mirrored,
+        let cell = |address: Address, place, size| match address {
+            Address::Repeat => repeated(place, size, precision),
+            Address::Clamp => clamped(place, size, precision),
+            Address::Mirror => mirrored(place, size, precision),
         };
-        let column = cell(place.x, self.width, precision);
-        let row = cell(place.y, self.height, precision);
+        let column = cell(self.address[0], place.x, self.width);
+        let row = cell(self.address[1], place.y, self.height);
         bilinear(self.corners(&column, &row), [&column, &row], self.size())
     }
 
     /// [`HeightMap::sample`] at the lanes' texture coordinates.
     #[inline(always)]
     pub(crate) fn samples(&self, texcoords: &Lanes2) -> (Lanes, Lanes2) {
-        let exact = |texels| texels;
-        match self.address {
-            Address::Repeat => self.in_cells(texcoords, |x, size| repeated(x, size, exact)),
-            Address::Clamp => self.in_cells(texcoords, |x, size| clamped(x, size, exact)),
-            Address::Mirror => self.in_cells(texcoords, |x, size| mirrored(x, size, exact)),
-        }
-    }
-
-    /// [`HeightMap::samples`], where `cell` finds the cell of a coordinate for one continuation.
-    #[inline(always)]
-    fn in_cells(&self, texcoords: &Lanes2, cell: impl Fn(f32, usize) -> Cell) -> (Lanes, Lanes2) {
         // In three loops: cells and heights become vectors, and only the four loads of each lane
         // between them do not.
-        let (mut columns, mut rows) = ([Cell::default(); LANES], [Cell::default(); LANES]);
-        for lane in 0..LANES {
-            let texcoord = texcoords.get(lane);
-            columns[lane] = cell(texcoord.x, self.width);
-            rows[lane] = cell(1.0 - texcoord.y, self.height);
-        }
+        let [across, down] = self.address;
+        let mut columns = [Cell::default(); LANES];
+        let mut rows = [Cell::default(); LANES];
+        cells(across, self.width, &mut columns, |lane| texcoords.get(lane).x);
+        cells(down, self.height, &mut rows, |lane| 1.0 - texcoords.get(lane).y);
         let mut corners = [[0.0; LANES]; 4];
         for lane in 0..LANES {
             let [a, b, c, d] = self.corners(&columns[lane], &rows[lane]);
@@ -138,6 +134,35 @@ impl HeightMap {
     #[inline(always)]
     fn size(&self) -> [f32; 2] {
         [texels(self.width), texels(self.height)]
+    }
+}
+
+/// The cells of the lanes' coordinates along one axis.
+#[inline(always)]
+fn cells(
+    address: Address,
+    size: usize,
+    cells: &mut [Cell; LANES],
+    coordinate: impl Fn(usize) -> f32,
+) {
+    let exact = |texels| texels;
+    // One loop for each continuation, so that none of them branches.
+    match address {
+        Address::Repeat => {
+            for (lane, cell) in cells.iter_mut().enumerate() {
+                *cell = repeated(coordinate(lane), size, exact);
+            }
+        }
+        Address::Clamp => {
+            for (lane, cell) in cells.iter_mut().enumerate() {
+                *cell = clamped(coordinate(lane), size, exact);
+            }
+        }
+        Address::Mirror => {
+            for (lane, cell) in cells.iter_mut().enumerate() {
+                *cell = mirrored(coordinate(lane), size, exact);
+            }
+        }
     }
 }
 

@@ -9,6 +9,7 @@ extern crate std;
 pub mod bend;
 pub mod bezier;
 mod boundary;
+mod crease;
 pub mod culling;
 pub mod curve;
 mod dispatch;
@@ -34,6 +35,7 @@ mod topology;
 
 pub use bend::Bend;
 pub use bezier::BezierPatch;
+pub use crease::Creases;
 pub use curve::{Curve, Direction, Edge};
 pub use displaced::{DisplacedModel, DisplacedPatch};
 pub use error::{FaceError, HeightError, MAX_COORDINATE, MeshError, WrongDomainError};

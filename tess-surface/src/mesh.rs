@@ -129,19 +129,36 @@ fn gather<T: Copy>(
 }
 
 /// Refuses two neighbouring corners with the same position, and an area that vanishes compared with
-/// the product of the diagonals.
+/// the product of the diagonals, or of a triangle's two longest edges.
 fn check_area(corners: &Sides<Vec3>) -> Result<(), FaceError> {
     let points = corners.as_slice();
     if edge_corners(corners).iter().any(|&[a, b]| points[a] == points[b]) {
         return Err(FaceError::RepeatedCorner);
     }
-    let [a, b] = diagonals(corners);
+    let [a, b] = match corners {
+        Sides::Triangle(corners) => longest(corners),
+        Sides::Quad(_) => diagonals(corners),
+    };
     // 2^-22. Below it, the area is no more than the rounding of binary32 coordinates.
     const LEAST_SINE: f64 = 1.0 / 4_194_304.0;
     if a.cross(b).length() <= LEAST_SINE * a.length() * b.length() {
         return Err(FaceError::NoArea);
     }
     Ok(())
+}
+
+/// The two longest edges of a triangle, from their common corner, whichever corner is the first.
+fn longest(corners: &[Vec3; 3]) -> [DVec3; 2] {
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+    let from_each = [[b - a, c - a], [c - b, a - b], [a - c, b - c]];
+    let opposite = |[to, other]: &[DVec3; 2]| (*other - *to).length_squared();
+    let [mut least, rest @ ..] = from_each;
+    for edges in rest {
+        if opposite(&edges) < opposite(&least) {
+            least = edges;
+        }
+    }
+    least
 }
 
 /// Two vectors whose cross product is along the normal: the diagonals of a quad, two edges of a

@@ -1,6 +1,7 @@
 //! Patches that know their neighbours.
 
 use crate::bezier::BezierPatch;
+use crate::crease::{Creases, Smoothed};
 use crate::curve::Edge;
 use crate::edges::{BezierEdges, MeshEdges};
 use crate::error::{FaceError, MeshError};
@@ -30,6 +31,7 @@ pub enum Style {
 pub struct Model {
     source: ModelSource,
     topology: Topology,
+    creases: Vec<HalfEdge>,
 }
 
 #[derive(Clone, Debug)]
@@ -46,7 +48,19 @@ impl Model {
     ///
     /// # Errors
     /// Those of [`PolygonMesh::check`].
-    pub fn polygons(mut mesh: PolygonMesh, style: Style) -> Result<Self, MeshError> {
+    pub fn polygons(mesh: PolygonMesh, style: Style) -> Result<Self, MeshError> {
+        Self::creased(mesh, style, &Creases::NONE)
+    }
+
+    /// As [`Model::polygons`], with hard edges between faces that have no normals.
+    ///
+    /// # Errors
+    /// Those of [`PolygonMesh::check`].
+    pub fn creased(
+        mut mesh: PolygonMesh,
+        style: Style,
+        creases: &Creases<'_>,
+    ) -> Result<Self, MeshError> {
         mesh.check()?;
         mesh.normalize();
         let vertices = weld(&mesh.positions);
@@ -55,12 +69,13 @@ impl Model {
             Topology::pair(mesh.faces.len(), edges.hashes(), &edges)
         };
         let lacks_normals = mesh.faces.iter().any(|face| face.normals.is_none());
-        let normals = if lacks_normals && style == Style::PointNormal {
-            smooth_normals(&mut mesh, &vertices, &topology)
+        let Smoothed { normals, creases } = if lacks_normals && style == Style::PointNormal {
+            smooth_normals(&mut mesh, &vertices, &topology, creases)
         } else {
-            Vec::new()
+            Smoothed { normals: Vec::new(), creases: Vec::new() }
         };
-        Ok(Self { source: ModelSource::Polygons { mesh, vertices, normals, style }, topology })
+        let source = ModelSource::Polygons { mesh, vertices, normals, style };
+        Ok(Self { source, topology, creases })
     }
 
     /// Makes a model from bicubic patches. Patches are neighbours if the control points of a
@@ -85,7 +100,7 @@ impl Model {
             }
         }
         let topology = Topology::pair(patches.len(), hashes, &BezierEdges(&patches));
-        Ok(Self { source: ModelSource::Bezier(patches), topology })
+        Ok(Self { source: ModelSource::Bezier(patches), topology, creases: Vec::new() })
     }
 
     /// The number of patches, at least 1.
@@ -124,6 +139,13 @@ impl Model {
     #[must_use]
     pub fn seams(&self) -> &[Vec<HalfEdge>] {
         &self.topology.seams
+    }
+
+    /// One side of each edge between faces without normals that is hard for its angle
+    /// ([`Creases::least_cosine`]), in ascending order.
+    #[must_use]
+    pub fn creases(&self) -> &[HalfEdge] {
+        &self.creases
     }
 
     /// The mesh, if the model was made from one. Faces at which several sheets meet may have been

@@ -6,6 +6,7 @@
 //! way round and are not folded onto each other. Faces without a common edge, such as those on both
 //! sides of a crack, are included if their normals are within 60 degrees.
 
+use crate::crease::{Creases, Hardness, Smoothed};
 use crate::edges::MeshEdges;
 use crate::math::unit;
 use crate::mesh::{Face, PolygonMesh};
@@ -30,13 +31,15 @@ const ONE_SHEET: f32 = 0.5;
 /// Makes smooth normals for the faces that have none. `vertices` has the first position with the
 /// same coordinates for each position.
 ///
-/// Returns a unit normal for each position. A face with a corner where several sheets meet gets its
-/// own normals in the mesh instead.
+/// A face with a corner where several sheets meet, or where an edge is hard, gets its own normals in
+/// the mesh instead of those of its positions.
 pub(crate) fn smooth_normals(
     mesh: &mut PolygonMesh,
     vertices: &[u32],
     topology: &Topology,
-) -> Vec<Vec3> {
+    creases: &Creases<'_>,
+) -> Smoothed {
+    give_flat_normals(mesh, creases);
     let mut sums = vec![Vec3::ZERO; mesh.positions.len()];
     for (vertex, face, corner) in corners(mesh, vertices) {
         sums[vertex as usize] += angle_weighted(&mesh.corners(face), corner);
@@ -49,33 +52,118 @@ pub(crate) fn smooth_normals(
             across(&mesh.corners(face), corner).dot(sums[vertex as usize].as_dvec3()) > 0.0;
         is_mixed[vertex as usize] |= !agrees;
     }
-    for half in unlike_neighbours(mesh, vertices, topology) {
+    let sheets = Sheets { mesh, vertices, topology, creases };
+    let mut by_angle = Vec::new();
+    for (half, link) in sheets.breaks() {
+        if link == Link::Crease(Hardness::Angle) {
+            by_angle.push(half);
+        }
         let corners = &mesh.faces[half.patch].positions;
         for end in edge_corners(corners)[half.edge] {
             is_mixed[vertices[corners.as_slice()[end] as usize] as usize] = true;
         }
     }
     if is_mixed.contains(&true) {
-        let of_sheets = normals_of_sheets(mesh, vertices, &is_mixed, topology);
+        let of_sheets = sheets.normals(&is_mixed);
         give_own_normals(mesh, vertices, &normals, &of_sheets);
     }
-    normals
+    Smoothed { normals, creases: by_angle }
 }
 
-/// The half-edges at seams, and those whose neighbour belongs to another sheet.
-fn unlike_neighbours<'a>(
+/// Gives the normal of its plane to each flat face that has no normals.
+fn give_flat_normals(mesh: &mut PolygonMesh, creases: &Creases<'_>) {
+    for number in 0..mesh.faces.len() {
+        let face = mesh.faces[number];
+        if face.normals.is_none() && creases.is_flat(number) {
+            let normal = u32::try_from(mesh.normals.len()).unwrap_or(u32::MAX);
+            mesh.normals.push(mesh.face_normal(&face));
+            mesh.faces[number].normals = Some(face.positions.map(|_| normal));
+        }
+    }
+}
+
+/// How two neighbours are joined at an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Link {
+    /// They are one sheet, and their normals are one.
+    Smooth,
+    /// They are one sheet, but the edge is hard.
+    Crease(Hardness),
+    /// They are two sheets.
+    Apart,
+}
+
+/// A mesh whose corners are grouped into sheets.
+#[derive(Clone, Copy)]
+struct Sheets<'a> {
     mesh: &'a PolygonMesh,
     vertices: &'a [u32],
     topology: &'a Topology,
-) -> impl Iterator<Item = HalfEdge> + 'a {
-    let halves = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
-        (0..face.positions.as_slice().len()).map(move |edge| HalfEdge { patch, edge })
-    });
-    let unlike = halves.filter(move |&half| {
-        let twin = topology.twin(half).filter(|&twin| half < twin);
-        twin.is_some_and(|twin| !is_one_sheet(mesh, vertices, topology, half, twin))
-    });
-    topology.seams.iter().flatten().copied().chain(unlike)
+    creases: &'a Creases<'a>,
+}
+
+impl<'a> Sheets<'a> {
+    fn link(&self, half: HalfEdge, twin: HalfEdge) -> Link {
+        let Self { mesh, vertices, topology, creases } = *self;
+        if !is_one_sheet(mesh, vertices, topology, half, twin) {
+            return Link::Apart;
+        }
+        let edges = MeshEdges { mesh, vertices };
+        let cosine = edges.normal(half).dot(edges.normal(twin));
+        match creases.hardness(half.patch, twin.patch, cosine) {
+            Hardness::Smooth => Link::Smooth,
+            hardness => Link::Crease(hardness),
+        }
+    }
+
+    /// The half-edges at seams, and one side of each edge whose sides are not joined smoothly. Edges
+    /// between faces that have their own normals are left out.
+    fn breaks(self) -> impl Iterator<Item = (HalfEdge, Link)> + 'a {
+        let Self { mesh, topology, .. } = self;
+        let halves = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
+            (0..face.positions.as_slice().len()).map(move |edge| HalfEdge { patch, edge })
+        });
+        let lacks = move |half: HalfEdge| mesh.faces[half.patch].normals.is_none();
+        let pairs = halves.filter_map(move |half| {
+            let twin = topology.twin(half).filter(|&twin| half < twin)?;
+            (lacks(half) || lacks(twin)).then(|| (half, self.link(half, twin)))
+        });
+        let seams = topology.seams.iter().flatten().map(|&half| (half, Link::Apart));
+        seams.chain(pairs.filter(|&(_, link)| link != Link::Smooth))
+    }
+
+    /// The slots of the corners at mixed places and their normals, in ascending order.
+    fn normals(&self, is_mixed: &[bool]) -> Vec<(u32, Vec3)> {
+        let Self { mesh, vertices, topology, .. } = *self;
+        let slots = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
+            let positions = face.positions.as_slice().iter().enumerate();
+            positions.map(move |(edge, &position)| {
+                (vertices[position as usize], HalfEdge { patch, edge }.slot())
+            })
+        });
+        let beyond = |half, is_joined: fn(Link) -> bool| {
+            let twin = topology.twin(half).filter(|&twin| is_joined(self.link(half, twin)));
+            twin.into_iter()
+        };
+        let sides = |patch: usize| mesh.faces[patch].positions.map(drop);
+        let mut normals = Vec::new();
+        for place in mixed(slots, is_mixed).chunk_by(|a, b| a.0 == b.0) {
+            let corners: Vec<u32> = place.iter().map(|&(_, slot)| slot).collect();
+            let fans_of =
+                |is_joined: fn(Link) -> bool| fans(&corners, sides, |half| beyond(half, is_joined));
+            let corners = SheetCorners {
+                fans: fans_of(|link| link == Link::Smooth),
+                // Fans that only hard edges separate must not become one again.
+                umbrellas: fans_of(|link| link != Link::Apart),
+                own: corners.iter().map(|&slot| weighted_normal(mesh, slot)).collect(),
+                faces: corners.iter().map(|&slot| HalfEdge::of_slot(slot).patch).collect(),
+            };
+            let of_corners = corners.normals(self.creases);
+            normals.extend(place.iter().zip(of_corners).map(|(&(_, slot), normal)| (slot, normal)));
+        }
+        normals.sort_unstable_by_key(|&(slot, _)| slot);
+        normals
+    }
 }
 
 /// Whether neighbours run the same way round and do not lie on each other.
@@ -134,68 +222,59 @@ fn corners<'a>(
     })
 }
 
-/// The slots of the corners at mixed places and their normals, in ascending order.
-fn normals_of_sheets(
-    mesh: &PolygonMesh,
-    vertices: &[u32],
-    is_mixed: &[bool],
-    topology: &Topology,
-) -> Vec<(u32, Vec3)> {
-    let slots = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
-        let positions = face.positions.as_slice().iter().enumerate();
-        positions.map(move |(edge, &position)| {
-            (vertices[position as usize], HalfEdge { patch, edge }.slot())
-        })
-    });
-    let joins = |half, twin| is_one_sheet(mesh, vertices, topology, half, twin);
-    let beyond = |half| topology.twin(half).filter(|&twin| joins(half, twin)).into_iter();
-    let mut normals = Vec::new();
-    // Each place by itself: the corners there, joined into fans across the edges of one sheet.
-    for place in mixed(slots, is_mixed).chunk_by(|a, b| a.0 == b.0) {
-        let corners: Vec<u32> = place.iter().map(|&(_, slot)| slot).collect();
-        let fans = fans(&corners, |patch| mesh.faces[patch].positions.map(drop), beyond);
-        let own: Vec<Vec3> = corners.iter().map(|&slot| weighted_normal(mesh, slot)).collect();
-        let of_fans = sheet_normals(&fans, &own);
-        normals.extend(corners.iter().zip(of_fans).map(|(&slot, normal)| (slot, normal)));
-    }
-    normals.sort_unstable_by_key(|&(slot, _)| slot);
-    normals
-}
-
 fn weighted_normal(mesh: &PolygonMesh, slot: u32) -> Vec3 {
     let HalfEdge { patch, edge: corner } = HalfEdge::of_slot(slot);
     angle_weighted(&mesh.corners(&mesh.faces[patch]), corner)
 }
 
-/// The unit normal of each corner at a place. `fans` has the first corner of each corner's fan, and
-/// `own` its weighted normal.
-fn sheet_normals(fans: &[usize], own: &[Vec3]) -> Vec<Vec3> {
-    let mut sums = vec![Vec3::ZERO; fans.len()];
-    fans.iter().zip(own).for_each(|(&fan, &normal)| sums[fan] += normal);
-    // The sum and the fans of each sheet.
-    let mut sheets: Vec<(Vec3, Vec<usize>)> = Vec::new();
-    // A fan joins the first sheet whose sum so far points its way, else it begins one. The order is
-    // that of the corners, so equal meshes get equal normals.
-    for fan in (0..fans.len()).filter(|&fan| fans[fan] == fan) {
-        let direction = unit(sums[fan]).unwrap_or(Vec3::ZERO);
-        let near = sheets
-            .iter_mut()
-            .find(|(sum, _)| unit(*sum).is_some_and(|sum| sum.dot(direction) > ONE_SHEET));
-        match near {
-            Some((sum, fans)) => {
-                *sum += sums[fan];
-                fans.push(fan);
+/// The corners at one place.
+struct SheetCorners {
+    /// The first corner of each corner's fan: the corners that smooth edges join.
+    fans: Vec<usize>,
+    /// The same with hard edges.
+    umbrellas: Vec<usize>,
+    /// The weighted normal of each corner.
+    own: Vec<Vec3>,
+    /// The face of each corner.
+    faces: Vec<usize>,
+}
+
+impl SheetCorners {
+    /// The unit normal of each corner.
+    fn normals(&self, creases: &Creases<'_>) -> Vec<Vec3> {
+        let Self { fans, umbrellas, own, faces } = self;
+        let mut sums = vec![Vec3::ZERO; fans.len()];
+        fans.iter().zip(own).for_each(|(&fan, &normal)| sums[fan] += normal);
+        // The sum and the fans of each sheet.
+        let mut sheets: Vec<(Vec3, Vec<usize>)> = Vec::new();
+        // A fan joins the first sheet whose sum so far points its way, else it begins one. The
+        // order is that of the corners, so equal meshes get equal normals.
+        for fan in (0..fans.len()).filter(|&fan| fans[fan] == fan) {
+            let direction = unit(sums[fan]).unwrap_or(Vec3::ZERO);
+            let is_near = |sum: Vec3, of_sheet: &[usize]| {
+                let cosine = unit(sum).map_or(-1.0, |sum| sum.dot(direction));
+                let is_apart = |other: usize| {
+                    umbrellas[other] == umbrellas[fan]
+                        || creases.hardness(faces[other], faces[fan], cosine) != Hardness::Smooth
+                };
+                cosine > ONE_SHEET && !of_sheet.iter().any(|&other| is_apart(other))
+            };
+            match sheets.iter_mut().find(|(sum, of_sheet)| is_near(*sum, of_sheet)) {
+                Some((sum, of_sheet)) => {
+                    *sum += sums[fan];
+                    of_sheet.push(fan);
+                }
+                None => sheets.push((sums[fan], Vec::from([fan]))),
             }
-            None => sheets.push((sums[fan], Vec::from([fan]))),
         }
+        // Where the faces of a sheet cancel out, a corner keeps the normal of its own face.
+        let normal_of = |at: usize| {
+            let sheet = sheets.iter().find(|(_, of_sheet)| of_sheet.contains(&fans[at]));
+            let shared = sheet.and_then(|(sum, _)| unit(*sum));
+            shared.or_else(|| unit(own[at])).unwrap_or(Vec3::Z)
+        };
+        (0..fans.len()).map(normal_of).collect()
     }
-    // Where the faces of a sheet cancel out, a corner keeps the normal of its own face.
-    let normal_of = |at: usize| {
-        let sheet = sheets.iter().find(|(_, of_sheet)| of_sheet.contains(&fans[at]));
-        let shared = sheet.and_then(|(sum, _)| unit(*sum));
-        shared.or_else(|| unit(own[at])).unwrap_or(Vec3::Z)
-    };
-    (0..fans.len()).map(normal_of).collect()
 }
 
 /// Gives own normals to the faces without normals that have a corner in `of_sheets`.

@@ -94,6 +94,25 @@ fn mirrored_images_meet_at_equal_heights() {
     }
 }
 
+/// A planet: u goes round, and v ends at the poles. Each axis has its own continuation.
+#[test]
+fn axes_continue_in_their_own_way() {
+    let image = HeightMap::new(2, 2, vec![0.0, 1.0, 2.0, 3.0]).unwrap();
+    let ways = [Address::Repeat, Address::Clamp, Address::Mirror];
+    for u in ways {
+        for v in ways {
+            let map = image.clone().with_addresses([u, v]);
+            for place in [-0.375, 0.0, 0.125, 0.875, 1.0, 1.75] {
+                let along = |way: Address, texcoord| image.clone().with_address(way).sample(texcoord);
+                let across = along(u, Vec2::new(place, 0.375)).0;
+                assert_eq!(map.sample(Vec2::new(place, 0.375)).0, across, "{u:?} at u {place}");
+                let down = along(v, Vec2::new(0.375, place)).0;
+                assert_eq!(map.sample(Vec2::new(0.375, place)).0, down, "{v:?} at v {place}");
+            }
+        }
+    }
+}
+
 /// Heights take places rounded to 1/256 of a texel; samples take them as they are.
 #[test]
 fn places_are_rounded_as_samplers_do() {

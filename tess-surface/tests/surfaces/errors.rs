@@ -166,6 +166,12 @@ fn thin_faces_are_told_by_their_angle() {
                 Style::Flat,
             );
             assert_eq!(model.is_err(), is_thin, "size {size}, height {height}: {:?}", model.err());
+            // Whichever corner is the first.
+            let corners = [[0.0; 3], [size, 0.0, 0.0], [size, height * size, 0.0]];
+            for order in [[1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+                let model = Model::polygons(mesh(&corners, &[&order]), Style::Flat);
+                assert_eq!(model.is_err(), is_thin, "size {size}, {order:?}: {:?}", model.err());
+            }
         }
     }
 }

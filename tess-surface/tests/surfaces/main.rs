@@ -9,6 +9,7 @@
 
 mod bends;
 mod cracks;
+mod creases;
 mod culling;
 mod displacement;
 mod edges;

@@ -1,0 +1,62 @@
+//! Hard edges: the normals on both sides are those of their own faces.
+
+use crate::models::{cube, octahedron};
+use glam::Vec3;
+use tess_surface::{Creases, Model, PolygonMesh, Style};
+
+fn normals(mesh: &PolygonMesh, creases: &Creases<'_>) -> Vec<Vec3> {
+    let model = Model::creased(mesh.clone(), Style::PointNormal, creases).expect("a right mesh");
+    let at = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+    (0..model.len()).flat_map(|patch| at.map(|at| model.patch(patch).sample(at).normal)).collect()
+}
+
+fn is_flat(mesh: &PolygonMesh, creases: &Creases<'_>) -> bool {
+    normals(mesh, creases).chunks(3).all(|face| face.iter().all(|normal| *normal == face[0]))
+}
+
+#[test]
+fn angles_decide() {
+    // The normals of a cube's faces are 90 degrees apart, those of an octahedron's 70.5.
+    for (mesh, cosine) in [(cube(), 0.0f32), (octahedron(), 1.0 / 3.0)] {
+        let creases = |least_cosine| Creases { least_cosine, ..Creases::NONE };
+        assert!(is_flat(&mesh, &creases(cosine + 0.01)), "hard at {cosine}");
+        assert!(!is_flat(&mesh, &creases(cosine - 0.01)), "smooth at {cosine}");
+        let hard = Model::creased(mesh.clone(), Style::PointNormal, &creases(cosine + 0.01));
+        assert_eq!(hard.expect("a right mesh").creases().len(), 12, "every edge once");
+        let smooth = Model::polygons(mesh, Style::PointNormal).expect("a right mesh");
+        assert_eq!(smooth.creases(), [], "none without an angle");
+    }
+}
+
+/// Faces around a corner that are not next to each other must not become smooth over its back: the
+/// normals of every second face of an octahedron's corner are closer than 120 degrees.
+#[test]
+fn groups_decide() {
+    let mesh = octahedron();
+    let with = |groups: &[Option<u32>]| is_flat(&mesh, &Creases { groups, ..Creases::NONE });
+    assert!(with(&[Some(0); 8]), "group 0 is flat");
+    assert!(with(&[1, 2, 3, 4, 5, 6, 7, 8].map(Some)), "groups of their own");
+    assert!(!with(&[Some(1); 8]), "one group is smooth");
+    assert!(!with(&[None; 8]), "nothing is said");
+    let angle = Creases { least_cosine: 0.9, groups: &[Some(3); 8] };
+    assert!(!is_flat(&mesh, &angle), "a group is stronger than an angle");
+}
+
+/// A fan of narrow faces around one corner, every edge of which is hard: faces that are not next to
+/// each other point almost the same way, and must still keep their own normals.
+#[test]
+fn narrow_faces_around_a_corner() {
+    let mut positions = vec![[0.0, 0.0, 0.5f32]];
+    let count = 12u16;
+    for k in 0..count {
+        let angle = f32::from(k) * std::f32::consts::TAU / f32::from(count);
+        positions.push([libm::cosf(angle), libm::sinf(angle), 0.0]);
+    }
+    let next = |k: u32| if k == u32::from(count) { 1 } else { k + 1 };
+    let faces: Vec<[u32; 3]> = (1..=u32::from(count)).map(|k| [0, k, next(k)]).collect();
+    let faces: Vec<&[u32]> = faces.iter().map(|face| &face[..]).collect();
+    let mesh = crate::models::mesh(&positions, &faces);
+    assert!(is_flat(&mesh, &Creases { least_cosine: 0.99, ..Creases::NONE }), "by the angle");
+    let groups: Vec<Option<u32>> = (1..=u32::from(count)).map(Some).collect();
+    assert!(is_flat(&mesh, &Creases { groups: &groups, ..Creases::NONE }), "by groups");
+}
