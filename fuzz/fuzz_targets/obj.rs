@@ -1,4 +1,4 @@
 //! The reader of OBJ files.
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|data: &[u8]| tess_fuzz::fail_if(tess_fuzz::mesh::obj::check(data)));
+libfuzzer_sys::fuzz_target!(|data: &[u8]| tess_fuzz::fail_if(tess_fuzz::mesh::obj(data)));

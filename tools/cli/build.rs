@@ -4,12 +4,13 @@ use std::path::Path;
 use std::process::Command;
 
 /// The folders of this repository from which the program is built; `.` is this one.
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 10] = [
     ".",
     "../probe",
     "../../tess-core",
     "../../tess-gpu",
     "../../tess-level",
+    "../../tess-mesh",
     "../../tess-simd",
     "../../tess-surface",
     "../../tess-verify",

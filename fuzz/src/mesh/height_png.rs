@@ -1,29 +1,29 @@
 //! PNG files as heights, compared with another decoder's numbers.
 
-use super::bits;
+use super::naive::{self, bits};
 use lodepng::{ColorType, Decoder, Error, Image};
 use miniz_oxide::inflate::decompress_to_vec_with_limit;
-use std::io::Write;
-use tess_program::fuzzing::{self, Heights};
+use std::io::{Cursor, Write};
+use tess_mesh::height::{self, Heights};
 
 /// The most pixels.
 const MOST: u64 = 1 << 16;
 
 /// Compares one file. Errors: the first difference, or an empty message.
 pub fn check(data: &[u8]) -> Result<(), String> {
-    let read = fuzzing::height_png(data, MOST);
+    let read = height::decode(Cursor::new(data), MOST).map_err(|error| error.to_string());
     let independent = read.as_ref().ok().and_then(|_| naive(data));
     // The decoders decide which files are valid, and this one is stricter.
     if read.is_ok() && independent.is_none() {
         return Ok(());
     }
-    let words = |(width, height, texels): &Heights| {
+    let words = |Heights { width, height, texels }: &Heights| {
         let size = [*width as u32, *height as u32];
         size.into_iter().chain(texels.iter().map(|&texel| bits(texel))).collect()
     };
     // A file of numbers has no places that a user could look at, so the message only names the
     // fault.
-    super::check(read, words, |message| !message.is_empty(), || independent)
+    naive::check(read, words, |message| !message.is_empty(), || independent)
 }
 
 fn naive(data: &[u8]) -> Option<Heights> {
@@ -39,7 +39,7 @@ fn naive(data: &[u8]) -> Option<Heights> {
         let [r, g, b] = [pixel.r, pixel.g, pixel.b].map(value);
         if is_grey { r } else { 0.2126 * r + 0.7152 * g + 0.0722 * b }
     });
-    Some((image.width, image.height, texels.collect()))
+    Some(Heights { width: image.width, height: image.height, texels: texels.collect() })
 }
 
 /// The data after the two bytes of zlib's header; its checksum at the end is ignored.

@@ -18,10 +18,6 @@ mod input;
 mod output;
 mod threads;
 
-#[cfg(feature = "fuzzing")]
-#[doc(hidden)]
-pub use commands::fuzzing;
-
 use campaign::Invocation;
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser};
 use commands::Command;

@@ -12,6 +12,7 @@ const PACKAGES: &[&str] = &[
     "tess-simd",
     "tess-gpu",
     "tess-surface",
+    "tess-mesh",
     "tess-verify",
     "tess-wgpu",
     "tess-capi",

@@ -15,9 +15,6 @@ mod probe;
 mod shaders;
 mod verify;
 
-#[cfg(feature = "fuzzing")]
-pub use mesh::fuzzing;
-
 use crate::campaign::Invocation;
 use crate::failure::{Exit, Failure};
 use clap::Subcommand;

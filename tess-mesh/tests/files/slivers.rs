@@ -1,0 +1,83 @@
+//! Faces without area: whatever the order of their corners, what was closed stays closed.
+
+use crate::edges::CUBE;
+use crate::support::{Triangles, has_note, obj, obj_with, tessellated};
+use tess_mesh::tess_surface::{DisplacedModel, Displacement, FactorRule, HeightMap, Style};
+use tess_mesh::{Job, LoadOptions, Loaded, Weld};
+
+/// The cube, with a corner in the middle of an edge and a face without area there.
+fn box_with_sliver(sliver: &str) -> String {
+    let faces = CUBE.replace("f 5 6 8 7\n", "f 5 9 8\nf 9 6 8\nf 5 8 7\n");
+    let at = faces.find("f ").expect("faces");
+    format!("{}v 0.5 0 1\n{}{sliver}\n", &faces[..at], &faces[at..])
+}
+
+#[test]
+fn closed_stays_closed() {
+    for sliver in ["f 5 6 9", "f 6 9 5", "f 9 5 6"] {
+        let loaded = obj(&box_with_sliver(sliver));
+        has_note(
+            &loaded,
+            "1 face with all corners on one line: left out, as they have no area; their neighbours meet",
+        );
+        let triangles = tessellated(&loaded, 4.0);
+        assert_eq!(triangles.open_edges(), 0, "{sliver}");
+        assert!((triangles.volume() - 1.0).abs() < 1e-5, "{sliver}: {}", triangles.volume());
+    }
+}
+
+/// Displacement moves the corner, so that a gap would be seen.
+#[test]
+fn closed_when_displaced() {
+    let loaded = obj(&box_with_sliver("f 5 6 9"));
+    let map = HeightMap::new(2, 2, vec![0.0, 0.3, 0.6, 0.9]).expect("an image");
+    let displacement = Displacement::new(map, 0.2).expect("heights");
+    let displaced = DisplacedModel::new(&loaded.model, &displacement);
+    let mut triangles = Triangles::default();
+    let rule = FactorRule::Uniform(5.0);
+    let job = Job { displaced: Some(&displaced), ..Job::new(&loaded.model, rule) };
+    job.run(&mut triangles, &mut ()).expect("a sink without faults");
+    assert_eq!(triangles.open_edges(), 0, "closed");
+}
+
+/// Two slivers side by side, which share their longest edge: each gets the other's corner.
+#[test]
+fn slivers_next_to_each_other() {
+    let text = "v 0 0 0\nv 4 0 0\nv 1 0 0\nv 3 0 0\nv 2 2 0\nv 2 -2 0\nv 2 0 1\n\
+        f 1 3 5\nf 3 2 5\nf 2 4 6\nf 4 1 6\nf 1 2 3\nf 1 4 2\n";
+    let flat = LoadOptions { style: Some(Style::Flat), ..LoadOptions::default() };
+    let triangles = tessellated(&obj_with(text, &flat).expect("read"), 3.0);
+    // The outline of the two triangles, each of whose outer edges has three segments.
+    assert_eq!(triangles.open_edges(), 4 * 3, "only the outline is open");
+    assert!((triangles.area() - 8.0).abs() < 1e-5, "{}", triangles.area());
+}
+
+fn needle(order: [usize; 3]) -> Loaded {
+    let [a, b, c] = order;
+    obj(&format!(
+        "v 0 0 0\nv 1000 0 0\nv 1000 0.0001 0\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf 4 5 6\nf {a} {b} {c}\n"
+    ))
+}
+
+/// A triangle is long or is nothing, whichever corner comes first.
+#[test]
+fn needles_in_any_order() {
+    let orders = [[1, 2, 3], [2, 3, 1], [3, 1, 2], [1, 3, 2], [3, 2, 1], [2, 1, 3]];
+    let patches = orders.map(|order| needle(order).model.len());
+    assert_eq!(patches, [1; 6], "left out in every order");
+}
+
+/// Corners that hang on an edge which has neighbours on both sides.
+#[test]
+fn corners_on_edges_with_neighbours() {
+    // Two quads meet at x = 1; a fin stands on their edge, and its foot is in the middle.
+    let text = "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 1 2 1\n\
+        f 1 2 3 4\nf 2 5 6 3\nf 7 3 8\n";
+    has_note(&obj(text), "1 corner on another face's edge");
+    let options = LoadOptions { weld: Weld::UpTo(None), ..LoadOptions::default() };
+    let welded = obj_with(text, &options).expect("read");
+    has_note(&welded, "1 corner on another face's edge: the edge is split there");
+    assert!(welded.model.len() > 3, "the quads are cut");
+    let is_noted = |loaded: &Loaded| loaded.notes.iter().any(|note| note.contains("may open"));
+    assert!(!is_noted(&welded), "{:?}", welded.notes);
+}
