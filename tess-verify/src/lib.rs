@@ -6,6 +6,7 @@ pub mod check;
 mod core_backend;
 pub mod cover;
 pub mod generate;
+pub mod mistakes;
 mod names;
 mod quote;
 pub mod rules;

@@ -3,6 +3,8 @@
 
 mod faults;
 mod mistakes;
+#[path = "../common/numbers.rs"]
+mod numbers;
 mod words;
 
 use tess_core::fixed_point::ONE;

@@ -1,65 +1,18 @@
-//! Mistakes: coordinates that are exchanged, mirrored, moved or rounded, and triangles that turn
-//! the other way.
+//! Mistakes: coordinates that are moved or rounded, and triangles that turn the other way.
 
-use super::places::*;
-use super::*;
+use super::family::Family;
+use super::places::{edge_points, has_primitives, move_all, outer, turn_all};
+use crate::case::Case;
+use tess_core::fixed_point::ONE;
+use tess_core::{Domain, DomainPoint, OutputPrimitive, Tessellation};
 
-pub(super) fn all() -> Vec<Mistake> {
-    [exchanged(), turned(), moved(), rounded()].into_iter().flatten().collect()
+pub(super) fn all() -> Vec<Family> {
+    [turned(), moved(), rounded()].into_iter().flatten().collect()
 }
 
-/// A change of places, in the domains to which it applies.
-type Change = fn(Domain, [u32; 2]) -> Option<[u32; 2]>;
-
-/// The triangles turn as the change turns them, or are turned back.
-fn both_ways(name: &'static str, change: Change) -> Mistake {
-    [false, true].into_iter().fold(Mistake::new(name), |mistake, is_turned| {
-        let label = if is_turned { "turned back" } else { "as it is" };
-        mistake.answers(label, move |case, output| {
-            let domain = case.domain();
-            if change(domain, [0, 0]).is_none() {
-                return;
-            }
-            move_all(output, |place| change(domain, place).unwrap_or(place));
-            if is_turned {
-                turn_all(case, output);
-            }
-        })
-    })
-}
-
-const fn is_triangle(domain: Domain) -> bool {
-    matches!(domain, Domain::Triangle)
-}
-
-fn exchanged() -> Vec<Mistake> {
-    let u_mirrored: Change = |domain, [u, v]| (!is_triangle(domain)).then_some([ONE - u, v]);
-    vec![
-        both_ways("u and v are exchanged", |_, [u, v]| Some([v, u])),
-        both_ways("v and w are exchanged", |domain, [u, v]| {
-            is_triangle(domain).then(|| [u, ONE - u - v])
-        }),
-        both_ways("u and w are exchanged", |domain, [u, v]| {
-            is_triangle(domain).then(|| [ONE - u - v, v])
-        }),
-        both_ways("u, v and w are rotated", |domain, [u, v]| {
-            is_triangle(domain).then(|| [v, ONE - u - v])
-        }),
-        both_ways("u is mirrored", u_mirrored).vulkan_allows(
-            "isoline",
-            "the order of a segment's vertices is implementation-dependent (22.8)",
-        ),
-        both_ways("v is mirrored", |domain, [u, v]| (!is_triangle(domain)).then_some([u, ONE - v])),
-        both_ways("u and v are mirrored", |domain, [u, v]| {
-            (!is_triangle(domain)).then_some([ONE - u, ONE - v])
-        }),
-    ]
-}
-
-fn turned() -> Vec<Mistake> {
-    let all = Mistake::new("all triangles turn the other way, as with the other domain origin")
-        .answers("all", turn_all);
-    let clockwise = Mistake::new("triangles are clockwise whatever the winding").answers(
+fn turned() -> Vec<Family> {
+    let all = Family::new("every triangle turns the other way").answers("all", turn_all);
+    let clockwise = Family::new("triangles are clockwise whatever the winding").answers(
         "clockwise",
         |case, output| {
             if case.config.output == OutputPrimitive::TriangleCcw {
@@ -68,7 +21,7 @@ fn turned() -> Vec<Mistake> {
         },
     );
     let some = [0, 1, 2].into_iter().fold(
-        Mistake::new("one triangle turns the other way"),
+        Family::new("one triangle turns the other way"),
         |mistake, which| {
             mistake.answers(["first", "middle", "last"][which], move |case, output| {
                 let triangles = output.indices.len() / 3;
@@ -80,7 +33,7 @@ fn turned() -> Vec<Mistake> {
         },
     );
     let edge = (0..4).fold(
-        Mistake::new("the points of an edge are numbered from its other end"),
+        Family::new("the points of an edge are numbered from its other end"),
         |mistake, edge| {
             mistake.answers(format!("edge {edge}"), move |case, output| {
                 if case.primitive_size() == 3 && edge < outer(case) {
@@ -98,14 +51,14 @@ fn turned() -> Vec<Mistake> {
 
 /// Moves one point of a patch.
 fn moves(
-    mistake: Mistake,
+    mistake: Family,
     name: &'static str,
-    is_moved: fn(usize) -> bool,
+    is_moved: fn(u64) -> bool,
     which: fn(&Case, &Tessellation) -> Option<usize>,
     by: u32,
-) -> Mistake {
-    mistake.spoils(name, move |cases, i, output| {
-        if let Some(point) = which(&cases[i], output).filter(|_| is_moved(i)) {
+) -> Family {
+    mistake.spoils(name, move |request, output| {
+        if let Some(point) = which(&request.case, output).filter(|_| is_moved(request.number)) {
             let [u, v] = [output.points[point].u.to_bits(), output.points[point].v.to_bits()];
             // The point moves along the edge, so that it stays on it.
             let moved = match [u, v] {
@@ -118,7 +71,7 @@ fn moves(
     })
 }
 
-fn moved() -> Vec<Mistake> {
+fn moved() -> Vec<Family> {
     fn on_edge(case: &Case, output: &Tessellation) -> Option<usize> {
         let is_new = |i: &usize| {
             let [u, v] = [output.points[*i].u.to_bits(), output.points[*i].v.to_bits()];
@@ -142,33 +95,33 @@ fn moved() -> Vec<Mistake> {
         (0..output.points.len()).find(|i| is_isoline && u(i) > 0 && u(i) < ONE)
     }
     let equal = "no sentence says how equal \"equal\" is; see [Tolerance](#the-rules)";
-    let sometimes = |i: usize| i % 7 == 3;
-    let edge = Mistake::new("a vertex of an edge is moved by 1/65536");
+    let sometimes = |number: u64| number % 7 == 3;
+    let edge = Family::new("a vertex of an edge is moved by 1/65536");
     let edge = moves(edge, "always", |_| true, on_edge, 1);
     let edge = moves(edge, "in some patches", sometimes, on_edge, 1);
     let inner = moves(
-        Mistake::new("a vertex inside is moved by 1/65536 in some patches"),
+        Family::new("a vertex inside is moved by 1/65536 in some patches"),
         "sometimes",
         sometimes,
         inside,
         1,
     );
     let inner_always = moves(
-        Mistake::new("a vertex inside is moved by 1/65536 in every patch"),
+        Family::new("a vertex inside is moved by 1/65536 in every patch"),
         "always",
         |_| true,
         inside,
         1,
     );
     let line = moves(
-        Mistake::new("a vertex of an isoline is moved by 1/65536"),
+        Family::new("a vertex of an isoline is moved by 1/65536"),
         "always",
         |_| true,
         on_line,
         1,
     )
     .vulkan_allows("", equal);
-    let far = Mistake::new("a vertex is moved by 1/256");
+    let far = Family::new("a vertex is moved by 1/256");
     let far = moves(far, "on an edge", |_| true, on_edge, 256);
     let far = moves(far, "inside", |_| true, inside, 256);
     let far = moves(far, "on a line", |_| true, on_line, 256);
@@ -176,9 +129,9 @@ fn moved() -> Vec<Mistake> {
 }
 
 /// Coordinates that are rounded to fewer bits.
-fn rounded() -> Vec<Mistake> {
+fn rounded() -> Vec<Family> {
     let to = |name: &'static str, label: &'static str, round: fn(u32) -> u32| {
-        Mistake::new(name).answers(label, move |_, output| {
+        Family::new(name).answers(label, move |_, output| {
             move_all(output, |place| place.map(round));
         })
     };

@@ -2,29 +2,35 @@
 
 #![expect(clippy::float_arithmetic, clippy::float_cmp, reason = "a mistake in binary32")]
 
-use super::places::*;
-use super::*;
+use super::family::Family;
+use super::places::{edge_points, move_all, one, outer, place_along, with_config};
+use crate::case::Case;
+use crate::names::Named;
+use std::collections::BTreeSet;
+use tess_core::fixed_point::ONE;
 use tess_core::place::place;
-use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder};
+use tess_core::{
+    Config, Domain, DomainPoint, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder,
+};
 
-pub(super) fn all() -> Vec<Mistake> {
+pub(super) fn all() -> Vec<Family> {
     vec![whole_patch(), density(), edge(), inside(), split(), split_of_edge()]
 }
 
 const SPACINGS: [Partitioning; 3] =
     [Partitioning::Integer, Partitioning::FractionalOdd, Partitioning::FractionalEven];
 
-fn whole_patch() -> Mistake {
-    SPACINGS.into_iter().fold(Mistake::new("another spacing is used"), |mistake, spacing| {
-        mistake.asks(format!("{spacing:?}"), move |case| {
-            with_config(case, |config| tess_core::Config { partitioning: spacing, ..config })
+fn whole_patch() -> Family {
+    SPACINGS.into_iter().fold(Family::new("another spacing is used"), |mistake, spacing| {
+        mistake.asks(spacing.name(), move |case| {
+            with_config(case, |config| Config { partitioning: spacing, ..config })
         })
     })
 }
 
 /// The number of isolines rounded according to the spacing of their segments.
-fn density() -> Mistake {
-    Mistake::new("the number of isolines follows the spacing").asks("density", |case| {
+fn density() -> Family {
+    Family::new("the number of isolines follows the spacing").asks("density", |case| {
         let odd = case.config.partitioning == Partitioning::FractionalOdd;
         let even = case.config.partitioning == Partitioning::FractionalEven;
         if case.domain() != Domain::Isoline || !(odd || even) {
@@ -51,9 +57,9 @@ fn other_places(case: &Case, n: usize) -> Vec<u32> {
     (0..=number).map(|p| place(&context, p).to_bits()).collect()
 }
 
-fn edge() -> Mistake {
+fn edge() -> Family {
     let name = "an edge is spaced by another mode, with as many segments";
-    (0..4).fold(Mistake::new(name), |mistake, edge| {
+    (0..4).fold(Family::new(name), |mistake, edge| {
         mistake.answers(format!("edge {edge}"), move |case, output| {
             if case.domain() == Domain::Isoline || edge >= outer(case) || output.points.is_empty() {
                 return;
@@ -67,9 +73,9 @@ fn edge() -> Mistake {
 }
 
 /// The columns, rows or rings of the inside, divided by another spacing.
-fn inside() -> Mistake {
+fn inside() -> Family {
     let name = "the inside is spaced by another mode, with as many segments";
-    (0..2).fold(Mistake::new(name), |mistake, axis| {
+    (0..2).fold(Family::new(name), |mistake, axis| {
         mistake.answers(format!("axis {axis}"), move |case, output| {
             if case.domain() != Domain::Quad {
                 return;
@@ -90,10 +96,10 @@ fn inside() -> Mistake {
     })
 }
 
-fn split() -> Mistake {
-    Mistake::new("new vertices are split off from the centre outwards (section 10)")
+fn split() -> Family {
+    Family::new("new vertices are split off from the centre outwards (section 10)")
         .asks("center", |case| {
-            with_config(case, |config| tess_core::Config { split: SplitOrder::Centre, ..config })
+            with_config(case, |config| Config { split: SplitOrder::Centre, ..config })
         })
         .vulkan_allows(
             "",
@@ -103,17 +109,14 @@ fn split() -> Mistake {
 }
 
 /// The shorter segments of one edge at the places of the other split order.
-fn split_of_edge() -> Mistake {
+fn split_of_edge() -> Family {
     let name = "the shorter segments of one edge are at another place";
-    (0..4).fold(Mistake::new(name), |mistake, edge| {
+    (0..4).fold(Family::new(name), |mistake, edge| {
         mistake.answers(format!("edge {edge}"), move |case, output| {
             if case.domain() == Domain::Isoline || edge >= outer(case) || output.points.is_empty() {
                 return;
             }
-            let other = with_config(case, |config| tess_core::Config {
-                split: SplitOrder::Centre,
-                ..config
-            });
+            let other = with_config(case, |config| Config { split: SplitOrder::Centre, ..config });
             let center = other.patch().tessellate();
             let there = edge_points(&other, &center, edge);
             let along = |i: &usize| {

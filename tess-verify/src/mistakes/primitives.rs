@@ -1,9 +1,13 @@
 //! Mistakes: primitives and points that are missing, repeated, wrong or in another order.
 
-use super::places::*;
-use super::*;
+use super::family::Family;
+use super::places::{has_primitives, levels, move_all};
+use crate::case::Case;
+use std::collections::{BTreeMap, BTreeSet};
+use tess_core::fixed_point::ONE;
+use tess_core::{Domain, DomainPoint, OutputPrimitive, Tessellation};
 
-pub(super) fn all() -> Vec<Mistake> {
+pub(super) fn all() -> Vec<Family> {
     [listed(), degenerate(), joined(), ordered(), isolines(), isolines_at_1(), points()]
         .into_iter()
         .flatten()
@@ -11,11 +15,11 @@ pub(super) fn all() -> Vec<Mistake> {
 }
 
 /// The first, middle and last primitive: a variant for each, and for each kind of primitive.
-fn at_places(name: &'static str, spoil: fn(&mut Vec<u32>, std::ops::Range<usize>)) -> Mistake {
+fn at_places(name: &'static str, spoil: fn(&mut Vec<u32>, std::ops::Range<usize>)) -> Family {
     let places = ["first", "middle", "last"];
     let sizes = ["point", "line", "triangle"];
     let both = (0..3).flat_map(|place| (1..=3).map(move |size| (place, size)));
-    both.fold(Mistake::new(name), |mistake, (place, size)| {
+    both.fold(Family::new(name), |mistake, (place, size)| {
         let label = format!("the {} {}", places[place], sizes[size - 1]);
         mistake.answers(label, move |case, output| {
             let count = output.indices.len() / size;
@@ -27,8 +31,8 @@ fn at_places(name: &'static str, spoil: fn(&mut Vec<u32>, std::ops::Range<usize>
     })
 }
 
-fn listed() -> Vec<Mistake> {
-    let names_no_point = Mistake::new("an index names no point").answers("last", |_, output| {
+fn listed() -> Vec<Family> {
+    let names_no_point = Family::new("an index names no point").answers("last", |_, output| {
         if let Some(index) = output.indices.last_mut() {
             *index = u32::try_from(output.points.len()).expect("few points");
         }
@@ -54,8 +58,8 @@ fn doubled_area(places: [[u32; 2]; 3]) -> i64 {
     (bu - au) * (cv - av) - (cu - au) * (bv - av)
 }
 
-fn degenerate() -> Vec<Mistake> {
-    let left_out = Mistake::new("primitives without area or length are left out").answers(
+fn degenerate() -> Vec<Family> {
+    let left_out = Family::new("primitives without area or length are left out").answers(
         "left out",
         |case, output| {
             let size = case.primitive_size();
@@ -71,13 +75,12 @@ fn degenerate() -> Vec<Mistake> {
             output.indices = own.indices.chunks(size).filter(is_whole).flatten().copied().collect();
         },
     );
-    let added =
-        Mistake::new("a triangle without area is added").answers("added", |case, output| {
-            if case.primitive_size() == 3 && !output.indices.is_empty() {
-                let [a, b] = [output.indices[0], output.indices[1]];
-                output.indices.extend([a, b, b]);
-            }
-        });
+    let added = Family::new("a triangle without area is added").answers("added", |case, output| {
+        if case.primitive_size() == 3 && !output.indices.is_empty() {
+            let [a, b] = [output.indices[0], output.indices[1]];
+            output.indices.extend([a, b, b]);
+        }
+    });
     vec![left_out.vulkan_allows("", "a primitive without area covers nothing (22.6, 22.7)"), added]
 }
 
@@ -119,7 +122,7 @@ fn flip(
 }
 
 /// Triangles that join other vertices than the model's.
-fn joined() -> Vec<Mistake> {
+fn joined() -> Vec<Family> {
     let is_on = |[u, v]: [u32; 2], domain: Domain| {
         u == 0
             || v == 0
@@ -129,7 +132,7 @@ fn joined() -> Vec<Mistake> {
             }
     };
     let free = "the triangles are implementation-dependent (22.6, 22.7)";
-    let diagonals = Mistake::new("the diagonals of a quad's cells inside are the other ones")
+    let diagonals = Family::new("the diagonals of a quad's cells inside are the other ones")
         .answers("all", move |case, output| {
             if case.domain() == Domain::Quad {
                 flip(case, output, usize::MAX, |corners| {
@@ -142,7 +145,7 @@ fn joined() -> Vec<Mistake> {
             }
         })
         .vulkan_allows("", free);
-    let by_outer = Mistake::new("diagonals inside depend on an outer level").answers(
+    let by_outer = Family::new("diagonals inside depend on an outer level").answers(
         "all",
         move |case, output| {
             if case.domain() == Domain::Quad && levels(case)[0] > 5.0 {
@@ -152,7 +155,7 @@ fn joined() -> Vec<Mistake> {
             }
         },
     );
-    let transition = Mistake::new("some triangles between outline and inside join other vertices")
+    let transition = Family::new("some triangles between outline and inside join other vertices")
         .answers("first", move |case, output| {
             let domain = case.domain();
             flip(case, output, 1, |corners| {
@@ -161,14 +164,14 @@ fn joined() -> Vec<Mistake> {
                 on == 2
             });
         });
-    let across = Mistake::new("triangles join vertices of the outline that are not neighbours")
+    let across = Family::new("triangles join vertices of the outline that are not neighbours")
         .answers("three", move |case, output| {
             let domain = case.domain();
             flip(case, output, 1, |corners| {
                 corners.iter().filter(|place| is_on(**place, domain)).count() == 3
             });
         });
-    let next = Mistake::new("a triangle has the next point for one of its vertices").answers(
+    let next = Family::new("a triangle has the next point for one of its vertices").answers(
         "first",
         |case, output| {
             if case.primitive_size() == 3 && !output.indices.is_empty() {
@@ -180,16 +183,16 @@ fn joined() -> Vec<Mistake> {
     vec![diagonals, by_outer, transition, across, next]
 }
 
-fn ordered() -> Vec<Mistake> {
+fn ordered() -> Vec<Family> {
     let order = "the order of primitives is implementation-dependent (22.4)";
     let vertices = "the order of a primitive's vertices is implementation-dependent (22.6 to 22.8)";
     let primitives =
-        Mistake::new("primitives have another order").answers("reversed", |case, output| {
+        Family::new("primitives have another order").answers("reversed", |case, output| {
             let size = case.primitive_size();
             let own = output.indices.clone();
             output.indices = own.chunks(size).rev().flatten().copied().collect();
         });
-    let numbers = Mistake::new("points have other numbers").answers("reversed", |case, output| {
+    let numbers = Family::new("points have other numbers").answers("reversed", |case, output| {
         let count = u32::try_from(output.points.len()).expect("few points");
         if has_primitives(case) && count > 0 {
             output.points.reverse();
@@ -197,7 +200,7 @@ fn ordered() -> Vec<Mistake> {
         }
     });
     let leading =
-        Mistake::new("another vertex leads a triangle").answers("second", |case, output| {
+        Family::new("another vertex leads a triangle").answers("second", |case, output| {
             if case.primitive_size() == 3 {
                 output.indices.chunks_mut(3).for_each(|triangle| triangle.rotate_left(1));
             }
@@ -209,16 +212,14 @@ fn ordered() -> Vec<Mistake> {
     ]
 }
 
-fn isolines() -> Vec<Mistake> {
-    let reversed = Mistake::new("segments of isolines lead from 1 to 0").answers(
-        "reversed",
-        |case, output| {
+fn isolines() -> Vec<Family> {
+    let reversed =
+        Family::new("segments of isolines lead from 1 to 0").answers("reversed", |case, output| {
             if case.domain() == Domain::Isoline && case.primitive_size() == 2 {
                 output.indices.chunks_mut(2).for_each(|segment| segment.swap(0, 1));
             }
-        },
-    );
-    let joined = Mistake::new("the end of an isoline is joined with the next one").answers(
+        });
+    let joined = Family::new("the end of an isoline is joined with the next one").answers(
         "joined",
         |case, output| {
             if case.domain() == Domain::Isoline && case.primitive_size() == 2 {
@@ -227,7 +228,7 @@ fn isolines() -> Vec<Mistake> {
             }
         },
     );
-    let short = Mistake::new("the last segment of each isoline is missing").answers(
+    let short = Family::new("the last segment of each isoline is missing").answers(
         "short",
         |case, output| {
             if case.domain() == Domain::Isoline && case.primitive_size() == 2 {
@@ -243,8 +244,8 @@ fn isolines() -> Vec<Mistake> {
 }
 
 /// Isolines at the side that has none.
-fn isolines_at_1() -> Vec<Mistake> {
-    let last = Mistake::new("an isoline is drawn at v = 1, and none at v = 0").answers(
+fn isolines_at_1() -> Vec<Family> {
+    let last = Family::new("an isoline is drawn at v = 1, and none at v = 0").answers(
         "moved",
         |case, output| {
             if case.domain() == Domain::Isoline {
@@ -252,7 +253,7 @@ fn isolines_at_1() -> Vec<Mistake> {
             }
         },
     );
-    let more = Mistake::new("an isoline is drawn at v = 1 too").answers("more", |case, output| {
+    let more = Family::new("an isoline is drawn at v = 1 too").answers("more", |case, output| {
         if case.domain() == Domain::Isoline && case.primitive_size() == 2 {
             let own = output.clone();
             let first = |segment: &&[u32]| place_of(&own, segment[0])[1] == 0;
@@ -270,10 +271,10 @@ fn isolines_at_1() -> Vec<Mistake> {
     vec![last, more]
 }
 
-fn points() -> Vec<Mistake> {
+fn points() -> Vec<Family> {
     let is_points = |case: &Case| case.config.output == OutputPrimitive::Point;
     let corners =
-        Mistake::new("corners are points twice").answers("corners", move |case, output| {
+        Family::new("corners are points twice").answers("corners", move |case, output| {
             if is_points(case) && case.domain() != Domain::Isoline {
                 let own = output.clone();
                 let is_corner = |index: &&u32| {
@@ -283,7 +284,7 @@ fn points() -> Vec<Mistake> {
                 output.indices.extend(own.indices.iter().filter(is_corner));
             }
         });
-    let outline = Mistake::new("only vertices of the outline are points").answers(
+    let outline = Family::new("only vertices of the outline are points").answers(
         "outline",
         move |case, output| {
             if is_points(case) && case.domain() != Domain::Isoline {
@@ -300,7 +301,7 @@ fn points() -> Vec<Mistake> {
         },
     );
     let uses =
-        Mistake::new("each use of a vertex is a point").answers("uses", move |case, output| {
+        Family::new("each use of a vertex is a point").answers("uses", move |case, output| {
             if is_points(case) {
                 let config =
                     tess_core::Config { output: OutputPrimitive::TriangleCw, ..case.config };

@@ -1,7 +1,8 @@
 //! Changes of places, levels and states from which mistakes are made.
 
-use super::*;
-use tess_core::{Config, PatchFactors};
+use crate::case::Case;
+use tess_core::fixed_point::ONE;
+use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, PatchFactors, Tessellation};
 
 /// The levels of a case, outer ones first.
 pub(super) fn levels(case: &Case) -> Vec<f32> {

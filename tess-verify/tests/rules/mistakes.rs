@@ -21,151 +21,24 @@
 //! - OpenGL has Vulkan's rules, which [`opengl_has_the_rules_of_vulkan`] checks, so one column is
 //!   for both.
 
-mod geometry;
-mod levels;
-mod places;
-mod primitives;
-mod rounding;
-mod spacing;
-mod state;
-
 use super::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
-use tess_core::{Domain, OutputPrimitive, Partitioning};
-
-/// The case that a device answers in place of a case in a list.
-type Other = dyn Fn(&[Case], usize) -> Case + Sync;
-/// Changes a correct answer to a case in a list.
-type Spoil = dyn Fn(&[Case], usize, &mut Tessellation) + Sync;
-
-/// How a device answers a case of the list.
-enum Device {
-    /// As if it were asked another case.
-    Asks(Box<Other>),
-    /// With a correct answer that it changes.
-    Spoils(Box<Spoil>),
-}
-
-/// A mistake with its variants.
-struct Mistake {
-    /// Its text in the table.
-    name: &'static str,
-    variants: Vec<Variant>,
-    /// The domains and spacings in which a standard allows it, with the reason.
-    allowed: Vec<Allowed>,
-}
-
-/// A device that makes the mistake.
-struct Variant {
-    name: String,
-    device: Device,
-    /// Whether it needs all domains and spacings in one sequence.
-    is_of_sequence: bool,
-}
-
-/// A sentence by which a standard allows a mistake.
-struct Allowed {
-    standard: Specification,
-    /// Words that must all occur in the name of the domain and spacing; an empty text means
-    /// everywhere.
-    only: &'static str,
-    because: &'static str,
-}
+use tess_verify::mistakes::{Mistake, Request, all, requests};
 
 /// The standards that have a column in the table.
 const STANDARDS: [Specification; 2] = [VULKAN, Specification::D3d11];
 
-impl Mistake {
-    fn new(name: &'static str) -> Self {
-        Self { name, variants: Vec::new(), allowed: Vec::new() }
-    }
-
-    fn with(mut self, name: impl Into<String>, device: Device) -> Self {
-        self.variants.push(Variant { name: name.into(), device, is_of_sequence: false });
-        self
-    }
-
-    /// A device that answers as if it were asked other cases.
-    fn asks(self, name: impl Into<String>, other: impl Fn(&Case) -> Case + Sync + 'static) -> Self {
-        self.with(name, Device::Asks(Box::new(move |cases, i| other(&cases[i]))))
-    }
-
-    /// A device whose answers also depend on the cases before or after.
-    fn remembers(
-        self,
-        name: impl Into<String>,
-        other: impl Fn(&[Case], usize) -> Case + Sync + 'static,
-    ) -> Self {
-        self.with(name, Device::Asks(Box::new(other)))
-    }
-
-    /// A device that changes correct answers.
-    fn answers(
-        self,
-        name: impl Into<String>,
-        spoil: impl Fn(&Case, &mut Tessellation) + Sync + 'static,
-    ) -> Self {
-        self.with(name, Device::Spoils(Box::new(move |cases, i, out| spoil(&cases[i], out))))
-    }
-
-    /// A device that changes answers depending on their number.
-    fn spoils(
-        self,
-        name: impl Into<String>,
-        spoil: impl Fn(&[Case], usize, &mut Tessellation) + Sync + 'static,
-    ) -> Self {
-        self.with(name, Device::Spoils(Box::new(spoil)))
-    }
-
-    /// Plants the variants in the whole sequence of patches only.
-    fn in_sequence(mut self) -> Self {
-        self.variants.iter_mut().for_each(|variant| variant.is_of_sequence = true);
-        self
-    }
-
-    fn is_allowed(&self, standard: Specification, group: &str) -> bool {
-        self.allowed.iter().any(|own| own.standard == standard && own.is_for(group))
-    }
-
-    fn vulkan_allows(self, only: &'static str, because: &'static str) -> Self {
-        self.allows(VULKAN, only, because)
-    }
-
-    fn d3d11_allows(self, only: &'static str, because: &'static str) -> Self {
-        self.allows(Specification::D3d11, only, because)
-    }
-
-    fn allows(
-        mut self,
-        standard: Specification,
-        only: &'static str,
-        because: &'static str,
-    ) -> Self {
-        self.allowed.push(Allowed { standard, only, because });
-        self
-    }
-}
-
-fn all() -> Vec<Mistake> {
-    [
-        levels::all(),
-        rounding::all(),
-        spacing::all(),
-        state::all(),
-        geometry::all(),
-        primitives::all(),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+/// Whether a sentence of a standard allows a mistake in a group.
+fn is_allowed(mistake: &Mistake, standard: Specification, group: &str) -> bool {
+    mistake.allowed().iter().any(|own| own.standard == standard && own.is_for(group))
 }
 
 /// A group of patches, with the model's answers and how often they break each rule.
 struct Group {
     /// Domain and spacing, such as `quad fractional_odd`, or `all` for the whole sequence.
     name: String,
-    cases: Vec<Case>,
+    requests: Vec<Request>,
     answers: Vec<Tessellation>,
     /// For each standard, the judgement of the model's answers to the first patches, as many as
     /// were needed so far.
@@ -176,15 +49,15 @@ impl Group {
     fn new(name: &str, cases: Vec<Case>) -> Self {
         let answers = cases.iter().map(|case| case.patch().tessellate()).collect();
         let model = STANDARDS.map(|standard| Mutex::new((Judge::new(standard), Vec::new())));
-        Self { name: name.to_owned(), cases, answers, model }
+        Self { name: name.to_owned(), requests: requests(cases).collect(), answers, model }
     }
 
-    /// The patches of `tess gen --rules`, grouped by domain and spacing, and a group of all of
-    /// them.
+    /// The patches of `tess gen --rules` and every number of segments, grouped by domain and
+    /// spacing, and a group of all of them.
     fn all() -> Vec<Self> {
         let split = Some(tess_core::SplitOrder::Ruler);
         let selection = Selection { split, ..Selection::level(GenLevel::Rules, 1) };
-        let cases: Vec<Case> = selection.cases().collect();
+        let cases: Vec<Case> = selection.cases().chain(numbers::every_number()).collect();
         let mut groups: BTreeMap<String, Vec<Case>> = BTreeMap::new();
         for case in &cases {
             let name = format!("{} {}", case.domain().name(), case.config.partitioning.name());
@@ -194,45 +67,32 @@ impl Group {
         groups.into_iter().map(|(name, cases)| Self::new(&name, cases)).collect()
     }
 
-    /// The answer of a device, if it differs from the model's.
-    fn other_answer(&self, device: &Device, i: usize) -> Option<Tessellation> {
-        let answer = match device {
-            Device::Asks(other) => {
-                let case = other(&self.cases, i);
-                if case == self.cases[i] {
-                    return None;
-                }
-                case.patch().tessellate()
-            }
-            Device::Spoils(spoil) => {
-                let mut answer = self.answers[i].clone();
-                spoil(&self.cases, i, &mut answer);
-                answer
-            }
-        };
-        (answer != self.answers[i]).then_some(answer)
+    /// The answer of a device with a mistake, if it differs from the model's.
+    fn other_answer(&self, mistake: &Mistake, i: usize) -> Option<Tessellation> {
+        mistake.wrong_answer(&self.requests[i], &self.answers[i])
     }
 
     /// The first patch for which a device's answer differs from the model's.
-    fn first_other(&self, device: &Device) -> Option<usize> {
-        (0..self.cases.len()).find(|&i| self.other_answer(device, i).is_some())
+    fn first_other(&self, mistake: &Mistake) -> Option<usize> {
+        (0..self.requests.len()).find(|&i| self.other_answer(mistake, i).is_some())
     }
 
     /// The rules that a device breaks first and more often than the model does; empty if it breaks
     /// none for `patches`.
     fn first_broken(
         &self,
-        device: &Device,
+        mistake: &Mistake,
         standard: usize,
         patches: std::ops::Range<usize>,
     ) -> BTreeSet<&'static str> {
         let mut judge = Judge::new(STANDARDS[standard]);
         let mut of_part = (patches.start > 0).then(|| Judge::new(STANDARDS[standard]));
         for i in patches {
-            let other = self.other_answer(device, i);
-            let found = judge.add(&self.cases[i], other.as_ref().unwrap_or(&self.answers[i]));
+            let other = self.other_answer(mistake, i);
+            let found =
+                judge.add(&self.requests[i].case, other.as_ref().unwrap_or(&self.answers[i]));
             let model = match &mut of_part {
-                Some(model) => model.add(&self.cases[i], &self.answers[i]),
+                Some(model) => model.add(&self.requests[i].case, &self.answers[i]),
                 None => self.of_model(standard, i),
             };
             let more = found.iter().zip(&model).map(|(own, model)| own > model);
@@ -252,7 +112,7 @@ impl Group {
         let (judge, found) = &mut *model;
         while found.len() <= patch {
             let next = found.len();
-            found.push(judge.add(&self.cases[next], &self.answers[next]));
+            found.push(judge.add(&self.requests[next].case, &self.answers[next]));
         }
         found[patch].clone()
     }
@@ -260,20 +120,20 @@ impl Group {
     /// The rules of a standard that a device breaks first, if any.
     fn judge(
         &self,
-        device: &Device,
+        mistake: &Mistake,
         standard: usize,
         first: usize,
         is_allowed: bool,
     ) -> BTreeSet<&'static str> {
-        let all = self.cases.len();
+        let all = self.requests.len();
         if is_allowed {
-            return self.first_broken(device, standard, first..all.min(first + OF_ALLOWED));
+            return self.first_broken(mistake, standard, first..all.min(first + OF_ALLOWED));
         }
         // The rules are likeliest to compare the first differing answer with the patches just
         // before it.
         let near =
-            self.first_broken(device, standard, first.saturating_sub(NEAR)..all.min(first + NEAR));
-        if near.is_empty() { self.first_broken(device, standard, 0..all) } else { near }
+            self.first_broken(mistake, standard, first.saturating_sub(NEAR)..all.min(first + NEAR));
+        if near.is_empty() { self.first_broken(mistake, standard, 0..all) } else { near }
     }
 }
 
@@ -359,63 +219,60 @@ fn most_frequent(sets: &[&BTreeSet<&'static str>]) -> Option<&'static str> {
     best.map(|(rule, _)| rule)
 }
 
-/// Plants every variant of a mistake and returns the outcome for each standard.
-fn plant(mistake: &Mistake, groups: &[Group]) -> [Outcome; 2] {
+/// Plants every mistake of a family. Returns the outcome for each standard, and the mistakes that no
+/// patch shows.
+fn plant(family: &[Mistake], groups: &[Group]) -> ([Outcome; 2], Vec<String>) {
     let mut outcomes = [Outcome::default(), Outcome::default()];
-    for variant in &mistake.variants {
+    let mut unseen = Vec::new();
+    for mistake in family {
         let mut planted = 0;
-        for group in groups.iter().filter(|group| (group.name == "all") == variant.is_of_sequence) {
-            let Some(first) = group.first_other(&variant.device) else { continue };
+        let of_sequence = mistake.is_of_sequence();
+        for group in groups.iter().filter(|group| (group.name == "all") == of_sequence) {
+            let Some(first) = group.first_other(mistake) else { continue };
             planted += 1;
             for (standard, outcome) in outcomes.iter_mut().enumerate() {
                 if STANDARDS[standard] == VULKAN && group.name.ends_with("pow2") {
                     continue;
                 }
-                let is_allowed = mistake.is_allowed(STANDARDS[standard], &group.name);
-                let rules = group.judge(&variant.device, standard, first, is_allowed);
+                let is_allowed = is_allowed(mistake, STANDARDS[standard], &group.name);
+                let rules = group.judge(mistake, standard, first, is_allowed);
                 if rules.is_empty() {
-                    outcome.held.push((group.name.clone(), variant.name.clone()));
+                    outcome.held.push((group.name.clone(), mistake.words()));
                 } else {
                     outcome.broken.push(rules);
                 }
             }
         }
-        let name = &variant.name;
-        assert!(planted > 0, "{}, {name}: changes no answer", mistake.name);
+        if planted == 0 {
+            unseen.push(format!("{}: no patch shows it", mistake.words()));
+        }
     }
-    outcomes
+    (outcomes, unseen)
 }
 
-impl Allowed {
-    fn is_for(&self, group: &str) -> bool {
-        self.only.split_whitespace().all(|word| group.split(' ').any(|own| own == word))
-    }
-}
-
-/// The table cell of a mistake, and the combinations that pass although no sentence allows them.
+/// The table cell of a family, and the combinations that pass although no sentence allows them.
 fn cell(mistake: &Mistake, standard: Specification, outcome: &Outcome) -> (String, Vec<String>) {
     let allowed: Vec<_> =
-        mistake.allowed.iter().filter(|allowed| allowed.standard == standard).collect();
+        mistake.allowed().iter().filter(|allowed| allowed.standard == standard).collect();
     let is_allowed = |group: &str| allowed.iter().any(|allowed| allowed.is_for(group));
     let held = outcome.held.iter().filter(|(group, _)| !is_allowed(group));
     let mut faults: Vec<String> = held
-        .map(|(group, variant)| {
-            format!("{}: {}, {variant}, {group}: no rule", standard.name(), mistake.name)
-        })
+        .map(|(group, words)| format!("{}: {words}, {group}: no rule", standard.name()))
         .collect();
     let mut parts = Vec::new();
     let rules: Vec<_> = outcome.rules().iter().map(|rule| format!("`{rule}`")).collect();
     parts.extend((!rules.is_empty()).then(|| rules.join(", ")));
-    for Allowed { only, because, .. } in allowed.iter().copied() {
+    for own in &allowed {
+        let (only, because) = (own.only, own.because);
         let is_met = allowed
             .iter()
-            .filter(|own| own.only == *only)
+            .filter(|own| own.only == only)
             .any(|own| outcome.held.iter().any(|(group, _)| own.is_for(group)));
         if !is_met && !outcome.broken.is_empty() {
             faults.push(format!(
                 "{}: {}: broken everywhere, though allowed: {only}",
                 standard.name(),
-                mistake.name
+                mistake.family()
             ));
         }
         let place = if only.is_empty() { String::new() } else { format!(" ({only})") };
@@ -426,14 +283,15 @@ fn cell(mistake: &Mistake, standard: Specification, outcome: &Outcome) -> (Strin
 
 /// The table of docs/rules.md, line by line, and what is wrong with it.
 fn table() -> (Vec<String>, Vec<String>) {
-    let (mistakes, groups) = (all(), Group::all());
-    let found: Mutex<BTreeMap<usize, [Outcome; 2]>> = Mutex::default();
+    let families: Vec<&[Mistake]> = all().chunk_by(|a, b| a.family() == b.family()).collect();
+    let groups = Group::all();
+    let found: Mutex<BTreeMap<usize, ([Outcome; 2], Vec<String>)>> = Mutex::default();
     let next = std::sync::atomic::AtomicUsize::new(0);
     let work = || {
         while let number = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed)
-            && let Some(mistake) = mistakes.get(number)
+            && let Some(family) = families.get(number)
         {
-            let outcomes = plant(mistake, &groups);
+            let outcomes = plant(family, &groups);
             found.lock().expect("no panic").insert(number, outcomes);
         }
     };
@@ -443,14 +301,15 @@ fn table() -> (Vec<String>, Vec<String>) {
     });
     let mut lines = Vec::new();
     let mut faults = Vec::new();
-    for (number, outcomes) in found.into_inner().expect("no panic") {
-        let mistake = &mistakes[number];
+    for (number, (outcomes, unseen)) in found.into_inner().expect("no panic") {
+        faults.extend(unseen);
+        let mistake = &families[number][0];
         let cells = STANDARDS.iter().zip(&outcomes).map(|(standard, outcome)| {
             let (text, wrong) = cell(mistake, *standard, outcome);
             faults.extend(wrong);
             text
         });
-        lines.push(format!("| {} | {} |", mistake.name, cells.collect::<Vec<_>>().join(" | ")));
+        lines.push(format!("| {} | {} |", mistake.family(), cells.collect::<Vec<_>>().join(" | ")));
     }
     (lines, faults)
 }
@@ -461,7 +320,7 @@ fn table() -> (Vec<String>, Vec<String>) {
 #[ignore = "slow: every mistake under every rule"]
 fn mistakes_are_broken_or_allowed() {
     let (lines, faults) = table();
-    let page = include_str!("../../../../docs/rules.md");
+    let page = include_str!("../../../docs/rules.md");
     let (_, section) = page.split_once("\n## Mistakes\n").expect("the section of the table");
     let documented: Vec<_> = section
         .lines()
