@@ -6,7 +6,9 @@ mod compare;
 mod consistency;
 mod device;
 mod exhaustive;
+mod explainer;
 mod findings;
+mod freedoms;
 mod known;
 mod patches;
 mod report;
@@ -15,20 +17,21 @@ mod sequences;
 mod stages;
 mod strength;
 mod verify;
-mod ways;
 mod workers;
 
 pub use asked::Asked;
 pub use compare::{Element, Mismatch, SpecStage};
+pub use explainer::{Explainer, Explanation};
+pub use freedoms::Freedoms;
 pub use known::{Known, KnownOutcome};
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, MismatchGroup, Report};
 pub use second::SecondFormulation;
 pub use strength::{Conversion, Denormals, Elements, ListOrder, Strength, flushed, vertices};
 pub use verify::{Subject, SubjectRow, verify};
-pub use ways::Way;
 
 use crate::backend::{Answers, Backend, BackendError, tessellate};
 use crate::case::Case;
+use crate::mistakes::{Request, Sequence};
 use crate::vectors::{CsvRow, Header, Kind, Record, Values, VectorError, VectorFile};
 use asked::Expected;
 use findings::{Findings, Found};
@@ -113,12 +116,21 @@ pub fn check_asked<R: BufRead + Send>(
     }
     let how = How { header, tested };
     let expected = asked.map(|asked| Expected::new(asked, known));
-    let source = Source { file, expected, taken: 0, last: None, stopped: false, malformed: None };
+    let source = Source {
+        file,
+        expected,
+        taken: 0,
+        last: None,
+        ahead: None,
+        sequence: Sequence::default(),
+        stopped: false,
+        malformed: None,
+    };
     let source = Mutex::new(source);
     let run = |backend: &mut Box<dyn Backend>| {
         let result = run(&how, &source, known, backend.as_mut(), checked);
         if result.is_err() {
-            lock(&source).stopped = true;
+            lock(&source).stop();
         }
         result
     };
@@ -151,8 +163,14 @@ pub fn check_device(
     strength: Strength,
 ) -> Report {
     let mut findings = Findings::default();
-    for (number, (case, answer)) in (1..).zip(answers) {
-        findings.add(number, None, device::check(&case, &answer, strength), Default::default);
+    let mut answers = answers.into_iter().peekable();
+    let mut sequence = Sequence::default();
+    for number in 1.. {
+        let Some((case, answer)) = answers.next() else { break };
+        let request = sequence.next(case, answers.peek().map(|(case, _)| *case));
+        let found = device::check(&case, &answer, strength);
+        findings.explain(&request, &answer, strength, &found);
+        findings.add(number, None, found, Default::default);
     }
     findings.report()
 }
@@ -186,10 +204,16 @@ struct Source<'a, R> {
     taken: u64,
     /// The case of the record taken last.
     last: Option<Case>,
+    /// The next record, which is read one ahead: a device's mistake may depend on it.
+    ahead: Option<Answered>,
+    sequence: Sequence,
     /// Set when no more records may be taken: a backend failed, or the next record is malformed.
     stopped: bool,
     malformed: Option<VectorError>,
 }
+
+/// A record, and how its case differs from the one asked.
+type Answered = (Record, Option<Mismatch>);
 
 /// Records that one worker checks together.
 #[derive(Default)]
@@ -200,35 +224,49 @@ struct Work {
     /// For each record, its fault if it answers a case other than the one asked.
     astray: Vec<Option<Mismatch>>,
     records: Vec<Record>,
+    /// For each record of a case, what was asked.
+    requests: Vec<Option<Request>>,
 }
 
 impl<R: BufRead> Source<'_, R> {
     fn next_unit(&mut self, how: &How) -> Option<Work> {
         let mut unit = Work { first: self.taken + 1, before: self.last, ..Work::default() };
-        while !self.stopped && unit.records.len() < unit_size(how.header.kind) {
-            match self.next_record(how.tested) {
-                Ok(Some((record, astray))) => {
-                    unit.astray.push(astray);
-                    unit.records.push(record);
-                }
-                Ok(None) => break,
-                Err(error) => (self.stopped, self.malformed) = (true, Some(error)),
-            }
+        while unit.records.len() < unit_size(how.header.kind) {
+            let Some((record, astray)) = self.ahead.take().or_else(|| self.read(how.tested)) else {
+                break;
+            };
+            self.ahead = self.read(how.tested);
+            (self.taken, self.last) = (self.taken + 1, record.case());
+            let after = self.ahead.as_ref().and_then(|(record, _)| record.case());
+            unit.requests.push(record.case().map(|case| self.sequence.next(case, after)));
+            unit.astray.push(astray);
+            unit.records.push(record);
         }
         (!unit.records.is_empty()).then_some(unit)
     }
 
-    /// The next record, and how its case differs from the one asked.
-    fn next_record(
-        &mut self,
-        tested: Tested,
-    ) -> Result<Option<(Record, Option<Mismatch>)>, VectorError> {
+    /// Reads a record, until one is malformed or no more may be taken.
+    fn read(&mut self, tested: Tested) -> Option<Answered> {
+        if self.stopped {
+            return None;
+        }
+        let next = self.next_record(tested);
+        next.unwrap_or_else(|error| {
+            (self.stopped, self.malformed) = (true, Some(error));
+            None
+        })
+    }
+
+    fn stop(&mut self) {
+        (self.stopped, self.ahead) = (true, None);
+    }
+
+    fn next_record(&mut self, tested: Tested) -> Result<Option<Answered>, VectorError> {
         let next = match &mut self.expected {
             Some(expected) => expected.answer(&mut self.file)?,
             None => self.file.next().transpose()?.map(|record| (record, None)),
         };
         let Some((record, astray)) = next else { return Ok(None) };
-        (self.taken, self.last) = (self.taken + 1, record.case());
         if let (Record::Coordinates(_), Tested::Listings(strength)) = (&record, tested)
             && strength.elements == Elements::Points
             && strength.order != ListOrder::Any
@@ -277,7 +315,9 @@ fn run<R: BufRead>(
     let mut findings = Findings::default();
     loop {
         let unit = lock(source).next_unit(how);
-        let Some(Work { first, before, astray, records }) = unit else { return Ok(findings) };
+        let Some(Work { first, before, astray, records, requests }) = unit else {
+            return Ok(findings);
+        };
         let found = check_unit(how, backend, &records)?;
         let found: Vec<Found> = found
             .into_iter()
@@ -285,10 +325,14 @@ fn run<R: BufRead>(
             .map(|(found, record)| found.unless_known(record.case(), known))
             .collect();
         let different: Vec<bool> = found.iter().map(Found::is_different).collect();
-        let answers = (first..).zip(&records).zip(astray.into_iter().zip(found));
-        for ((number, record), (astray, found)) in answers {
+        let asked = requests.iter().zip(astray);
+        let answers = (first..).zip(&records).zip(asked.zip(found));
+        for ((number, record), ((request, astray), found)) in answers {
             let (line, is_astray) = (Some(record.line()), astray.is_some());
             let found = astray.map_or(found, |mismatch| Found::new(Some(mismatch), None));
+            if let (Some(request), Tested::Listings(strength)) = (request, how.tested) {
+                findings.explain_record(request, record, strength, &found);
+            }
             // A record that answers another case is not written out to be run again: only its case
             // is wrong.
             let again = || {

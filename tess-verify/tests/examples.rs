@@ -22,13 +22,17 @@ fn a_capture_is_judged() {
 
 #[test]
 fn an_explanation_is_given() {
-    let turned = CAPTURE.replacen("triangle_ccw", "triangle_cw", 1);
-    assert_ne!(turned, CAPTURE, "the quad turns the other way");
+    let quad = CAPTURE.replacen("triangle_ccw", "triangle_cw", 1);
+    let turned = quad.replacen("tri integer triangle_cw", "tri integer triangle_ccw", 1);
+    assert!(quad != CAPTURE && turned != quad, "both surfaces turn the other way");
     let shown = device::judge(&turned).expect("a capture").to_string();
     assert!(
         shown.contains("explained, not allowed: every triangle turns the other way"),
         "{shown}"
     );
+    // If only the quad turns, the triangle refutes it.
+    let shown = device::judge(&quad).expect("a capture").to_string();
+    assert!(!shown.contains("every triangle turns"), "{shown}");
 }
 
 #[test]

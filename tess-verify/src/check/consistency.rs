@@ -3,7 +3,6 @@
 //! Some values have two legal fixed-point numbers within 0.6 units in the last place. A device may
 //! choose either one, but must always choose the same, because neighbouring patches meet only then.
 
-use super::report::Explained;
 use super::{Difference, Report};
 use crate::case::Case;
 use crate::check::compare::{Element, Mismatch, SpecStage};
@@ -29,7 +28,6 @@ pub(super) fn conflicts(mut uses: Vec<Use>) -> Report {
     for used in uses {
         if let Some(mismatch) = conflict(&used, &mut known) {
             let Use { number, line, case, .. } = used;
-            report.explain(Explained::default());
             report.differ(Difference::new(number, line, mismatch, Some(case)));
         }
     }

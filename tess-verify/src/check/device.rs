@@ -1,13 +1,11 @@
 //! Observations of a device under test, compared with the model.
 
 use super::Found;
-use super::report::Explained;
 use crate::case::Case;
 use crate::check::compare::{self, Element, Mismatch, SpecStage};
 use crate::check::strength::{
     Alternatives, Difference, Elements, ListOrder, Strength, first_difference, first_stray,
 };
-use crate::check::ways::Way;
 use crate::generate::from_fixed;
 use crate::vectors::Coordinates;
 use tess_core::{Config, PatchFactors, SplitOrder, Tessellation};
@@ -18,23 +16,26 @@ pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) ->
         Some(conversions) if conversions.values.is_empty() => Found::Equal,
         Some(conversions) => Found::Converted(*case, conversions),
         None => match first_mismatch(case, observed, strength) {
-            Some(mismatch) => {
-                Found::Explained(mismatch, *case, explained(case, observed, strength))
-            }
+            Some(mismatch) => Found::Device(mismatch, *case),
             None => Found::Equal,
         },
     }
 }
 
-/// Judges a device's output by coordinates. It has no vertex numbers, so the strictest order is the
-/// model's sequence. Third coordinates are compared at every strength.
-pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -> Found {
+/// The strength at which outputs by coordinates are judged. They have no vertex numbers, so the
+/// strictest order is the model's sequence.
+pub(super) const fn strength_of_coordinates(strength: Strength) -> Strength {
     let order = match strength.order {
         ListOrder::Exact => ListOrder::Sequence,
         order => order,
     };
+    Strength { order, ..strength }
+}
+
+/// Judges a device's output by coordinates. Third coordinates are compared at every strength.
+pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -> Found {
     let (case, output) = (&coordinates.case, coordinates.output());
-    match (check(case, &output, Strength { order, ..strength }), coordinates.wrong_third()) {
+    match (check(case, &output, strength_of_coordinates(strength)), coordinates.wrong_third()) {
         (Found::Equal | Found::Converted(..), Some((vertex, observed, expected))) => {
             let size = case.primitive_size();
             let element = Element::Third { primitive: vertex / size, position: vertex % size };
@@ -43,11 +44,6 @@ pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -
         }
         (found, _) => found,
     }
-}
-
-/// What explains an output: freedoms that were not granted, and systematic mistakes.
-fn explained(case: &Case, observed: &Tessellation, strength: Strength) -> Explained {
-    Way::ALL.map(|way| way.explains(case, observed, strength, 64))
 }
 
 /// The first difference from the nearest legal output.

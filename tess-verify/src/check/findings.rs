@@ -1,14 +1,16 @@
 //! Findings, record by record, and their sum.
 
 use super::consistency::{Use, conflicts};
-use super::report::Explained;
-use super::{Difference, Report};
+use super::{Difference, Explainer, Report, device};
 use crate::case::Case;
 use crate::check::Known;
 use crate::check::compare::{Element, Mismatch};
 use crate::check::known::MISSING;
-use crate::check::strength::Conversions;
+use crate::check::strength::{Conversions, Strength};
+use crate::mistakes::Request;
+use crate::vectors::Record;
 use std::fmt::Display;
+use tess_core::Tessellation;
 
 /// The finding for one record.
 pub(super) enum Found {
@@ -18,8 +20,8 @@ pub(super) enum Found {
     Converted(Case, Conversions),
     /// It is wrong: the fault, and the patch that shows it, if there is one.
     Different(Mismatch, Option<Case>),
-    /// A device's output for a case is wrong: the fault, and what explains it.
-    Explained(Mismatch, Case, Explained),
+    /// A device's output for a case is wrong. A mistake of the device may explain that.
+    Device(Mismatch, Case),
     /// It is wrong, and the difference is known.
     Known,
 }
@@ -27,14 +29,14 @@ pub(super) enum Found {
 impl Found {
     /// Whether the record is wrong by itself.
     pub(super) const fn is_different(&self) -> bool {
-        matches!(self, Self::Different(..) | Self::Explained(..))
+        matches!(self, Self::Different(..) | Self::Device(..))
     }
 
     /// This finding, unless it is a difference that is known for this case.
     pub(super) fn unless_known(self, case: Option<Case>, known: &Known) -> Self {
         let difference: Option<&dyn Display> = match &self {
             Self::Different(mismatch, _) if mismatch.element == Element::Record => Some(&MISSING),
-            Self::Different(mismatch, _) | Self::Explained(mismatch, ..) => Some(mismatch),
+            Self::Different(mismatch, _) | Self::Device(mismatch, _) => Some(mismatch),
             _ => None,
         };
         let is_known = case.is_some_and(|case| known.excuses(&case, difference));
@@ -51,6 +53,7 @@ impl Found {
 pub(super) struct Findings {
     report: Report,
     uses: Vec<Use>,
+    explainer: Explainer,
 }
 
 impl Findings {
@@ -71,11 +74,46 @@ impl Findings {
                 self.uses.push(Use { number, line, case, conversions });
             }
             Found::Different(mismatch, case) => {
-                self.differ((number, line), mismatch, case, Explained::default(), again);
+                self.explainer.unexplained();
+                self.differ((number, line), mismatch, case, again);
             }
-            Found::Explained(mismatch, case, explained) => {
-                self.differ((number, line), mismatch, Some(case), explained, again);
+            Found::Device(mismatch, case) => {
+                self.differ((number, line), mismatch, Some(case), again);
             }
+        }
+    }
+
+    /// Tells the explainer of a finding: a device's output, compared at a strength.
+    pub(super) fn explain(
+        &mut self,
+        request: &Request,
+        output: &Tessellation,
+        strength: Strength,
+        found: &Found,
+    ) {
+        let explainer = &mut self.explainer;
+        match found {
+            Found::Equal | Found::Converted(..) => explainer.right(request, strength),
+            Found::Device(..) => explainer.different(request, output, strength),
+            Found::Known | Found::Different(..) => explainer.skip(request, strength),
+        }
+    }
+
+    /// The same for a record of a file.
+    pub(super) fn explain_record(
+        &mut self,
+        request: &Request,
+        record: &Record,
+        strength: Strength,
+        found: &Found,
+    ) {
+        match record {
+            Record::Listing(listing) => self.explain(request, &listing.output, strength, found),
+            Record::Coordinates(coordinates) => {
+                let strength = device::strength_of_coordinates(strength);
+                self.explain(request, &coordinates.output(), strength, found);
+            }
+            Record::Row(_) => {}
         }
     }
 
@@ -84,10 +122,8 @@ impl Findings {
         (number, line): (u64, Option<u64>),
         mismatch: Mismatch,
         case: Option<Case>,
-        explained: Explained,
         again: impl FnOnce() -> (Option<String>, bool),
     ) {
-        self.report.explain(explained);
         let found = Difference::new(number, line, mismatch, case);
         let (file, passes_alone) = if self.report.shows(&found) { again() } else { (None, false) };
         self.report.differ(Difference { file, passes_alone, ..found });
@@ -97,11 +133,17 @@ impl Findings {
     pub(super) fn join(&mut self, mut other: Self) {
         self.report.add(other.report);
         self.uses.append(&mut other.uses);
+        self.explainer.join(other.explainer);
     }
 
     /// The report, once everything has been added.
     pub(super) fn report(mut self) -> Report {
-        self.report.add(conflicts(self.uses));
+        let conflicts = conflicts(self.uses);
+        if conflicts.mismatches > 0 {
+            self.explainer.unexplained();
+        }
+        self.report.add(conflicts);
+        self.report.explanations = self.explainer.explanations();
         self.report
     }
 }

@@ -7,7 +7,8 @@ pub use group::MismatchGroup;
 use crate::backend::BackendError;
 use crate::case::Case;
 use crate::check::compare::{Element, Mismatch};
-use crate::check::ways::Way;
+use crate::check::explainer::Explanation;
+use crate::check::freedoms::Freedoms;
 use crate::names::Named;
 use crate::vectors::{Header, Kind, Record, VectorError};
 use group::Groups;
@@ -30,20 +31,25 @@ pub struct Report {
     pub differences: Vec<Difference>,
     groups: Groups,
     numbers: Numbers,
-    /// The explanations common to all differences so far; `None` if there are no differences.
-    explained: Option<Explained>,
+    /// The explanations of a device that each account for every difference and that no right record
+    /// refutes: freedoms that were not granted, or else mistakes, the shortest first.
+    pub explanations: Vec<Explanation>,
 }
 
-/// For each of [`Way::ALL`], whether it explains the output.
-pub(super) type Explained = [bool; Way::ALL.len()];
-
 impl Report {
-    /// The explanations that each account for every difference: first the freedoms that were not
-    /// granted ([`Way::options`] has the options that grant them), then systematic mistakes.
+    /// The freedoms that would make every difference count as equal, if they were granted.
     #[must_use]
-    pub fn ways(&self) -> Vec<Way> {
-        let all = Way::ALL.into_iter().zip(self.explained.into_iter().flatten());
-        all.filter(|(_, explains)| *explains).map(|(way, _)| way).collect()
+    pub fn freedoms(&self) -> Option<Freedoms> {
+        self.explanations.iter().find_map(|explanation| match explanation {
+            Explanation::Freedoms(freedoms) => Some(*freedoms),
+            Explanation::Mistake(..) => None,
+        })
+    }
+
+    /// The shortest mistake that explains every difference, unless freedoms do.
+    #[must_use]
+    pub fn mistake(&self) -> Option<&Explanation> {
+        self.explanations.iter().find(|explanation| !explanation.is_allowed())
     }
 
     /// The differences by stage and configuration; the group with the smallest case comes first.
@@ -59,12 +65,6 @@ impl Report {
     pub const fn period(&self) -> Option<u64> {
         let Numbers { gap, .. } = self.numbers;
         if self.mismatches >= 3 && gap >= 8 { Some(gap) } else { None }
-    }
-
-    /// Adds the explanations of a difference.
-    pub(super) fn explain(&mut self, explained: Explained) {
-        let before = self.explained.unwrap_or([true; Way::ALL.len()]);
-        self.explained = Some(std::array::from_fn(|i| before[i] && explained[i]));
     }
 
     /// Whether a difference is shown in full: it is one of the first, or the smallest of its group.
@@ -84,9 +84,6 @@ impl Report {
 
     /// Adds another worker's findings.
     pub(super) fn add(&mut self, other: Self) {
-        if let Some(explained) = other.explained {
-            self.explain(explained);
-        }
         self.cases += other.cases;
         self.mismatches += other.mismatches;
         if other.mismatches > 0 {

@@ -2,7 +2,7 @@
 //!
 //! The model is exact, but the public specification leaves hardware some freedom. [`Strength`]
 //! selects which freedoms count as equal. `check::device` compares each answer of a device at a
-//! strength, and [`super::Way`] tries weaker ones to explain a difference.
+//! strength, and [`super::Explainer`] tries weaker ones to explain a difference.
 //!
 //! ```text
 //!  case ──► Alternatives ──► cases with each legal conversion ──► model ──► expected outputs

@@ -8,7 +8,8 @@ use crate::verdict::{PatchVerdict, any_order, third_is_right, verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use tess_core::Tessellation;
-use tess_verify::check::{Known, Strength, Way, check_device};
+use tess_verify::check::{Explainer, Explanation, Freedoms, Known, Strength, check_device};
+use tess_verify::mistakes::{Request, Sequence};
 use tess_verify::vectors::fixed;
 use tess_verify::{Case, Named};
 
@@ -21,8 +22,12 @@ pub struct Judge {
     /// The cases that are known to differ.
     known: Arc<Known>,
     rows: Vec<(ProbeRow, Digests)>,
-    /// The patches that are not the model's in any order, by their explanation.
-    ways: [u64; Way::ALL.len()],
+    /// How many patches that are not the model's in any order each combination of freedoms
+    /// explains.
+    freedoms: Vec<(Freedoms, u64)>,
+    /// Finds the mistake that explains all of these patches.
+    explainer: Explainer,
+    sequence: Sequence,
     /// The other observations so far.
     report: ProbeReport,
 }
@@ -41,7 +46,9 @@ impl Judge {
             strength: Strength { elements, ..strength },
             known: Arc::default(),
             rows: Vec::new(),
-            ways: [0; Way::ALL.len()],
+            freedoms: Freedoms::combinations().into_iter().map(|own| (own, 0)).collect(),
+            explainer: Explainer::new(info.max_level),
+            sequence: Sequence::default(),
             report: ProbeReport {
                 device: info.clone(),
                 method: name,
@@ -89,8 +96,11 @@ impl Judge {
         }
         let in_any_order =
             matches!(verdict, PatchVerdict::Sequence | PatchVerdict::Leading | PatchVerdict::Order);
-        if !in_any_order || !third {
-            self.explain(case, captured, observed.as_ref(), third);
+        let request = self.sequence.next(*case, None);
+        if in_any_order && third {
+            self.explainer.right(&request, any_order(self.method));
+        } else {
+            self.explain(&request, captured, observed.as_ref().filter(|_| third));
         }
     }
 
@@ -102,29 +112,30 @@ impl Judge {
         self.report.first_different.get_or_insert(found);
     }
 
-    fn explain(
-        &mut self,
-        case: &Case,
-        captured: &Captured,
-        observed: Option<&Tessellation>,
-        third: bool,
-    ) {
+    /// Explains an odd patch. `observed` is `None` if it has coordinates that nothing explains.
+    fn explain(&mut self, request: &Request, captured: &Captured, observed: Option<&Tessellation>) {
         self.report.odd += 1;
         let (order, max_level) = (any_order(self.method), self.report.device.max_level);
-        let explains =
-            |way: Way| third && observed.is_some_and(|o| way.explains(case, o, order, max_level));
-        let mut explained = Way::ALL.map(explains);
-        // The combination of both freedoms counts only if neither one is enough.
-        explained[2] &= !explained[0] && !explained[1];
-        for (count, explained) in self.ways.iter_mut().zip(explained) {
-            *count += u64::from(explained);
+        match observed {
+            Some(observed) => self.explainer.different(request, observed, order),
+            None => self.explainer.unexplained(),
         }
-        let allowed = Way::ALL.into_iter().zip(explained).any(|(way, yes)| yes && way.is_allowed());
-        if !allowed {
+        let case = &request.case;
+        let mut explaining: Vec<Freedoms> = Vec::new();
+        for (freedoms, patches) in &mut self.freedoms {
+            // A combination counts only if no part of it is enough.
+            let is_needed = !explaining.iter().any(|part| part.are_part_of(*freedoms));
+            if is_needed && observed.is_some_and(|o| freedoms.explain(case, o, order, max_level)) {
+                explaining.push(*freedoms);
+                *patches += 1;
+            }
+        }
+        if explaining.is_empty() {
             self.report.unexplained.patches += 1;
             if self.report.unexplained.first.is_none() {
+                let observed = captured.output();
                 self.report.unexplained.first =
-                    Some(self.describe(order, case, captured, observed));
+                    Some(self.describe(order, case, captured, observed.as_ref()));
             }
         }
     }
@@ -173,19 +184,26 @@ impl Judge {
     /// The report on all patches.
     #[must_use]
     pub fn finish(self) -> ProbeReport {
-        let explanations = Way::ALL.into_iter().zip(self.ways).filter(|&(_, patches)| patches > 0);
-        let explanation = |(way, patches): (Way, u64)| ExplainedBy {
-            way,
-            words: way.words(),
-            is_allowed: way.is_allowed(),
+        let odd = self.report.odd;
+        let explained_by = |own: &Explanation, patches: u64| ExplainedBy {
+            way: own.name(),
+            words: own.words(),
+            is_allowed: own.is_allowed(),
             patches,
-            is_all: patches == self.report.odd,
+            is_all: patches == odd,
         };
+        let freedoms = self.freedoms.into_iter().filter(|(_, patches)| *patches > 0);
+        let mut explanations: Vec<ExplainedBy> = freedoms
+            .map(|(freedoms, patches)| explained_by(&Explanation::Freedoms(freedoms), patches))
+            .collect();
+        let mistakes = self.explainer.explanations();
+        let mistake = mistakes.iter().find(|own| !own.is_allowed());
+        explanations.extend(mistake.map(|own| explained_by(own, odd)));
         let mut rows: Vec<ProbeRow> = self.rows.into_iter().map(|(row, d)| row.with(&d)).collect();
         rows.sort_by(|a, b| a.names().cmp(&b.names()));
         ProbeReport {
             patches: rows.iter().map(|row| row.patches).sum(),
-            explanations: explanations.map(explanation).collect(),
+            explanations,
             rows,
             ..self.report
         }

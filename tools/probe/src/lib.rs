@@ -27,5 +27,5 @@ pub use judge::Judge;
 pub use probe::{probe, probe_known};
 pub use report::{ExplainedBy, First, ProbeReport, ProbeRow, Unexplained};
 pub use rules::rules;
-pub use tess_verify::check::Way;
+pub use tess_verify::check::Explanation;
 pub use vulkan::{Spirv, list};

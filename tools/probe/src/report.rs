@@ -8,7 +8,6 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 use tess_verify::Case;
-use tess_verify::check::Way;
 
 /// The result of a probe.
 #[derive(Clone, Debug, Serialize)]
@@ -32,7 +31,7 @@ pub struct ProbeReport {
     pub passes_alone: bool,
     /// The number of odd patches: those that are not the model's in any order.
     pub odd: u64,
-    /// The ways that explain some of the odd patches.
+    /// The freedoms that explain some of the odd patches, and the mistakes that explain all of them.
     pub explanations: Vec<ExplainedBy>,
     /// The odd patches that no freedom of the specification explains.
     pub unexplained: Unexplained,
@@ -44,10 +43,10 @@ pub struct ProbeReport {
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct ExplainedBy {
-    /// The way.
-    pub way: Way,
+    /// The name of the freedoms, or the family of the mistake.
+    pub way: String,
     /// The device's behaviour.
-    pub words: &'static str,
+    pub words: String,
     /// Whether the specification leaves this to a device.
     pub is_allowed: bool,
     /// The number of odd patches that it explains.
@@ -208,7 +207,7 @@ impl ProbeReport {
         for one in &self.explanations {
             let all = if one.is_all { "all" } else { "some" };
             let allowed = if one.is_allowed { "allowed" } else { "not allowed" };
-            let (count, words) = (one.patches, one.words);
+            let (count, words) = (one.patches, &one.words);
             writeln!(f, "explains {all} ({count}), {allowed}: {words}")?;
         }
         if let Some(first) = &unexplained.first {

@@ -125,7 +125,17 @@ pub fn flushed(case: &Case) -> Option<Case> {
 impl Strength {
     /// The conversions of the case's factors that explain an output; `None` if none does.
     pub(crate) fn explain(self, case: &Case, observed: &Tessellation) -> Option<Conversions> {
-        let equals = |case: &Case| self.equal(case, observed, &case.patch().tessellate());
+        self.explain_as(case, observed, |case| case.patch().tessellate())
+    }
+
+    /// The same for a device whose outputs are not the model's but those of `answer`.
+    pub(crate) fn explain_as(
+        self,
+        case: &Case,
+        observed: &Tessellation,
+        answer: impl Fn(&Case) -> Tessellation,
+    ) -> Option<Conversions> {
+        let equals = |case: &Case| self.equal(case, observed, &answer(case));
         let alternatives = Alternatives::new(case, self.conversion);
         let explaining =
             alternatives.choices().filter(|&choice| equals(&alternatives.case(choice)));

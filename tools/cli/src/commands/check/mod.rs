@@ -42,7 +42,7 @@ With --cases, the file must answer those cases, one for one and in their order. 
 
 A file may be one shard of a campaign (docs/campaigns.md). Its number comes from --shard, from the batch system, or from the note shard=I/N in the first line of --cases or FILE; they may not contradict each other.
 
-If one mistake explains every difference (such as u and v exchanged, or factors rounded to binary16), a line names it, and only the first difference is shown. If a freedom that was not granted explains them (--order any, --denormals flush, --conversion 0.6ulp), a line names its option. More than 20 differences are counted in a table by stage and configuration, with the smallest case of each.
+If one mistake explains every difference (such as u and v exchanged, or levels rounded to binary16) and no right record refutes it, a line names it, and only the first difference is shown. The line ends with the conditions under which the mistake shows, such as a domain, if there are some; of several mistakes the shortest is named (docs/rules.md, Mistakes). If a freedom that was not granted explains them (--order any, --denormals flush, --conversion 0.6ulp), a line names its option. More than 20 differences are counted in a table by stage and configuration, with the smallest case of each.
 
 With --rules, listings are judged by the demands of a standard, without the model: each rule with its section, how many patches it judged and how many broke it, and the smallest patches that break it. --cases and --known apply too. `tess gen --rules` makes patches that exercise every rule (docs/rules.md). The last line counts the patches that equal the model's, in its order or in another: Direct3D 11 demands that order, Vulkan and OpenGL do not. It does not change the exit code.
 
@@ -272,24 +272,24 @@ fn show(
     if report.mismatches > 0 {
         writeln!(out, "{sides}")?;
     }
-    let turn = report.ways().into_iter().find(|way| !way.is_allowed());
-    if let Some(way) = turn {
-        writeln!(
-            out,
-            "one mistake explains all {}: {}",
-            counted(report.mismatches, "difference"),
-            way.words()
-        )?;
+    let mistake = report.mistake();
+    if let Some(mistake) = mistake {
+        let all = counted(report.mismatches, "difference");
+        writeln!(out, "one mistake explains all {all}: {}", mistake.words())?;
     }
     let groups = report.groups();
-    let is_long = turn.is_none() && report.mismatches > report.differences.len() as u64;
+    let is_long = mistake.is_none() && report.mismatches > report.differences.len() as u64;
     if is_long {
         groups.iter().try_for_each(|group| writeln!(out, "{group}"))?;
     }
     let all: Vec<&Difference> = if is_long {
         groups.iter().map(|group| &group.smallest).take(MAX_DIFFERENCES).collect()
     } else {
-        report.differences.iter().take(if turn.is_some() { 1 } else { MAX_DIFFERENCES }).collect()
+        report
+            .differences
+            .iter()
+            .take(if mistake.is_some() { 1 } else { MAX_DIFFERENCES })
+            .collect()
     };
     for difference in &all {
         show_one(&mut out, difference, backend)?;
@@ -302,9 +302,9 @@ fn show(
     if hidden > 0 {
         writeln!(out, "and {hidden} more")?;
     }
-    if let Some(way) = report.ways().into_iter().find(|way| way.is_allowed()) {
+    if let Some(freedoms) = report.freedoms() {
         let all = counted(report.mismatches, "difference");
-        writeln!(out, "{} would accept all {all}: {}", way.options(), way.words())?;
+        writeln!(out, "{} would accept all {all}: {}", freedoms.options(), freedoms.words())?;
     }
     if let Some(period) = report.period() {
         writeln!(out, "{}", period_text(period))?;
