@@ -1,38 +1,19 @@
 //! Planted faults: a backend with one fault, which a comparison must notice.
+//!
+//! Faults of whole patches are mistakes of `tess_verify::mistakes`; the stages have faults of their
+//! own.
 
 mod faulty;
 
 pub use faulty::Faulty;
 
+use tess_verify::mistakes::{Mistake, named, of_one_element};
+
 /// A fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The lowest bit of the first point's u.
-    PointU,
-    /// The highest bit of the first point's v.
-    PointV,
-    /// The lowest bit of the last point's v.
-    LastPoint,
-    /// The first and the last point are exchanged.
-    SwappedPoints,
-    /// The last point is missing.
-    DroppedPoint,
-    /// There is one point too many, at the place of another.
-    ExtraPoint,
-    /// There is one point too many, outside every domain.
-    StrayPoint,
-    /// The first and the last index are exchanged.
-    SwappedIndices,
-    /// The last index is one too high.
-    LastIndex,
-    /// The last index is missing.
-    DroppedIndex,
-    /// There is one index too many.
-    ExtraIndex,
-    /// A patch is answered as culled.
-    EmptyPatch,
-    /// A patch has the output of the one before it in the batch.
-    RepeatedPatch,
+    /// A mistake in the answer for one patch.
+    Patch(&'static Mistake),
     /// The answer has one patch, factor or context too few.
     ShortAnswer,
     /// The lowest bit of an edge's factor.
@@ -69,23 +50,6 @@ pub enum ContextField {
 }
 
 impl Fault {
-    /// Faults of whole patches.
-    pub const OF_PATCHES: [Self; 14] = [
-        Self::PointU,
-        Self::PointV,
-        Self::LastPoint,
-        Self::SwappedPoints,
-        Self::DroppedPoint,
-        Self::ExtraPoint,
-        Self::StrayPoint,
-        Self::SwappedIndices,
-        Self::LastIndex,
-        Self::DroppedIndex,
-        Self::ExtraIndex,
-        Self::EmptyPatch,
-        Self::RepeatedPatch,
-        Self::ShortAnswer,
-    ];
     /// Faults of factor processing.
     pub const OF_FACTORS: [Self; 3] = [Self::OuterFactor, Self::InsideFactor, Self::ShortAnswer];
     /// Faults of contexts.
@@ -102,4 +66,33 @@ impl Fault {
     /// Faults of locations.
     pub const OF_LOCATIONS: [Self; 3] =
         [Self::LastLocation, Self::SwappedLocations, Self::DroppedLocation];
+
+    /// Faults of whole patches: one wrong, missing or additional element, or a lost answer.
+    #[must_use]
+    pub fn of_patches() -> Vec<Self> {
+        of_one_element().map(Self::Patch).chain([Self::ShortAnswer]).collect()
+    }
+
+    /// The mistake with these words.
+    ///
+    /// # Panics
+    /// If the table of mistakes has none.
+    #[must_use]
+    pub fn patch(words: &str) -> Self {
+        Self::Patch(named(words).unwrap_or_else(|| panic!("{words}: not in the table of mistakes")))
+    }
+
+    /// The last index is one too high.
+    ///
+    /// # Panics
+    /// As [`Fault::patch`].
+    #[must_use]
+    pub fn last_index() -> Self {
+        Self::patch("the last index is one too high")
+    }
+
+    /// Whether it damages whole patches.
+    const fn is_of_patches(self) -> bool {
+        matches!(self, Self::Patch(_) | Self::ShortAnswer)
+    }
 }

@@ -51,25 +51,35 @@ fn looks_like(fault: Fault, element: &Element, stage: SpecStage) -> bool {
         Element::Point { index: 0, coordinate } => *coordinate == wanted,
         _ => false,
     };
-    match fault {
-        Fault::PointU => first("u") && stage == SpecStage::Location,
-        Fault::PointV => first("v") && stage == SpecStage::Location,
-        Fault::LastPoint => {
-            matches!(element, Element::Point { coordinate: "v", .. })
-                && stage == SpecStage::Location
+    let Fault::Patch(mistake) = fault else { return true };
+    let coordinate =
+        |wanted| matches!(element, Element::Point { coordinate, .. } if *coordinate == wanted);
+    match (mistake.family(), mistake.variant()) {
+        ("a bit of a point is wrong", variant) => {
+            let is_first = !variant.contains(" first ") || first("u") || first("v");
+            let is_coordinate = coordinate(if variant.ends_with('u') { "u" } else { "v" });
+            is_first && is_coordinate && stage == SpecStage::Location
         }
-        Fault::SwappedPoints => (first("u") || first("v")) && stage == SpecStage::PointOrder,
-        Fault::DroppedPoint | Fault::ExtraPoint | Fault::StrayPoint | Fault::EmptyPatch => {
-            *element == Element::Count("points") && stage == SpecStage::Counts
+        ("the first and the last point are exchanged", _) => {
+            (first("u") || first("v")) && stage == SpecStage::PointOrder
         }
-        Fault::SwappedIndices => {
+        (
+            "the last point is missing"
+            | "there is a point that no primitive uses"
+            | "a patch has no output",
+            _,
+        ) => *element == Element::Count("points") && stage == SpecStage::Counts,
+        ("the first and the last index are exchanged", _) => {
             *element == Element::Index { primitive: 0, position: 0 } && stage == SpecStage::Stitch
         }
-        Fault::LastIndex => matches!(element, Element::Index { .. }) && stage == SpecStage::Stitch,
-        Fault::DroppedIndex | Fault::ExtraIndex => {
+        ("the last index is one too high", _) => {
+            matches!(element, Element::Index { .. }) && stage == SpecStage::Stitch
+        }
+        ("the last index is missing" | "there is an index too many", _) => {
             *element == Element::Count("indices") && stage == SpecStage::Counts
         }
-        _ => true,
+        ("the output is that of the patch before", _) => true,
+        (family, _) => panic!("{family}: say what it looks like"),
     }
 }
 
@@ -86,7 +96,7 @@ fn faults_of_patches_in_every_kind_that_has_patches() {
     for text in &files {
         let clean = run_core(text);
         assert_eq!(clean.mismatches, 0, "without a fault");
-        for fault in Fault::OF_PATCHES {
+        for fault in Fault::of_patches() {
             for calls_before in [0, 3] {
                 let result = run_faulty(text, fault, calls_before);
                 if fault == Fault::ShortAnswer {
@@ -163,7 +173,7 @@ fn stages_are_told_apart() {
         (Fault::OF_CONTEXTS[3], SpecStage::Context),
         (Fault::LastLocation, SpecStage::Location),
     ] {
-        let patch_fault = Faulty::new(CoreBackend, Fault::DroppedPoint, 0);
+        let patch_fault = Faulty::new(CoreBackend, Fault::patch("the last point is missing"), 0);
         let backend = Faulty::new(patch_fault, fault, 0);
         let report = run(&text, &mut [Box::new(backend)]).expect("a verdict");
         let [difference] = &report.differences[..] else { panic!("one difference: {report}") };
@@ -213,7 +223,7 @@ fn faults_of_devices_in_any_order() {
     let factors = [2.5, 3.0, 7.5, 5.0].map(|factor| {
         PatchFactors::from_fn(Domain::Quad, |position| if position == 2 { 4.25 } else { factor })
     });
-    for fault in Fault::OF_PATCHES {
+    for fault in Fault::of_patches() {
         let mut device = Faulty::new(CoreBackend, fault, 0);
         let outputs = device.tessellate(config, &factors).expect("the model");
         let answers = || {

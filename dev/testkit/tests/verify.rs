@@ -16,7 +16,7 @@ fn faults_of(subject: Subject) -> (Vec<Fault>, Shard) {
     let (faults, of) = match subject {
         Subject::Factors => (Fault::OF_FACTORS.to_vec(), 16384),
         Subject::Locations => ([&Fault::OF_CONTEXTS[..], &Fault::OF_LOCATIONS].concat(), 252),
-        _ => (Fault::OF_PATCHES.to_vec(), 31),
+        _ => (Fault::of_patches(), 31),
     };
     (faults, Shard { part: 1, of })
 }
@@ -46,7 +46,7 @@ fn every_subject_sees_every_fault() {
 /// A difference is counted for the backend that has it, not for the other one.
 #[test]
 fn differences_are_told_apart_by_backend() {
-    let faulty = Faulty::new(CoreBackend, Fault::LastIndex, 0);
+    let faulty = Faulty::new(CoreBackend, Fault::last_index(), 0);
     let backends: [Box<dyn Backend>; 2] = [Box::new(CoreBackend), Box::new(faulty)];
     let rows = run(backends.into(), Subject::Transitions, Shard { part: 1, of: 31 });
     let mismatches: Vec<u64> = rows.iter().map(|row| row.mismatches).collect();
@@ -57,7 +57,8 @@ fn differences_are_told_apart_by_backend() {
 #[test]
 fn one_bit_of_one_random_patch() {
     let subject = Subject::Random { patches: 5000, seed: 3 };
-    for fault in [Fault::PointU, Fault::LastPoint] {
+    for bit in ["first u", "last v"] {
+        let fault = Fault::patch(&format!("a bit of a point is wrong: the lowest of the {bit}"));
         let faulty = Box::new(Faulty::new(CoreBackend, fault, 101));
         let rows = run(vec![faulty], subject, Shard::WHOLE);
         let [row] = &rows[..] else { panic!("one row: {rows:?}") };
@@ -73,8 +74,9 @@ fn one_bit_of_one_random_patch() {
 #[test]
 fn a_known_difference_is_no_mismatch() {
     let subject = Subject::Random { patches: 100, seed: 3 };
+    let fault = Fault::patch("a bit of a point is wrong: the lowest of the first u");
     let faulty =
-        || -> Vec<Box<dyn Backend>> { vec![Box::new(Faulty::new(CoreBackend, Fault::PointU, 20))] };
+        || -> Vec<Box<dyn Backend>> { vec![Box::new(Faulty::new(CoreBackend, fault, 20))] };
     let row = run(faulty(), subject, Shard::WHOLE).remove(0);
     assert_eq!(row.stages.values().sum::<u64>(), 1, "{row:?}");
     let line = row.first.as_deref().and_then(|first| first.lines().next()).expect("a case line");

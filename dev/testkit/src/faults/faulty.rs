@@ -4,10 +4,11 @@ use super::{ContextField, Fault};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tess_core::{
-    Config, DomainPoint, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors,
-    SplitOrder, Tessellation,
+    Config, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors, SplitOrder,
+    Tessellation,
 };
-use tess_verify::{Answers, Backend};
+use tess_verify::mistakes::{Request, requests};
+use tess_verify::{Answers, Backend, Case};
 
 /// A backend that commits one [`Fault`] in one kind of answer.
 ///
@@ -35,9 +36,8 @@ impl<B: Backend> Faulty<B> {
         self.committed.clone()
     }
 
-    /// Whether a call whose answers have these faults is the one to damage.
-    fn strikes(&mut self, faults: &[Fault]) -> bool {
-        let concerned = faults.contains(&self.fault);
+    /// Whether a call is the one to damage, if the fault is of its kind.
+    fn strikes(&mut self, concerned: bool) -> bool {
         if concerned && self.calls_before > 0 {
             self.calls_before -= 1;
             return false;
@@ -73,10 +73,15 @@ impl<B: Backend> Backend for Faulty<B> {
     fn tessellate(&mut self, config: Config, patches: &[PatchFactors]) -> Answers<Tessellation> {
         let mut outputs = self.inner.tessellate(config, patches)?;
         let fault = self.fault;
-        if !self.committed.load(Ordering::Relaxed) && self.strikes(&Fault::OF_PATCHES) {
-            self.damage(&mut outputs, |outputs, i| match fault {
-                Fault::RepeatedPatch => outputs[i.saturating_sub(1)].clone(),
-                _ => damaged_patch(&outputs[i], fault),
+        if !self.committed.load(Ordering::Relaxed) && self.strikes(fault.is_of_patches()) {
+            let cases = patches.iter().map(|&factors| Case { config, factors });
+            let requests: Vec<Request> = requests(cases).collect();
+            self.damage(&mut outputs, |outputs, i| {
+                let wrong = match fault {
+                    Fault::Patch(mistake) => mistake.wrong_answer(&requests[i], &outputs[i]),
+                    _ => None,
+                };
+                wrong.unwrap_or_else(|| outputs[i].clone())
             });
         }
         Ok(outputs)
@@ -89,7 +94,7 @@ impl<B: Backend> Backend for Faulty<B> {
     ) -> Answers<[FixedFactor; 2]> {
         let mut factors = self.inner.fixed_factors(partitioning, values)?;
         let which = usize::from(self.fault == Fault::InsideFactor);
-        if self.strikes(&Fault::OF_FACTORS) {
+        if self.strikes(Fault::OF_FACTORS.contains(&self.fault)) {
             self.damage(&mut factors, |factors, i| {
                 let mut pair = factors[i];
                 pair[which] = FixedFactor::from_bits(pair[which].to_bits() ^ 1);
@@ -107,7 +112,7 @@ impl<B: Backend> Backend for Faulty<B> {
     ) -> Answers<FactorContext> {
         let mut contexts = self.inner.contexts(split, parity, factors)?;
         let fault = self.fault;
-        if self.strikes(&Fault::OF_CONTEXTS) {
+        if self.strikes(Fault::OF_CONTEXTS.contains(&self.fault)) {
             self.damage(&mut contexts, |contexts, i| match fault {
                 Fault::Context(field) => damaged_context(contexts[i], field),
                 _ => contexts[i],
@@ -118,7 +123,7 @@ impl<B: Backend> Backend for Faulty<B> {
 
     fn locations(&mut self, contexts: &[FactorContext]) -> Answers<u32> {
         let mut locations = self.inner.locations(contexts)?;
-        if self.strikes(&Fault::OF_LOCATIONS) {
+        if self.strikes(Fault::OF_LOCATIONS.contains(&self.fault)) {
             match self.fault {
                 Fault::LastLocation => locations.last_mut().into_iter().for_each(|x| *x ^= 1),
                 Fault::SwappedLocations => swap_ends(&mut locations),
@@ -127,33 +132,6 @@ impl<B: Backend> Backend for Faulty<B> {
             self.committed.store(true, Ordering::Relaxed);
         }
         Ok(locations)
-    }
-}
-
-fn damaged_patch(patch: &Tessellation, fault: Fault) -> Tessellation {
-    let mut patch = patch.clone();
-    let Tessellation { points, indices } = &mut patch;
-    match fault {
-        Fault::PointU => change_point(points.first_mut(), 1, 0),
-        Fault::PointV => change_point(points.first_mut(), 0, 1 << 31),
-        Fault::LastPoint => change_point(points.last_mut(), 0, 1),
-        Fault::SwappedPoints => swap_ends(points),
-        Fault::DroppedPoint => _ = points.pop(),
-        Fault::ExtraPoint => points.push(DomainPoint::default()),
-        Fault::StrayPoint => points.push(DomainPoint::from_bits(u32::MAX, 1)),
-        Fault::SwappedIndices => swap_ends(indices),
-        Fault::LastIndex => indices.last_mut().into_iter().for_each(|index| *index += 1),
-        Fault::DroppedIndex => _ = indices.pop(),
-        Fault::ExtraIndex => indices.push(0),
-        Fault::EmptyPatch => return Tessellation::default(),
-        _ => {}
-    }
-    patch
-}
-
-fn change_point(point: Option<&mut DomainPoint>, u: u32, v: u32) {
-    if let Some(point) = point {
-        *point = DomainPoint::from_bits(point.u.to_bits() ^ u, point.v.to_bits() ^ v);
     }
 }
 

@@ -28,11 +28,11 @@ fn narrow_indices_that_differ() {
 fn faulty() -> Vec<Box<dyn Backend>> {
     let simd = Simd::<u16>::with_level(Level::Baseline).expect("every machine has it");
     Vec::from([
-        Box::new(Faulty::new(simd, Fault::LastIndex, 0)) as Box<dyn Backend>,
+        Box::new(Faulty::new(simd, Fault::last_index(), 0)) as Box<dyn Backend>,
         #[cfg(feature = "gpu")]
         Box::new(Faulty::new(
             GpuBackend::open(IndexWidth::U16).expect("an adapter"),
-            Fault::LastIndex,
+            Fault::last_index(),
             0,
         )),
     ])
