@@ -122,7 +122,8 @@ mod tests {
         let model = PatchView::of(case, case.patch().tessellate());
         let simd = PatchView::of(case, tessellate(case).expect("small"));
         assert!(compare(&model, &simd).contains("\"equal\":true"), "the backends agree");
-        let verdict = compare(&model, &simd.with_fault());
+        let faulty = simd.with_mistake("a bit of a point is wrong: the lowest of the middle u");
+        let verdict = compare(&model, &faulty);
         let middle = model.listing.output.points.len() / 2;
         assert!(verdict.contains(&format!("point {middle} u: observed")), "{verdict}");
         assert!(verdict.contains(&format!("\"points\":[{middle}]")), "{verdict}");

@@ -104,7 +104,11 @@ mod tests {
         shorter.listing.output.indices.truncate(30);
         shorter.listing.output.indices.swap(3, 4);
         shorter.listing.output.indices.swap(28, 29);
-        for observed in [&model.with_fault(), &longer, &shorter] {
+        for observed in [
+            &model.with_mistake("a bit of a point is wrong: the lowest of the middle u"),
+            &longer,
+            &shorter,
+        ] {
             let words = difference_words(&model, observed).expect("few");
             let back = model.with_differences(&words).expect("well-formed");
             assert_eq!(back.listing, observed.listing, "{words}");

@@ -1,10 +1,10 @@
 //! One patch and everything the page shows of it.
 
 use crate::{json, marks, thrown};
-use tess_core::{DomainPoint, Patch, Tessellation};
-use tess_verify::Case;
+use tess_core::{Patch, Tessellation};
 use tess_verify::show::{Colours, DrawOptions, Drawing, Explanation, Part, draw, has_rings};
 use tess_verify::vectors::Listing;
+use tess_verify::{Case, mistakes};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -144,14 +144,16 @@ impl PatchView {
         marks::points(&self.patch)
     }
 
-    /// A copy with one fault, so that a comparison can be seen to fail: the lowest bit of the
-    /// middle point's u is the other one.
-    pub fn with_fault(&self) -> Self {
+    /// A copy with a mistake of the table (`mistakes`), so that a comparison can be seen to fail.
+    /// Words that are not in the table, or that change nothing here, give an equal copy.
+    pub fn with_mistake(&self, words: &str) -> Self {
         let mut faulty = self.clone();
-        let points = &mut faulty.listing.output.points;
-        let middle = points.len() / 2;
-        if let Some(point) = points.get_mut(middle) {
-            *point = DomainPoint::from_bits(point.u.to_bits() ^ 1, point.v.to_bits());
+        let request = mistakes::requests([self.listing.case]).next();
+        let wrong = mistakes::named(words)
+            .zip(request)
+            .and_then(|(mistake, request)| mistake.wrong_answer(&request, &self.listing.output));
+        if let Some(wrong) = wrong {
+            faulty.listing.output = wrong;
         }
         faulty
     }

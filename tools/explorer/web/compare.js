@@ -7,6 +7,9 @@ import { draw, over } from "./picture.js";
 import { toBits } from "./controls.js";
 import * as gpu from "./gpu.js";
 
+// The mistake of the table `tess_verify::mistakes` that a person can plant in the CPU backend's result.
+const FAULT = "a bit of a point is wrong: the lowest of the middle u";
+
 let file = null;
 // Why the last listing cannot be read.
 let refusal = "";
@@ -73,7 +76,7 @@ function say(id, kind, text) {
 function cpuResult() {
   const result = simd(patch.line);
   if (state.fault !== "cpu") return result;
-  const faulty = result.with_fault();
+  const faulty = result.with_mistake(FAULT);
   result.free();
   return faulty;
 }
