@@ -197,3 +197,78 @@ fn three_faces_at_an_edge() {
         assert_eq!(found, [normal; 6], "face {number}");
     }
 }
+
+/// The normals of a model's patches at their corners, each with the corner's position.
+fn normals_at_corners(model: &Model) -> Vec<(Vec3, Vec3)> {
+    let corners = [[0., 0.], [1., 0.], [0., 1.], [1., 1.]];
+    let places = |number: usize| {
+        let patch = model.patch(number);
+        let is_triangle = patch.domain() == tess_core::Domain::Triangle;
+        let own = corners.into_iter().take(if is_triangle { 3 } else { 4 });
+        own.map(|at| (patch.position(at), patch.normal(at))).collect::<Vec<_>>()
+    };
+    (0..model.len()).flat_map(places).collect()
+}
+
+/// A ridge may be sharp: faces are folded onto each other only if their corners say so too. The
+/// normals of this roof have a cosine of -0.8.
+#[test]
+fn a_sharp_ridge_is_one_sheet() {
+    let third = 1.0 / 3.0;
+    let points = [
+        [0., -third, 0.],
+        [4., -third, 0.],
+        [4., 0., 1.],
+        [0., 0., 1.],
+        [0., third, 0.],
+        [4., third, 0.],
+    ];
+    let found = normals_at_corners(&rounded(mesh(&points, &[&[0, 1, 2, 3], &[4, 3, 2, 5]])));
+    let ridge: Vec<_> = found.iter().filter(|(position, _)| position.z > 0.9).collect();
+    assert_eq!(ridge.len(), 4, "two corners of each face: {found:?}");
+    for (position, normal) in ridge {
+        assert!(normal.distance(Vec3::Z) < 1e-6, "{position}: {normal}");
+    }
+}
+
+/// The faces of a tetrahedron have all of their corners in common with their neighbours, and are no
+/// two sides of a sheet: their normals have a cosine of -1/3.
+#[test]
+fn a_tetrahedron_is_round() {
+    let points = [[1., 1., 1.], [1., -1., -1.], [-1., 1., -1.], [-1., -1., 1.]];
+    let faces: [&[u32]; 4] = [&[0, 1, 2], &[0, 3, 1], &[0, 2, 3], &[1, 3, 2]];
+    let found = normals_at_corners(&rounded(mesh(&points, &faces)));
+    assert_eq!(found.len(), 12, "three corners of each face");
+    for (position, normal) in found {
+        assert!(normal.distance(position.normalize()) < 1e-6, "{position}: {normal}");
+    }
+}
+
+/// Three faces touch in a corner; the third one is turned over. The others are one sheet if their
+/// normals are within 60 degrees.
+#[test]
+fn faces_that_touch_in_a_corner() {
+    for (degrees, is_one_sheet) in [(25.0f32, true), (29.9, true), (30.1, false), (35.0, false)] {
+        let (s, c) = (libm::sinf(degrees.to_radians()), libm::cosf(degrees.to_radians()));
+        let points = [
+            [0., 0., 0.],
+            [1., 0., 0.],
+            [0., c, s],
+            [-1., 0., 0.],
+            [0., -c, s],
+            [2., 1., 0.],
+            [1., -2., 0.],
+        ];
+        let model = rounded(mesh(&points, &[&[0, 1, 2], &[0, 3, 4], &[0, 5, 6]]));
+        let own = [Vec3::new(0., -s, c), Vec3::new(0., s, c), -Vec3::Z];
+        let shared = [Vec3::Z, Vec3::Z, -Vec3::Z];
+        let expected = if is_one_sheet { shared } else { own };
+        let found = normals_at_corners(&model);
+        let touching = found.iter().filter(|(position, _)| position.length() < 1e-6);
+        let touching: Vec<Vec3> = touching.map(|(_, normal)| *normal).collect();
+        assert_eq!(touching.len(), 3, "one corner of each face: {found:?}");
+        for (found, expected) in touching.iter().zip(expected) {
+            assert!(found.distance(expected) < 1e-5, "{degrees}: {touching:?}, not {expected}");
+        }
+    }
+}
