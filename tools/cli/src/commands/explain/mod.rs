@@ -33,7 +33,7 @@ Examples:
   tess explain tri --outer 2.5,3,1 --inner 3.25 --partitioning fractional_odd --point 7
   tess explain quad --outer 3,4,5,6 --inner 4,7 --primitive 12 --json
   tess explain quad --outer 3,4,5,6 --inner 4,7 --point 20 --observed u=0x4000,v=0x924a
-  tess explain quad --outer 3,4,5,6 --inner 4,7 --observed points=35 --signals stages.tsv")]
+  tess explain quad --outer 3,4,5,6 --inner 4,7 --observed points=36 --signals stages.tsv")]
 pub(crate) struct ExplainCommand {
     #[command(flatten)]
     patch: PatchArgs,
