@@ -1,6 +1,5 @@
 //! Runs programs in the workspace; each one is printed before it runs.
 
-use crate::setup;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -81,20 +80,6 @@ pub(crate) fn lock_versions(root: &Path, separate: &str) -> Result<(), String> {
         fs::copy(&from, &to).map_err(|error| in_file(&to, &error))?;
     }
     Ok(())
-}
-
-/// This program with other arguments, in a process of its own, so that other tests can run at the
-/// same time.
-///
-/// # Errors
-/// This program's path is unknown.
-pub(crate) fn this(arguments: &[&str]) -> Result<Command, String> {
-    let own = std::env::current_exe().map_err(|error| format!("this program: {error}"))?;
-    let mut command = Command::new(own);
-    // The person who can answer has answered this process.
-    command.arg(if setup::installs() { setup::YES } else { setup::NO_INSTALL });
-    command.args(arguments).current_dir(workspace());
-    Ok(command)
 }
 
 /// The interpreter that the variable `PYTHON` names, or the system's.

@@ -134,7 +134,7 @@ fn tess() -> Result<Command, String> {
 /// # Errors
 /// This program's path is unknown.
 pub(crate) fn for_browsers(program: &Path) -> Result<Command, String> {
-    let mut command = command::this(&["dist", "--try", "npm"])?;
+    let mut command = this(&["dist", "--try", "npm"])?;
     command.env("TESS_PROGRAM", program);
     Ok(command)
 }
@@ -145,6 +145,20 @@ fn add_licences(folder: &Path) -> Result<(), String> {
         let from = workspace().join(name);
         fs::copy(&from, folder.join(name)).map(drop).map_err(|error| in_file(&from, &error))
     })
+}
+
+/// This program with other arguments, in a process of its own, so that other tests can run at the
+/// same time.
+///
+/// # Errors
+/// This program's path is unknown.
+fn this(arguments: &[&str]) -> Result<Command, String> {
+    let own = std::env::current_exe().map_err(|error| format!("this program: {error}"))?;
+    let mut command = Command::new(own);
+    // The person who can answer has answered this process.
+    command.arg(if setup::installs() { setup::YES } else { setup::NO_INSTALL });
+    command.args(arguments).current_dir(command::workspace());
+    Ok(command)
 }
 
 #[cfg(test)]
