@@ -1,4 +1,9 @@
 //! Fixed-point numbers and the one conversion from floating point (spec section 2).
+//!
+//! What a user gets in 16.16, coordinates and locations, has the type `U16F16` of `fixed`, with its
+//! arithmetic, conversions and printing. Computations are on plain `u32`, because the specification
+//! is one of words: a factor has 31 bits and saturates, a product is rounded to nearest where `*`
+//! of `fixed` truncates, and comparisons with shaders and circuits are of words.
 
 use fixed::types::U16F16;
 
