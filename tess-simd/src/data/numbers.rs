@@ -96,7 +96,6 @@ impl Numbers for i32 {
     }
 }
 
-#[expect(clippy::float_arithmetic, reason = "each operation is rounded once, the same everywhere")]
 impl Numbers for i32x8 {
     const COUNT: usize = 8;
 

@@ -181,6 +181,7 @@ pub(crate) fn clamp<V: Numbers>(x: V, low: V, high: V) -> V {
 }
 
 const ONE_PLUS_2_POW_MINUS_17: f32 = f32::from_bits(0x3F80_0040);
+const MINUS_2_POW_23: f32 = f32::from_bits(0xCB00_0000);
 const ONE_PLUS_2_POW_MINUS_16: f32 = f32::from_bits(0x3F80_0080);
 
 /// The ceiling of a number in 0..2^22, as an integer: the nearest integer, plus one if that is
@@ -188,7 +189,7 @@ const ONE_PLUS_2_POW_MINUS_16: f32 = f32::from_bits(0x3F80_0080);
 #[inline(always)]
 pub(crate) fn ceil<V: Numbers>(x: V) -> V {
     let sum = x.float_sum(TWO_POW_23);
-    let is_below = x.exceeds(sum.float_sum(-TWO_POW_23));
+    let is_below = x.exceeds(sum.float_sum(MINUS_2_POW_23));
     (sum & integer(MANTISSA)).minus(is_below)
 }
 

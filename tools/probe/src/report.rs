@@ -31,7 +31,8 @@ pub struct ProbeReport {
     pub passes_alone: bool,
     /// The number of odd patches: those that are not the model's in any order.
     pub odd: u64,
-    /// The freedoms that explain some of the odd patches, and the mistakes that explain all of them.
+    /// The freedoms that explain some of the odd patches, and the mistakes that explain all of
+    /// them.
     pub explanations: Vec<ExplainedBy>,
     /// The odd patches that no freedom of the specification explains.
     pub unexplained: Unexplained,

@@ -113,10 +113,11 @@ pub(crate) struct MeshCommand {
     #[arg(long, value_name = "LENGTH", default_value = "0.1", allow_hyphen_values = true)]
     #[arg(value_parser = ValueParser::new(finite), requires = "displace")]
     height: f32,
-    /// Heights beyond the image: `repeat` (the image again), `clamp` (the outermost pixels) or `mirror`
-    /// (the image again, every second time reversed); for both axes, or for u and v, as in
-    /// `repeat,clamp` [default: what the samplers of a glTF model say; otherwise, for each axis, repeat
-    /// if texture coordinates are outside of 0 and 1 or the surface closes there, or else clamp]
+    /// Heights beyond the image: `repeat` (the image again), `clamp` (the outermost pixels) or
+    /// `mirror` (the image again, every second time reversed); for both axes, or for u and v, as in
+    /// `repeat,clamp` [default: what the samplers of a glTF model say; otherwise, for each axis,
+    /// repeat if texture coordinates are outside of 0 and 1 or the surface closes there, or else
+    /// clamp]
     #[arg(long, value_name = "U[,V]", requires = "displace")]
     #[arg(value_parser = ValueParser::new(wrap))]
     wrap: Option<Wrap>,

@@ -1,5 +1,5 @@
-//! The way from the folder of the output to that of the model, for references to images and material
-//! libraries.
+//! The way from the folder of the output to that of the model, for references to images and
+//! material libraries.
 
 use std::path::{Component, Path, PathBuf};
 use tess_mesh::write::uri_of;
