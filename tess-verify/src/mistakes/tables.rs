@@ -5,8 +5,9 @@ use super::family::Family;
 use super::places::{edge_points, outer, place_along};
 use crate::case::Case;
 use tess_core::fixed_point::ONE;
+use tess_core::place::place;
 use tess_core::reciprocal::reciprocal;
-use tess_core::{Domain, FactorContext, Tessellation, place};
+use tess_core::{Domain, FactorContext, Tessellation};
 
 pub(super) fn all() -> Vec<Family> {
     // The only vertex between the ends of two segments is in the exact middle.
