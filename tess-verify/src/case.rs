@@ -75,6 +75,11 @@ impl Case {
         Self { factors, ..*self }
     }
 
+    /// The same case with another output.
+    pub(crate) const fn with_output(&self, output: OutputPrimitive) -> Self {
+        Self { config: Config { output, ..self.config }, factors: self.factors }
+    }
+
     /// The command line that tessellates the same patch.
     #[must_use]
     pub fn command(&self) -> String {

@@ -11,9 +11,12 @@
 mod arbitrary;
 mod boundaries;
 mod choices;
+mod classes;
 mod levels;
+mod numbers;
 mod patches;
 mod random;
+mod registers;
 mod related;
 mod thresholds;
 
@@ -48,7 +51,7 @@ pub enum GenLevel {
 
 /// The version of the levels. It is incremented when a level or `Rules` gets other cases; a file
 /// records it. The cases of level 3 have never changed.
-pub const LEVEL_VERSION: u8 = 3;
+pub const LEVEL_VERSION: u8 = 4;
 
 /// One of `of` disjoint parts that together make up the whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,9 +149,10 @@ impl Selection {
             GenLevel::One => levels::one(&self.choices()),
             GenLevel::Two => levels::two(&self.choices()),
             GenLevel::Three => Vec::new(),
-            GenLevel::Rules => related::systematic(),
+            GenLevel::Rules => related::systematic(&self.choices()),
         };
-        // Levels 1 and 2 are built from the selection, so nothing of theirs is filtered out.
+        // Levels 1 and 2 are built from the selection, so nothing of theirs is filtered out; of the
+        // rules' patches, outputs are.
         let systematic = systematic.into_iter().filter(move |case| self.selects(case));
         let random: Box<dyn Iterator<Item = Case> + Send> = match self.level {
             GenLevel::Rules => Box::new(self.random_families()),

@@ -57,6 +57,20 @@ impl Choices {
         Config { partitioning, output, split }
     }
 
+    /// The configuration of each domain for patches that leave values behind: with fractional odd
+    /// spacing, if it is selected, and with an output that the domain has.
+    pub(super) fn registers(&self, split: SplitOrder) -> impl Fn(Domain) -> Config {
+        let partitioning = self.partitioning(&[Partitioning::FractionalOdd]);
+        let (config, has_lines) = (
+            self.surface_config(partitioning, split),
+            self.outputs.contains(&OutputPrimitive::Line),
+        );
+        move |domain| match domain {
+            Domain::Isoline if has_lines => Config { output: OutputPrimitive::Line, ..config },
+            _ => config,
+        }
+    }
+
     /// A patch in the configuration of [`Self::surface_config`].
     pub(super) fn surface(
         &self,

@@ -4,6 +4,7 @@
 //! the result is a whole level of its own, not the few cases that a larger selection has for it.
 
 use super::choices::Choices;
+use super::registers::registers;
 use super::{boundary_factors, exceptional_factors, from_fixed, ordinary_factors, special_factors};
 use crate::case::Case;
 use tess_core::{Config, Domain, Partitioning, PatchFactors, QuadFactors};
@@ -230,10 +231,11 @@ fn every_configuration(cases: &mut Vec<Case>, choices: &Choices) {
 }
 
 /// Pairs of patches in which the first may leave its state to the second: every kind after every
-/// kind, and each value of a configuration after each other one while everything else stays the
+/// kind, an ordinary patch after each class of value in each position, and each value of a configuration after each other one while everything else stays the
 /// same.
 fn sequences(cases: &mut Vec<Case>, choices: &Choices) {
     kinds(cases, choices);
+    registers(&choices.domains, choices.registers(choices.splits[0]), cases);
     for &domain in &choices.domains {
         let case = |config| {
             // An isoline's first factor is its density.

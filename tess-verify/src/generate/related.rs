@@ -1,5 +1,21 @@
-//! Families of related patches, which the rules of the standards compare.
+//! Patches for the rules of the standards, which compare related ones.
+//!
+//! A fault in one number, one fraction or one role is found only by a question that has it. So the
+//! systematic questions are products, and no two parts of a product share a counter:
+//!
+//! ```text
+//! numbers    split order x domain x spacing x role x every number of segments    (numbers.rs)
+//! classes    split order x domain x spacing x role x every class of value        (classes.rs)
+//! families   split order x domain x spacing x role x a few levels, with a patch's relatives
+//! registers  role x class of value, and then each domain                         (registers.rs)
+//! ```
+//!
+//! A role is a position of a factor. `rules/asked.rs` counts what was asked.
 
+use super::choices::Choices;
+use super::classes::classes;
+use super::numbers::{numbers, powers_of_two};
+use super::registers::registers;
 use super::{from_fixed, pick};
 use crate::case::Case;
 use crate::generate::SplitMix64;
@@ -9,111 +25,63 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, Spl
 const NOT_ABOVE_ZERO: [f32; 4] = [0.0, -1.0, f32::NAN, f32::NEG_INFINITY];
 /// Inner levels of a patch's relatives: 1, below 1, or NaN.
 const NOT_ABOVE_ONE: [f32; 5] = [1.0, 0.5, 0.0, -3.0, f32::NAN];
+/// The other levels of a systematic family.
+const PLAIN: [f32; 6] = [3.0, 2.5, 4.0, 1.0, 3.5, 5.0];
 
-/// The levels of the systematic families: integers, levels just above them, and fractions of both
-/// parities.
-fn levels() -> Vec<f32> {
-    let just_above = |n: u32| {
-        let exact = from_fixed(n << 16);
-        [
-            exact,
-            f32::from_bits(exact.to_bits() + 1),
-            from_fixed((n << 16) + 1),
-            from_fixed((n << 16) + 8),
-            from_fixed((n << 16) + 9),
-        ]
-    };
-    let mut levels: Vec<f32> =
-        [1, 2, 3, 4, 5, 8, 13, 30].into_iter().flat_map(just_above).collect();
-    levels.extend((1..=8).map(|eighth| from_fixed((5 << 16) + (eighth << 14))));
-    levels.extend([0.25, 30.001_083, 53.0, 62.5, 63.0, 63.5, 64.0, 100.0]);
-    levels
+/// The levels of the systematic families: 1, levels at and just above 3, and fractions.
+fn levels() -> [f32; 10] {
+    let above_3 = from_fixed((3 << 16) + 1);
+    [0.25, 1.0, 3.0, f32::from_bits(0x4040_0001), above_3, 4.0, 5.75, 6.5, 13.5, 30.001_083]
 }
 
-/// A family for each level of each domain and spacing, and the patches next to the smallest one
-/// with an inside.
-pub(super) fn systematic() -> Vec<Case> {
-    let levels = levels();
+/// The systematic patches of a selection. Outputs are not considered.
+pub(super) fn systematic(choices: &Choices) -> Vec<Case> {
     let mut cases = Vec::new();
-    for domain in Domain::ALL {
-        for partitioning in
-            [Partitioning::Integer, Partitioning::FractionalOdd, Partitioning::FractionalEven]
-        {
-            for (turn, &level) in levels.iter().enumerate() {
-                let split = if turn % 5 == 4 { SplitOrder::Centre } else { SplitOrder::Ruler };
-                let config = Config { partitioning, output: OutputPrimitive::TriangleCw, split };
-                let plain = [3.0, 2.5, 4.0, 1.0, 3.5, 5.0];
-                let at = |position| {
-                    if position == turn % domain.factors() {
-                        level
-                    } else {
-                        plain[(position + turn) % plain.len()]
-                    }
-                };
-                family(
-                    Case { config, factors: PatchFactors::from_fn(domain, at) },
-                    turn,
-                    &mut cases,
-                );
-                let uniform = PatchFactors::uniform(domain, level);
-                family(Case { config, factors: uniform }, turn, &mut cases);
+    for &split in &choices.splits {
+        for (domain, partitioning) in choices.combinations() {
+            let config = Config { partitioning, output: surface(domain), split };
+            if partitioning == Partitioning::Pow2 {
+                powers_of_two(domain, config, &mut cases);
+                families(domain, config, &[3.0, 5.0, 6.5, 13.0, 64.0], &mut cases);
+                continue;
             }
+            numbers(domain, config, &mut cases);
+            classes(domain, config, &mut cases);
+            families(domain, config, &levels(), &mut cases);
         }
+        // A level that is barely above 1 decides whether there is an inside only if all other
+        // levels are 1.
+        let frames = super::thresholds().into_iter().filter(|(side, _)| side.starts_with("frame/"));
+        let in_order = |case: Case| Case { config: Config { split, ..case.config }, ..case };
+        cases.extend(frames.map(|(_, case)| in_order(case)));
+        changing_state(split, &mut cases);
+        registers(&choices.domains, choices.registers(split), &mut cases);
     }
-    // A level that is barely above 1 decides whether there is an inside only if all other levels
-    // are 1.
-    let frames = super::thresholds().into_iter().filter(|(side, _)| side.starts_with("frame/"));
-    cases.extend(frames.map(|(_, case)| case));
-    powers_of_two(&mut cases);
-    unusual_levels(&mut cases);
-    changing_state(&mut cases);
     cases
 }
 
-/// Families with pow2, which a device might not treat like integer spacing.
-fn powers_of_two(cases: &mut Vec<Case>) {
-    let (output, split) = (OutputPrimitive::TriangleCw, SplitOrder::Ruler);
-    let config = Config { partitioning: Partitioning::Pow2, output, split };
-    for domain in Domain::ALL {
-        for (turn, level) in [3.0, 5.0, 6.5, 13.0, 64.0].into_iter().enumerate() {
-            let plain = [3.0, 2.5, 4.0, 1.0, 3.5, 5.0];
-            let at = |position: usize| {
-                if position == turn % domain.factors() { level } else { plain[position] }
-            };
-            family(Case { config, factors: PatchFactors::from_fn(domain, at) }, turn, cases);
-        }
+/// The output that shows a patch's primitives.
+const fn surface(domain: Domain) -> OutputPrimitive {
+    match domain {
+        Domain::Isoline => OutputPrimitive::Line,
+        Domain::Triangle | Domain::Quad => OutputPrimitive::TriangleCw,
     }
 }
 
-/// Each position in turn with a level at the limits of positive numbers or beyond the spacing's
-/// range; the other levels are ordinary.
-fn unusual_levels(cases: &mut Vec<Case>) {
-    let (output, split) = (OutputPrimitive::TriangleCw, SplitOrder::Ruler);
-    let smallest = f32::from_bits(1);
-    let outer = [0.0, -0.0, smallest, f32::MIN_POSITIVE, 1e-6, f32::INFINITY];
-    let inner = [-0.0, smallest, 0.75, 100.0, f32::INFINITY, f32::NEG_INFINITY];
-    for domain in Domain::ALL {
-        for partitioning in
-            [Partitioning::Integer, Partitioning::FractionalOdd, Partitioning::FractionalEven]
-        {
-            let config = Config { partitioning, output, split };
-            for position in 0..domain.factors() {
-                let levels = if position < domain.outer_factors() { outer } else { inner };
-                let others = Case { config, factors: PatchFactors::uniform(domain, 3.5) };
-                cases.extend(levels.map(|level| others.with_factor(position, level)));
-            }
-            // This patch differs from one whose levels are all 1 only in its inside.
-            let inner = [2.5, 4.5];
-            let level = |p: usize| p.checked_sub(domain.outer_factors()).map_or(1.0, |k| inner[k]);
-            let factors = PatchFactors::from_fn(domain, level);
-            cases.extend((domain != Domain::Isoline).then_some(Case { config, factors }));
+/// A family for each level in each position, and with the level in all positions.
+fn families(domain: Domain, config: Config, levels: &[f32], cases: &mut Vec<Case>) {
+    for &level in levels {
+        for position in 0..domain.factors() {
+            let at = |p: usize| if p == position { level } else { PLAIN[p] };
+            family(Case { config, factors: PatchFactors::from_fn(domain, at) }, cases);
         }
+        family(Case { config, factors: PatchFactors::uniform(domain, level) }, cases);
     }
 }
 
 /// Patches that each have another domain than the one before; the output changes every three
 /// patches, and the spacing every nine.
-fn changing_state(cases: &mut Vec<Case>) {
+fn changing_state(split: SplitOrder, cases: &mut Vec<Case>) {
     let outputs =
         [OutputPrimitive::TriangleCcw, OutputPrimitive::TriangleCw, OutputPrimitive::Point];
     let spacings =
@@ -121,7 +89,7 @@ fn changing_state(cases: &mut Vec<Case>) {
     for levels in [[2.5, 3.5, 4.25, 5.5, 6.5, 3.25], [4.5, 2.25, 3.0, 6.25, 2.75, 5.0]] {
         for partitioning in spacings {
             for output in outputs {
-                let config = Config { partitioning, output, split: SplitOrder::Ruler };
+                let config = Config { partitioning, output, split };
                 let patch = |domain| Case {
                     config,
                     factors: PatchFactors::from_fn(domain, |position| levels[position]),
@@ -142,50 +110,61 @@ pub(super) fn random(
     let mut cases = Vec::new();
     std::iter::from_fn(move || {
         if cases.is_empty() {
+            let domain = pick(&mut random, &domains);
             let config = Config {
                 partitioning: pick(&mut random, &partitionings),
-                output: OutputPrimitive::TriangleCw,
+                output: surface(domain),
                 split: pick(&mut random, &splits),
             };
-            let domain = pick(&mut random, &domains);
-            let factors = PatchFactors::from_fn(domain, |_| random_level(&mut random));
-            family(Case { config, factors }, random.next_u32() as usize, &mut cases);
+            // One level of every second family is from the whole range, which keeps patches small.
+            let positions = u32::try_from(domain.factors()).unwrap_or(u32::MAX);
+            let wide = random.below(2 * positions) as usize;
+            let level = |p| random_level(if p == wide { 6 } else { 3 }, &mut random);
+            let base = Case { config, factors: PatchFactors::from_fn(domain, level) };
+            family(base, &mut cases);
+            low_and_discarding(base, &mut random, &mut cases);
             cases.reverse();
         }
         cases.pop()
     })
 }
 
-/// A level that is usually small: near an integer, or anywhere.
-fn random_level(random: &mut SplitMix64) -> f32 {
-    let top = if random.below(16) == 0 { 64 } else { 9 };
+/// A level from 1 to 2^`binades`, evenly among the binades: an integer, near one, or anywhere.
+fn random_level(binades: u32, random: &mut SplitMix64) -> f32 {
+    let (exponent, mantissa) = (127 + random.below(binades), random.below(1 << 23));
+    let level = f32::from_bits(exponent << 23 | mantissa);
     match random.below(4) {
-        0 => from_fixed((random.below(top) + 1) << 16),
-        1 => from_fixed(((random.below(top) + 1) << 16) + random.below(16)),
-        _ => from_fixed((1 << 16) + random.below(top << 16)),
+        0 => level.ceil(),
+        1 => f32::from_bits(level.floor().to_bits() + random.below(2048)),
+        _ => level,
     }
 }
 
 /// A patch and its relatives: the same patch again, with the other winding, as points and as lines;
-/// with one level changed; with the outer levels rotated; with an inner level that is not above 1;
-/// and with an outer level that discards.
-fn family(base: Case, turn: usize, cases: &mut Vec<Case>) {
-    let with_output = |output| Case { config: Config { output, ..base.config }, ..base };
+/// with one level changed; and with the outer levels rotated.
+fn family(base: Case, cases: &mut Vec<Case>) {
     let (outer, all) = (base.domain().outer_factors(), base.domain().factors());
     let raised = |position: usize| {
         let bits = base.factors.iter().nth(position).unwrap_or_default();
         if bits < 8.0 { 9.0 } else { 2.0 }
     };
-    cases.extend([base, base, with_output(OutputPrimitive::TriangleCcw)]);
-    cases.extend([OutputPrimitive::Point, OutputPrimitive::Line].map(with_output));
+    cases.extend([base, base]);
+    let others = OutputPrimitive::ALL.into_iter().filter(|own| *own != base.config.output);
+    cases.extend(others.map(|output| base.with_output(output)));
     cases.extend((0..all).map(|position| base.with_factor(position, raised(position))));
     let levels: Vec<f32> = base.factors.iter().collect();
     cases.extend((1..outer).map(|by| {
         let level = |p: usize| levels[if p < outer { (p + by) % outer } else { p }];
         Case { factors: PatchFactors::from_fn(base.domain(), level), ..base }
     }));
-    let discards = NOT_ABOVE_ZERO[turn % NOT_ABOVE_ZERO.len()];
+}
+
+/// A patch with each outer level in turn at a value that discards, and each inner one at a value
+/// that is not above 1.
+fn low_and_discarding(base: Case, random: &mut SplitMix64, cases: &mut Vec<Case>) {
+    let (outer, all) = (base.domain().outer_factors(), base.domain().factors());
+    let discards = pick(random, &NOT_ABOVE_ZERO);
     cases.extend((0..outer).map(|position| base.with_factor(position, discards)));
-    let low = NOT_ABOVE_ONE[turn % NOT_ABOVE_ONE.len()];
+    let low = pick(random, &NOT_ABOVE_ONE);
     cases.extend((outer..all).map(|position| base.with_factor(position, low)));
 }

@@ -322,5 +322,6 @@ impl Thresholds<'_> {
 
 /// Even 15.16 numbers, one in each binade from 1 or 2 upwards, whose odd successor moves a point on
 /// an outer edge and inside.
-const ODD_MOVES: [u32; 6] = [0x1_0200, 0x2_0204, 0x4_0204, 0x8_0202, 0x10_0210, 0x20_0200];
-const EVEN_MOVES: [u32; 5] = [0x2_0204, 0x4_0202, 0x8_0206, 0x10_0202, 0x20_0216];
+pub(super) const ODD_MOVES: [u32; 6] =
+    [0x1_0200, 0x2_0204, 0x4_0204, 0x8_0202, 0x10_0210, 0x20_0200];
+pub(super) const EVEN_MOVES: [u32; 5] = [0x2_0204, 0x4_0202, 0x8_0206, 0x10_0202, 0x20_0216];
