@@ -26,6 +26,7 @@ pub use freedoms::Freedoms;
 pub use known::{Known, KnownOutcome};
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, MismatchGroup, Report};
 pub use second::SecondFormulation;
+pub(crate) use strength::Alternatives;
 pub use strength::{Conversion, Denormals, Elements, ListOrder, Strength, flushed, vertices};
 pub use verify::{Subject, SubjectRow, verify};
 

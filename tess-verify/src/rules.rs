@@ -9,8 +9,11 @@
 //!  (case, output) ──► Answer: vertices by place ──► rules of one patch   (answer.rs, mesh.rs, edge.rs)
 //!                                              └──► rules of several      (memory.rs)
 //!                                                        │
-//!                          Tally for each rule ◄─────────┘  ──► held | broken | not exercised
+//!                          Tally for each rule ◄─────────┘  ──► held | held as far as asked | broken | not exercised
 //! ```
+//!
+//! A rule is a row of `rule.rs`: its demand, its sources, its scope and its judge. It is held only
+//! if every level of its scope was asked (`scope.rs`, `asked.rs`); see [`Asked`].
 //!
 //! Vertices are identified by their coordinates, as a shader sees them, never by index.
 //!
@@ -36,9 +39,11 @@
 //!   [`Rule::Range`].
 //! - Coordinates are rounded, so a vertex may be 16/65536 away from the place that equal lengths
 //!   give it, and a length may be off by twice that. Everything else is compared bit for bit.
-//! - Where a standard allows two results, the rule does not judge the patch.
+//! - Where a standard allows two results, either is right.
 
 mod answer;
+mod asked;
+mod division;
 mod edge;
 mod inside;
 mod levels;
@@ -48,17 +53,22 @@ mod mesh;
 mod neighbours;
 mod report;
 mod rings;
+mod rule;
+mod scope;
 mod specified;
 mod standard;
 
+pub use asked::Asked;
 pub use report::{Example, RuleRow, RulesReport, Verdict};
-pub use standard::{Rule, Specification};
+pub use rule::Rule;
+pub use standard::Specification;
 
 use crate::backend::{Backend, BackendError, tessellate};
 use crate::case::Case;
 use answer::Answer;
 use memory::Memory;
 use report::Tally;
+use rule::{Judge, Subject};
 use tess_core::Tessellation;
 
 /// Judges outputs by the rules of one standard.
@@ -100,16 +110,30 @@ pub fn check_rules(
 /// A rule's judgement of one patch; `None` if the patch could not show a fault.
 type Judged = Option<Result<(), String>>;
 
-/// A rule's judgement of one patch, or of a patch and an earlier one: the earlier case, and the
-/// result with its fault.
-type Judgement = (Option<Case>, Result<(), String>);
+/// A rule's judgement of one patch, or of a patch and an earlier one.
+#[derive(Debug)]
+struct Judgement {
+    /// The earlier case.
+    other: Option<Case>,
+    /// The positions of the levels that it is about, as bits.
+    positions: u8,
+    /// The fault, if there is one.
+    result: Result<(), String>,
+}
+
+impl Judgement {
+    /// A judgement of one patch, about all levels of the rule's scope.
+    const fn of_patch(result: Result<(), String>) -> Self {
+        Self { other: None, positions: u8::MAX, result }
+    }
+}
 
 impl Checker {
     /// A checker that has judged nothing yet.
     #[must_use]
     pub fn new(specification: Specification) -> Self {
-        let tally = |rule| Some(Tally::new(rule, specification.source(rule)?));
-        let tallies = specification.rules().filter_map(tally).collect();
+        let rules = specification.rules();
+        let tallies = rules.filter_map(|row| Tally::new(row, specification)).collect();
         Self { specification, patches: 0, tallies, memory: Memory::default() }
     }
 
@@ -118,22 +142,23 @@ impl Checker {
     /// The output of a capture by coordinates may have one point per vertex.
     pub fn add(&mut self, case: &Case, output: &Tessellation) {
         self.patches += 1;
-        let answer = match Answer::new(case, output) {
+        let answer = match Answer::new(case, output, self.specification) {
             Ok(answer) => answer,
-            Err(what) => {
-                return self.note(Rule::Range, case, output.points.len(), (None, Err(what)));
-            }
+            Err(what) => return self.out_of_range(case, output.points.len(), what),
         };
         let size = answer.size();
         if let Some(Err(what)) = answer.range() {
-            return self.note(Rule::Range, case, size, (None, Err(what)));
+            return self.out_of_range(case, size, what);
         }
         let is_exact = self.specification == Specification::D3d11;
-        let specified = is_exact.then(|| specified::specified(case)).flatten();
-        for rule in self.specification.rules() {
-            for judgement in self.judge(rule, &answer, specified.as_ref()) {
-                self.note(rule, case, size, judgement);
-            }
+        let specified = is_exact.then(|| specified::specified(&answer)).flatten();
+        let subject = Subject { answer: &answer, specified: specified.as_ref() };
+        for (row, tally) in self.specification.rules().zip(&mut self.tallies) {
+            let judgements = match row.judge {
+                Judge::One(judge) => judge(&subject).map(Judgement::of_patch).into_iter().collect(),
+                Judge::Many(judge) => judge(&mut self.memory, &answer),
+            };
+            judgements.into_iter().for_each(|judgement| tally.add(case, size, judgement));
         }
     }
 
@@ -147,32 +172,16 @@ impl Checker {
         }
     }
 
-    fn judge(&mut self, rule: Rule, answer: &Answer, specified: Option<&Answer>) -> Vec<Judgement> {
-        let alone = |result: Judged| result.into_iter().map(|result| (None, result)).collect();
-        let specification = self.specification;
-        match rule {
-            Rule::Range => alone(answer.range()),
-            Rule::Discard => alone(answer.discard()),
-            Rule::Segments => alone(edge::segments(answer, specified, specification)),
-            Rule::InnerLevels => alone(inside::inner_levels(answer, specified, specification)),
-            Rule::InnerSpacing => alone(inside::inner_spacing(answer, specification)),
-            Rule::Neighbours => alone(neighbours::neighbours(answer, specification)),
-            Rule::Spacing => alone(edge::spacing(answer, specification)),
-            Rule::Symmetric => alone(edge::symmetric(answer, specification)),
-            Rule::Cover => alone(mesh::cover(answer)),
-            Rule::Orientation => alone(mesh::orientation(answer)),
-            Rule::Isolines => alone(mesh::isolines(answer, specification)),
-            Rule::Counts => alone(specified::counts(answer, specified)),
-            Rule::Places => alone(specified::places(answer, specified)),
-            Rule::Primitives => alone(specified::primitives(answer, specified)),
-            Rule::PointsOnce => alone(mesh::points_once(answer, specification)),
-            _ => self.memory.judge(rule, answer, specification),
-        }
+    /// How often each rule was broken so far, in the order of [`Rule`].
+    pub fn broken(&self) -> impl Iterator<Item = (Rule, u64)> {
+        self.tallies.iter().map(|tally| (tally.rule(), tally.broken()))
     }
 
-    fn note(&mut self, rule: Rule, case: &Case, size: usize, (other, result): Judgement) {
-        if let Some(tally) = self.tallies.iter_mut().find(|tally| tally.is_of(rule)) {
-            tally.add(case, other, size, result);
+    /// Counts an output that no other rule can judge.
+    fn out_of_range(&mut self, case: &Case, size: usize, what: String) {
+        let judgement = Judgement { positions: 0, ..Judgement::of_patch(Err(what)) };
+        if let Some(tally) = self.tallies.iter_mut().find(|tally| tally.rule() == Rule::Range) {
+            tally.add(case, size, judgement);
         }
     }
 }

@@ -4,7 +4,7 @@
  *   cc -std=c99 -I bindings/c/include bindings/c/examples/rules.c target/release/libtess_capi.a \
  *      -lpthread -ldl -lm -o rules && ./rules
  *
- * Prints each rule of Vulkan as held, broken or not exercised. The exit code is 1 if a rule is broken.
+ * Prints each rule of Vulkan as held, held as far as asked, broken or not exercised. The exit code is 1 if a rule is broken.
  */
 #include "tess.h"
 

@@ -22,7 +22,7 @@ const SPECIFICATIONS: [Specification; 3] =
 /// Asks a tessellator for the patches of `tess gen --rules`, and judges its outputs by the rules of
 /// a standard.
 ///
-/// `specification` is `TESS_SPECIFICATION_...`. The patches are 12 671 systematic ones in the
+/// `specification` is `TESS_SPECIFICATION_...`. The patches are the systematic ones in the
 /// standard split order, then `random` patches that depend on `seed`. For Direct3D 11 the correct
 /// locations of vertices come from the model; the other standards are judged without it. Patches of
 /// configurations that the tessellator does not have are left out.
@@ -31,9 +31,9 @@ const SPECIFICATIONS: [Specification; 3] =
 /// - `TESS_DIFFERENT`: a rule is broken, or the tessellator failed.
 /// - `TESS_LEFT_OUT`: the tessellator has none of the configurations; nothing was judged.
 ///
-/// `report` receives the text that `tess check --rules` prints: each rule as held, broken or not
-/// exercised, with the smallest patches that break it; or the patch at which the tessellator
-/// failed. It ends with a zero byte and is cut off at `report_capacity` bytes; 16384 are enough.
+/// `report` receives the text that `tess check --rules` prints: each rule as held, held as far as
+/// asked, broken or not exercised, with what was not asked and the smallest patches that break it;
+/// or the patch at which the tessellator failed. It ends with a zero byte and is cut off at `report_capacity` bytes; 16384 are enough.
 /// This function allocates.
 ///
 /// # Safety

@@ -80,6 +80,8 @@ fn row<'py>(py: Python<'py>, row: &RuleRow) -> PyResult<Bound<'py, PyAny>> {
         values::value(py, "RuleExample", (cases, &example.what))
     });
     let (rule, verdict) = (row.rule.name(), row.verdict().name());
-    let elements = (rule, row.source, verdict, row.judged, row.broken, example.transpose()?);
+    let not_asked = PyTuple::new(py, row.asked.missing())?;
+    let (judged, broken) = (row.judged, row.broken);
+    let elements = (rule, row.source, verdict, judged, broken, example.transpose()?, not_asked);
     values::value(py, "RuleRow", elements)
 }

@@ -23,7 +23,9 @@ def test_the_model_breaks_what_vulkan_asks_and_direct3d_does_not() -> None:
     assert "22.3 Tessellator Spacing" == segments.source and segments.source in report.text
     assert not report.holds and report.patches == 1
     assert report.rule("cover").verdict == "not exercised" and report.rule("cover").example is None
-    assert check_rules([answer], "d3d11").holds
+    assert segments.not_asked[:2] == ("tri", "quad"), segments.not_asked
+    exact = check_rules([answer], "d3d11")
+    assert exact.holds and exact.rule("segments").verdict == "held as far as asked"
     with pytest.raises(KeyError):
         report.rule("segment")
 
@@ -43,7 +45,9 @@ def test_the_population_exercises_rules_and_files_do_as_answers_do(tmp_path: Pat
     tess_model.write_vectors(path, patches, form="listings")
     of_file = check_rules(path, "d3d11")
     assert of_file == check_rules(((p, p.points, p.indices) for p in patches), "d3d11")
-    assert of_file.rule("isolines").verdict == "held" and of_file.patches == len(patches)
+    isolines = of_file.rule("isolines")
+    assert isolines.verdict == "held" and isolines.not_asked == ()
+    assert of_file.patches == len(patches)
 
 
 def test_what_is_refused(tmp_path: Path) -> None:

@@ -1,6 +1,8 @@
 //! A patch's output as vertices by place, and the rules that need nothing else.
 
 use super::Judged;
+use super::levels::{inside_asked, may_touch_outline};
+use super::standard::Specification;
 use crate::case::Case;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, OutputPrimitive, Tessellation};
@@ -17,10 +19,14 @@ pub(super) const TOLERANCE: u32 = 16;
 #[derive(Debug)]
 pub(super) struct Answer {
     pub(super) case: Case,
+    /// The standard by which it is judged.
+    pub(super) specification: Specification,
     /// The vertices of the primitives, in order.
     pub(super) vertices: Vec<Place>,
     /// The distinct places of vertices, ascending.
     pub(super) places: Vec<Place>,
+    /// Whether vertices of the inside are on the outline, where a standard allows that.
+    pub(super) touches: bool,
 }
 
 impl Answer {
@@ -28,7 +34,11 @@ impl Answer {
     ///
     /// # Errors
     /// A description of an index without a point, or of a primitive that is not whole.
-    pub(super) fn new(case: &Case, output: &Tessellation) -> Result<Self, String> {
+    pub(super) fn new(
+        case: &Case,
+        output: &Tessellation,
+        specification: Specification,
+    ) -> Result<Self, String> {
         let vertex = |&index: &u32| {
             let point = output.points.get(index as usize);
             let place = point.map(|point| [point.u.to_bits(), point.v.to_bits()]);
@@ -43,7 +53,16 @@ impl Answer {
         let mut places = vertices.clone();
         places.sort_unstable();
         places.dedup();
-        Ok(Self { case: *case, vertices, places })
+        let mut answer = Self { case: *case, specification, vertices, places, touches: false };
+        // Where all vertices of the inside are off the outline, nothing needs an excuse.
+        answer.touches = may_touch_outline(case, specification)
+            && inside_asked(case).is_none_or(|asked| answer.inside().len() != asked);
+        Ok(answer)
+    }
+
+    /// Whether the standard specifies every place.
+    pub(super) fn is_exact(&self) -> bool {
+        self.specification == Specification::D3d11
     }
 
     /// The size of this answer as an example: its number of vertices.

@@ -2,9 +2,8 @@
 
 use super::Judged;
 use super::answer::{Answer, TOLERANCE};
-use super::levels::{Level, may_touch_outline};
-use super::lines::{Line, outer_lines};
-use super::standard::Specification;
+use super::levels::Level;
+use super::lines::{Line, outer_lines, outline};
 use std::collections::BTreeSet;
 use tess_core::Domain;
 use tess_core::fixed_point::ONE;
@@ -14,21 +13,14 @@ use tess_core::fixed_point::ONE;
 const JUST_ABOVE: u32 = 256;
 /// The divisor that bounds a shorter segment just above a number of segments. A length proportional
 /// to the level's excess is at most 1/512 of a longer one there.
-const VANISHING: u32 = 16;
+pub(super) const VANISHING: u32 = 16;
 
 /// Each line has as many segments as the specified answer, or as its level asks for if there is no
 /// specified answer.
-pub(super) fn segments(
-    answer: &Answer,
-    specified: Option<&Answer>,
-    specification: Specification,
-) -> Judged {
-    let is_exact = specification == Specification::D3d11;
-    if is_exact && specified.is_none() {
+pub(super) fn segments(answer: &Answer, specified: Option<&Answer>) -> Judged {
+    if answer.is_exact() && specified.is_none() {
         return None;
     }
-    // Vertices inside that touch the outline cannot be told from the outline's own.
-    let may_be_more = !is_exact && may_touch_outline(&answer.case, specification);
     let lines = outer_lines(answer);
     let specified = specified.map(outer_lines);
     let asked = |number: usize, line: &Line| match &specified {
@@ -40,17 +32,14 @@ pub(super) fn segments(
         let is_density = answer.case.domain() == Domain::Isoline && number == 0;
         let what = if is_density { "isolines" } else { "segments" };
         let (name, level) = (&line.name, line.level?.raw);
-        (found < asked || found > asked && !may_be_more)
+        (found != asked)
             .then(|| format!("{name} has {found} {what}, its level {level} asks for {asked}"))
     });
     (!lines.is_empty()).then(|| wrong.map_or(Ok(()), Err))
 }
 
 /// Each line with the right number of segments is spaced as its level asks.
-pub(super) fn spacing(answer: &Answer, specification: Specification) -> Judged {
-    if may_touch_outline(&answer.case, specification) {
-        return None;
-    }
+pub(super) fn spacing(answer: &Answer) -> Judged {
     spaced(&outer_lines(answer))
 }
 
@@ -59,7 +48,7 @@ pub(super) fn spaced(lines: &[Line]) -> Judged {
     let mut right = lines.iter().filter_map(|line| Some((line, line.level_if_right()?))).peekable();
     right.peek()?;
     let wrong = right.find_map(|(line, level)| {
-        let what = unequal(line, level);
+        let what = unequal(&line.along, level);
         what.map(|what| format!("{}: {what}", line.name))
     });
     Some(wrong.map_or(Ok(()), Err))
@@ -68,12 +57,12 @@ pub(super) fn spaced(lines: &[Line]) -> Judged {
 /// The fault in a line's lengths, if there is one.
 #[expect(clippy::float_cmp, reason = "a level is the integer itself, or is not")]
 #[expect(clippy::cast_precision_loss, reason = "at most 64")]
-fn unequal(line: &Line, level: Level) -> Option<String> {
+pub(super) fn unequal(along: &[u32], level: Level) -> Option<String> {
     let is_integer = level.clamped() == level.segments() as f32;
     if !level.is_fractional() || is_integer {
-        return equally_spaced(&line.along);
+        return equally_spaced(along);
     }
-    let lengths = line.lengths();
+    let lengths: Vec<u32> = along.windows(2).map(|pair| pair[1] - pair[0]).collect();
     two_lengths(&lengths).or_else(|| not_vanishing(&lengths, level))
 }
 
@@ -126,16 +115,31 @@ pub(super) fn shorter(line: &Line) -> Option<u32> {
     (lengths.len() >= 3).then(|| lengths.into_iter().min()).flatten()
 }
 
+/// The outer edges of a triangle or quad whose own vertices are known, each with these.
+pub(super) fn known_edges(answer: &Answer) -> impl Iterator<Item = (usize, Vec<u32>)> {
+    let edges = match answer.case.domain() {
+        Domain::Isoline => 0,
+        domain => domain.outer_factors(),
+    };
+    let lines = (0..edges).map(|edge| (edge, outline(answer, edge)));
+    lines.filter(|(_, line)| line.is_sure).map(|(edge, line)| (edge, line.along))
+}
+
 /// Each outer edge has both of its ends, and the mirror image of each of its vertices. Isolines
 /// have the mirror image of each vertex at u = 0, except that of the one at v = 0.
-pub(super) fn symmetric(answer: &Answer, specification: Specification) -> Judged {
+pub(super) fn symmetric(answer: &Answer) -> Judged {
     let domain = answer.case.domain();
-    if answer.is_empty() || may_touch_outline(&answer.case, specification) {
+    if answer.is_empty() {
         return None;
     }
-    let edges = if domain == Domain::Isoline { 1 } else { domain.outer_factors() };
-    let wrong = (0..edges).find_map(|edge| {
-        let mut along: BTreeSet<u32> = answer.along(edge).into_iter().collect();
+    let edges = match domain {
+        Domain::Isoline => vec![(0, answer.along(0))],
+        _ => known_edges(answer).collect(),
+    };
+    let mut edges = edges.into_iter().peekable();
+    edges.peek()?;
+    let wrong = edges.find_map(|(edge, along)| {
+        let mut along: BTreeSet<u32> = along.into_iter().collect();
         let name = domain.factor_names()[edge];
         if domain == Domain::Isoline {
             along.remove(&ONE); // v = 0

@@ -1,5 +1,6 @@
 //! The number of segments that a standard derives from a level.
 
+use super::rings::vertices_inside;
 use super::standard::Specification;
 use crate::case::Case;
 use tess_core::{Domain, Partitioning};
@@ -13,6 +14,8 @@ pub(super) struct Level {
     pub(super) raw: f32,
     pub(super) spacing: Partitioning,
     pub(super) is_inner: bool,
+    /// Its position among all levels of the patch, outer ones first.
+    pub(super) position: usize,
 }
 
 impl Level {
@@ -22,13 +25,14 @@ impl Level {
         let raw = case.factors.outer().nth(number).filter(|level| !level.is_nan())?;
         let is_density = case.domain() == Domain::Isoline && number == 0;
         let spacing = if is_density { Partitioning::Integer } else { case.config.partitioning };
-        Some(Self { raw, spacing, is_inner: false })
+        Some(Self { raw, spacing, is_inner: false, position: number })
     }
 
     /// Inner level `number`; `None` if it is NaN.
     pub(super) fn inner(case: &Case, number: usize) -> Option<Self> {
         let raw = case.factors.inside().nth(number).filter(|level| !level.is_nan())?;
-        Some(Self { raw, spacing: case.config.partitioning, is_inner: true })
+        let position = case.domain().outer_factors() + number;
+        Some(Self { raw, spacing: case.config.partitioning, is_inner: true, position })
     }
 
     /// The level clamped to the spacing's range.
@@ -82,57 +86,24 @@ pub(super) fn is_minimum(case: &Case) -> bool {
 }
 
 /// Whether vertices inside may be on the outline: with fractional odd spacing, if an inner level is
-/// not above 1. In Direct3D, levels up to 1 + 8/65536 count too, because their locations round to
-/// the outline.
+/// not above 1, and so counts as just above 1 (Vulkan 22.6, 22.7). In Direct3D, levels up to 1 +
+/// 8/65536 count too, because their locations round to the outline. Vulkan does not say what an
+/// inner level is that is NaN, so it may be that.
 pub(super) fn may_touch_outline(case: &Case, specification: Specification) -> bool {
     const ROUNDED: f32 = f32::from_bits(0x3F80_0400);
     let highest = if specification == Specification::D3d11 { ROUNDED } else { 1.0 };
     case.config.partitioning == Partitioning::FractionalOdd
+        && !is_minimum(case)
         && case.factors.inside().any(|level| level <= highest || level.is_nan())
 }
 
-/// Whether Direct3D allows only one 15.16 number for each level (specification, section 13): the
-/// nearest one must be the only one within 0.6 units.
-pub(super) fn has_one_conversion(case: &Case) -> bool {
-    let is_clear = |level: f32| {
-        let bits = level.to_bits();
-        let (exponent, mantissa) = (bits >> 23, bits & 0x7F_FFFF);
-        match exponent {
-            // From 1 to 64, 7 to 2 bits of the fraction are below 2^-16.
-            127..=132 => {
-                let below = 134 - exponent;
-                let tenths = 10 * (mantissa & ((1 << below) - 1));
-                !(4 << below..=6 << below).contains(&tenths)
-            }
-            _ => true,
-        }
-    };
-    case.config.partitioning.has_integer_factors() || case.factors.iter().all(is_clear)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A level that is 0.4 to 0.6 units above a 15.16 number has two legal conversions; where
-    /// levels are rounded to integers, each has one.
-    #[test]
-    fn conversions_are_counted() {
-        let case = |spacing: &str, bits: u32| -> Case {
-            let line = format!("case isoline {spacing} line ruler 3f800000 {bits:08x}");
-            line.parse().expect("a case")
-        };
-        // 1 + k 2^-23 is k/128 units above 1: 0.4 is at 51.2, 0.6 at 76.8.
-        for (k, is_clear) in
-            [(0, true), (51, true), (52, false), (64, false), (76, false), (77, true)]
-        {
-            let bits = 0x3F80_0000 + k;
-            assert_eq!(has_one_conversion(&case("fractional_odd", bits)), is_clear, "1 + {k} ulp");
-            assert!(has_one_conversion(&case("integer", bits)), "{k}: rounded up");
-        }
-        // Above 32 an ulp is a quarter of a unit.
-        let above_32 = |k: u32| has_one_conversion(&case("fractional_even", 0x4200_0000 + k));
-        assert_eq!([0, 1, 2, 3, 4].map(above_32), [true, true, false, true, true]);
-        assert!(has_one_conversion(&case("fractional_even", 0x4280_0020)), "clamped to 64");
+/// The number of vertices inside that the inner levels ask for; `None` if one of them is NaN.
+pub(super) fn inside_asked(case: &Case) -> Option<usize> {
+    let segments = |number| Some(Level::inner(case, number)?.segments());
+    match case.domain() {
+        _ if is_minimum(case) => Some(0),
+        Domain::Isoline => Some(0),
+        Domain::Triangle => segments(0).map(vertices_inside),
+        Domain::Quad => Some((segments(0)? - 1) as usize * (segments(1)? - 1) as usize),
     }
 }

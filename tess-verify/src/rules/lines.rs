@@ -11,6 +11,7 @@
 //! temporarily, to place the rings; see `rings.rs`.
 
 use super::answer::Answer;
+use super::division::divisions;
 use super::levels::{Level, is_minimum};
 use super::rings::Rings;
 use std::collections::BTreeMap;
@@ -26,17 +27,27 @@ pub(super) struct Line {
     pub(super) level: Option<Level>,
     /// The places of its vertices, ascending and including both ends: 16.16 numbers from 0 to 1.
     pub(super) along: Vec<u32>,
+    /// Whether these are its own vertices for certain. They are not if vertices of the inside are
+    /// among them and cannot be told apart.
+    pub(super) is_sure: bool,
 }
 
 impl Line {
+    /// A line whose vertices are known.
+    const fn sure(name: String, level: Option<Level>, along: Vec<u32>) -> Self {
+        Self { name, level, along, is_sure: true }
+    }
+
     /// How many segments it has.
     pub(super) const fn segments(&self) -> usize {
         self.along.len().saturating_sub(1)
     }
 
-    /// Its level, if the line has as many segments as the level asks for.
+    /// Its level, if the line has as many segments as the level asks for, and its vertices are
+    /// known.
     pub(super) fn level_if_right(&self) -> Option<Level> {
-        self.level.filter(|level| level.segments() as usize == self.segments())
+        let is_right = |level: &Level| level.segments() as usize == self.segments();
+        self.level.filter(is_right).filter(|_| self.is_sure)
     }
 
     /// The lengths of its segments.
@@ -53,12 +64,7 @@ pub(super) fn outer_lines(answer: &Answer) -> Vec<Line> {
         return Vec::new();
     }
     if case.domain() != Domain::Isoline {
-        let edge = |edge| Line {
-            name: format!("edge {}", case.domain().factor_names()[edge]),
-            level: Level::outer(case, edge),
-            along: answer.along(edge),
-        };
-        return (0..case.domain().outer_factors()).map(edge).collect();
+        return (0..case.domain().outer_factors()).map(|edge| outline(answer, edge)).collect();
     }
     let mut by_v: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for &[u, v] in &answer.places {
@@ -68,12 +74,29 @@ pub(super) fn outer_lines(answer: &Answer) -> Vec<Line> {
     let mut along: Vec<u32> = by_v.keys().copied().collect();
     along.push(ONE);
     along.dedup();
-    let density = Line { name: "the patch".to_owned(), level: Level::outer(case, 0), along };
-    let line = |(number, along)| {
-        let name = format!("line {number}");
-        Line { name, level: Level::outer(case, 1), along }
-    };
+    let density = Line::sure("the patch".to_owned(), Level::outer(case, 0), along);
+    let line = |(number, along)| Line::sure(format!("line {number}"), Level::outer(case, 1), along);
     [density].into_iter().chain(by_v.into_values().enumerate().map(line)).collect()
+}
+
+/// An outer edge of a triangle or quad, with its own vertices.
+///
+/// Where vertices of the inside are on the outline, the edge's own ones are those that its level
+/// may place.
+pub(super) fn outline(answer: &Answer, edge: usize) -> Line {
+    let case = &answer.case;
+    let name = format!("edge {}", case.domain().factor_names()[edge]);
+    let level = Level::outer(case, edge);
+    let line = Line::sure(name, level, answer.along(edge));
+    match level {
+        Some(level) if answer.touches && line.segments() > level.segments() as usize => {
+            let mut found = divisions(&line.along, level);
+            let is_sure = found.len() == 1;
+            let along = if found.is_empty() { line.along } else { found.swap_remove(0) };
+            Line { along, is_sure, ..line }
+        }
+        _ => line,
+    }
 }
 
 /// The lines that inner levels divide, as far as the vertices inside show them: a quad's columns
@@ -88,10 +111,8 @@ pub(super) fn inner_lines(answer: &Answer) -> Vec<Line> {
         Domain::Quad => {
             let Grid { columns, rows, .. } = Grid::new(answer);
             let axes = [("the columns", columns), ("the rows", rows)];
-            let line = |(axis, (name, inside)): (usize, (&str, Vec<u32>))| Line {
-                name: name.to_owned(),
-                level: Level::inner(case, axis),
-                along: with_ends(inside),
+            let line = |(axis, (name, inside)): (usize, (&str, Vec<u32>))| {
+                Line::sure(name.to_owned(), Level::inner(case, axis), with_ends(inside))
             };
             axes.into_iter().enumerate().map(line).collect()
         }
@@ -99,14 +120,14 @@ pub(super) fn inner_lines(answer: &Answer) -> Vec<Line> {
             let level = Level::inner(case, 0);
             let rings = level.and_then(|level| Rings::new(answer.inside(), level.segments()));
             let along = rings.as_ref().map(Rings::outermost).map(with_ends);
-            let line = |along| Line { name: "the rings".to_owned(), level, along };
+            let line = |along| Line::sure("the rings".to_owned(), level, along);
             along.map(line).into_iter().collect()
         }
     }
 }
 
 /// The places between the ends, with both ends added.
-fn with_ends(inside: Vec<u32>) -> Vec<u32> {
+pub(super) fn with_ends(inside: Vec<u32>) -> Vec<u32> {
     [0].into_iter().chain(inside).chain([ONE]).collect()
 }
 

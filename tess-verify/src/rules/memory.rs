@@ -2,10 +2,9 @@
 
 use super::Judgement;
 use super::answer::{Answer, Place, TOLERANCE, distance_along};
-use super::edge::shorter;
-use super::levels::{Level, is_minimum, may_touch_outline};
+use super::edge::{known_edges, shorter};
+use super::levels::{Level, is_minimum};
 use super::lines::{Line, inner_lines, outer_lines};
-use super::standard::{Rule, Specification};
 use crate::case::Case;
 use crate::vectors::words_digest;
 use std::collections::{BTreeMap, HashMap};
@@ -64,18 +63,13 @@ pub(super) struct Memory {
     edges: HashMap<(Option<Domain>, Partitioning, SplitOrder, u32), Edges>,
     /// By state, by whether the level is an inner one, and by number of segments.
     shorter: HashMap<(State, bool, u32), Shorter>,
-    /// By spacing, split order, and bits of the clamped level.
-    divided: HashMap<(Partitioning, SplitOrder, u32), Divided>,
+    /// By spacing, split order, bits of the clamped level and number of segments.
+    divided: HashMap<(Partitioning, SplitOrder, u32, u32), Divided>,
 }
 
 fn state(answer: &Answer) -> State {
     let Config { partitioning, split, .. } = answer.case.config;
     (answer.case.domain(), partitioning, split)
-}
-
-/// The case with another output.
-const fn with_output(case: &Case, output: OutputPrimitive) -> Case {
-    Case { config: Config { output, ..case.config }, factors: case.factors }
 }
 
 fn inner(case: &Case) -> Vec<u32> {
@@ -86,47 +80,47 @@ fn level(case: &Case, edge: usize) -> u32 {
     case.factors.outer().nth(edge).map_or(0, f32::to_bits)
 }
 
+/// The positions of a domain's inner levels, as bits.
+fn inner_positions(domain: Domain) -> u8 {
+    (domain.outer_factors()..domain.factors()).fold(0, |bits, position| bits | 1 << position)
+}
+
+/// Each of these judges a patch against earlier ones that it must agree with, and stores what later
+/// patches must agree with.
 impl Memory {
-    /// Judges a patch against each earlier one that it must agree with, and stores what later
-    /// patches must agree with.
-    pub(super) fn judge(
-        &mut self,
-        rule: Rule,
-        answer: &Answer,
-        specification: Specification,
-    ) -> Vec<Judgement> {
-        if rule == Rule::Same {
-            let digest = words_digest(answer.vertices.as_flattened());
-            return self.compare(Key::Case(answer.case), digest, answer, "another sequence");
+    pub(super) fn same(&mut self, answer: &Answer) -> Vec<Judgement> {
+        let digest = words_digest(answer.vertices.as_flattened());
+        self.compare(Key::Case(answer.case), digest, answer, u8::MAX, "another sequence")
+    }
+
+    pub(super) fn winding(&mut self, answer: &Answer) -> Vec<Judgement> {
+        if answer.is_empty() || !answer.has_triangles() {
+            return Vec::new();
         }
-        let touches = may_touch_outline(&answer.case, specification);
-        let has_inside = answer.has_triangles() && !is_minimum(&answer.case);
-        match rule {
-            _ if answer.is_empty() => Vec::new(),
-            Rule::Winding if answer.has_triangles() => {
-                let key = Key::Triangles(with_output(&answer.case, OutputPrimitive::TriangleCw));
-                let digest = triangles(answer.triangles());
-                self.compare(key, digest, answer, "another set of triangles")
-            }
-            Rule::PointsSame => {
-                let key = Key::Places(with_output(&answer.case, OutputPrimitive::Point));
-                let digest = words_digest(answer.places.as_flattened());
-                self.compare(key, digest, answer, "vertices at other places")
-            }
-            _ if touches => Vec::new(),
-            Rule::EdgeLevel => self.edge_level(answer),
-            Rule::EveryEdge => self.every_edge(answer, specification),
-            Rule::Interior if has_inside => self.interior(answer),
-            Rule::Transition if has_inside => self.transition(answer),
-            Rule::Monotone => self.monotone(answer),
-            Rule::EqualLevels => self.equal_levels(answer),
-            _ => Vec::new(),
+        let key = Key::Triangles(answer.case.with_output(OutputPrimitive::TriangleCw));
+        let digest = triangles(answer.triangles());
+        self.compare(key, digest, answer, u8::MAX, "another set of triangles")
+    }
+
+    pub(super) fn points_same(&mut self, answer: &Answer) -> Vec<Judgement> {
+        if answer.is_empty() {
+            return Vec::new();
         }
+        let key = Key::Places(answer.case.with_output(OutputPrimitive::Point));
+        let digest = words_digest(answer.places.as_flattened());
+        self.compare(key, digest, answer, u8::MAX, "vertices at other places")
     }
 
     /// Compares a digest with that of the first patch that has the same key. Where the output is
     /// not part of the key, patches of equal output are not compared.
-    fn compare(&mut self, key: Key, digest: u64, answer: &Answer, what: &str) -> Vec<Judgement> {
+    fn compare(
+        &mut self,
+        key: Key,
+        digest: u64,
+        answer: &Answer,
+        positions: u8,
+        what: &str,
+    ) -> Vec<Judgement> {
         match self.known.get(&key) {
             None => {
                 self.known.insert(key, (digest, answer.case));
@@ -140,29 +134,28 @@ impl Memory {
             }
             Some(&(known, case)) => {
                 let result = if known == digest { Ok(()) } else { Err(what.to_owned()) };
-                vec![(Some(case), result)]
+                vec![Judgement { other: Some(case), positions, result }]
             }
         }
     }
 
-    fn edge_level(&mut self, answer: &Answer) -> Vec<Judgement> {
-        let each = |edge| {
+    pub(super) fn edge_level(&mut self, answer: &Answer) -> Vec<Judgement> {
+        let each = |(edge, along): (usize, Vec<u32>)| {
             let key = Key::Edge(state(answer), edge, level(&answer.case, edge));
             let name = answer.case.domain().factor_names()[edge];
-            let digest = words_digest(&answer.along(edge));
-            self.compare(key, digest, answer, &format!("edge {name} has other vertices"))
+            let what = format!("edge {name} has other vertices");
+            self.compare(key, words_digest(&along), answer, 1 << edge, &what)
         };
-        outer_edges(answer).flat_map(each).collect()
+        known_edges(answer).filter(|_| !answer.is_empty()).flat_map(each).collect()
     }
 
     /// Compares each edge with the other edges of the same level, in either direction. In Direct3D,
     /// edges of different domains must agree too.
-    fn every_edge(&mut self, answer: &Answer, specification: Specification) -> Vec<Judgement> {
+    pub(super) fn every_edge(&mut self, answer: &Answer) -> Vec<Judgement> {
         let (domain, partitioning, split) = state(answer);
-        let own = (specification != Specification::D3d11).then_some(domain);
+        let own = (!answer.is_exact()).then_some(domain);
         let mut judgements = Vec::new();
-        for edge in outer_edges(answer) {
-            let along = answer.along(edge);
+        for (edge, along) in known_edges(answer).filter(|_| !answer.is_empty()) {
             let mirrored: Vec<u32> = along.iter().rev().map(|x| ONE - x).collect();
             let key = (own, partitioning, split, level(&answer.case, edge));
             let known = self.edges.entry(key).or_default();
@@ -172,23 +165,31 @@ impl Memory {
                 let names = [domain.factor_names()[edge], other.factor_names()[*number]];
                 let what =
                     || format!("edge {} has other vertices than edge {}", names[0], names[1]);
-                (Some(*case), if is_same { Ok(()) } else { Err(what()) })
+                let result = if is_same { Ok(()) } else { Err(what()) };
+                Judgement { other: Some(*case), positions: 1 << edge, result }
             }));
             known.entry((domain, edge)).or_insert((along, answer.case));
         }
         judgements
     }
 
-    fn interior(&mut self, answer: &Answer) -> Vec<Judgement> {
+    pub(super) fn interior(&mut self, answer: &Answer) -> Vec<Judgement> {
+        if !has_own_inside(answer) {
+            return Vec::new();
+        }
         let is_inside = |triangle: &[Place; 3]| triangle.iter().all(|p| !answer.is_on_outline(*p));
         let digest = triangles(answer.triangles().filter(is_inside));
         let key = Key::Interior(state(answer), inner(&answer.case));
-        self.compare(key, digest, answer, "other triangles inside")
+        let positions = inner_positions(answer.case.domain());
+        self.compare(key, digest, answer, positions, "other triangles inside")
     }
 
     /// Compares the triangles with two vertices on an edge. Those with one are at a corner of two
     /// edges, or next to a triangle that has two.
-    fn transition(&mut self, answer: &Answer) -> Vec<Judgement> {
+    pub(super) fn transition(&mut self, answer: &Answer) -> Vec<Judgement> {
+        if !has_own_inside(answer) {
+            return Vec::new();
+        }
         let domain = answer.case.domain();
         let each = |edge| {
             let is_on = |place: &&Place| distance_along(domain, edge, **place).is_some();
@@ -196,19 +197,21 @@ impl Memory {
             let digest = triangles(answer.triangles().filter(is_at));
             let (name, level) = (domain.factor_names()[edge], level(&answer.case, edge));
             let key = Key::Transition(state(answer), edge, level, inner(&answer.case));
-            self.compare(key, digest, answer, &format!("other triangles at edge {name}"))
+            let positions = inner_positions(domain) | 1 << edge;
+            let what = format!("other triangles at edge {name}");
+            self.compare(key, digest, answer, positions, &what)
         };
-        outer_edges(answer).flat_map(each).collect()
+        (0..domain.outer_factors()).flat_map(each).collect()
     }
 
     /// Compares each line with the first line of its level, in any patch: an edge, an isoline, or
     /// the columns, rows or rings inside.
-    fn equal_levels(&mut self, answer: &Answer) -> Vec<Judgement> {
+    pub(super) fn equal_levels(&mut self, answer: &Answer) -> Vec<Judgement> {
         let (_, partitioning, split) = state(answer);
         let mut judgements = Vec::new();
         for line in fractional_lines(answer) {
             let Some(level) = line.level_if_right() else { continue };
-            let key = (partitioning, split, level.clamped().to_bits());
+            let key = (partitioning, split, level.clamped().to_bits(), level.segments());
             let Line { name, along, .. } = line;
             let Some(first) = self.divided.get(&key) else {
                 self.divided.insert(key, Divided { along, name, case: answer.case });
@@ -224,34 +227,46 @@ impl Memory {
                     first.name
                 )
             });
-            judgements.push((Some(first.case), what.map_or(Ok(()), Err)));
+            let result = what.map_or(Ok(()), Err);
+            let positions = 1 << level.position;
+            judgements.push(Judgement { other: Some(first.case), positions, result });
         }
         judgements
     }
 
     /// Compares lines whose levels round up to the same number: each with those of the next lower
     /// and the next higher level.
-    fn monotone(&mut self, answer: &Answer) -> Vec<Judgement> {
+    pub(super) fn monotone(&mut self, answer: &Answer) -> Vec<Judgement> {
         let mut judgements = Vec::new();
         for line in fractional_lines(answer) {
             let (Some(level), Some(length)) = (line.level_if_right(), shorter(&line)) else {
                 continue;
             };
+            let positions = 1 << level.position;
             let (n, level, is_inner) = (level.segments(), level.fixed(), level.is_inner);
             let known = self.shorter.entry((state(answer), is_inner, n)).or_default();
             let below = known.range(..level).next_back();
             let above = known.range(level + 1..).next();
             let low = below.map(|(from, (there, case))| (*case, level - from, *there, length));
             let high = above.map(|(to, (there, case))| (*case, to - level, length, *there));
-            judgements.extend(
-                low.into_iter()
-                    .chain(high)
-                    .map(|(case, apart, low, high)| (Some(case), growing(apart, low, high))),
-            );
+            let pairs = low.into_iter().chain(high);
+            judgements.extend(pairs.map(|(case, apart, low, high)| {
+                let result = growing(apart, low, high);
+                Judgement { other: Some(case), positions, result }
+            }));
             known.entry(level).or_insert((length, answer.case));
         }
         judgements
     }
+}
+
+/// Whether a patch has triangles inside that can be told from those at the outline.
+fn has_own_inside(answer: &Answer) -> bool {
+    answer.has_triangles()
+        && !answer.is_empty()
+        && !is_minimum(&answer.case)
+        && !answer.touches
+        && answer.case.domain() != Domain::Isoline
 }
 
 /// Whether the shorter segments grow from one level to another that is `apart` units of 2^-16
@@ -272,14 +287,6 @@ fn growing(apart: u32, low: u32, high: u32) -> Result<(), String> {
 fn fractional_lines(answer: &Answer) -> impl Iterator<Item = Line> {
     let lines = outer_lines(answer).into_iter().chain(inner_lines(answer));
     lines.filter(|line| line.level.is_some_and(Level::is_fractional))
-}
-
-/// The outer edges; isolines have none.
-fn outer_edges(answer: &Answer) -> std::ops::Range<usize> {
-    match answer.case.domain() {
-        Domain::Isoline => 0..0,
-        domain => 0..domain.outer_factors(),
-    }
 }
 
 /// A digest of a set of triangles that does not depend on their order or on that of their vertices.

@@ -10,10 +10,9 @@ use super::Judged;
 use super::answer::{Answer, Place, distance_along, show};
 use super::edge::segments;
 use super::inside::inner_levels;
-use super::levels::{Level, is_minimum, may_touch_outline};
+use super::levels::{Level, is_minimum};
 use super::lines::Grid;
 use super::rings::Rings;
-use super::standard::Specification;
 use std::collections::HashMap;
 use tess_core::Domain;
 
@@ -29,15 +28,16 @@ struct Spot {
 type Spots = HashMap<Place, Vec<Spot>>;
 
 /// Each triangle joins two neighbours on one line with a vertex of the next line. A patch is not
-/// judged if one of its lines has a wrong number of segments.
-pub(super) fn neighbours(answer: &Answer, specification: Specification) -> Judged {
+/// judged if one of its lines has a wrong number of segments, or if vertices of its inside are on
+/// the outline.
+pub(super) fn neighbours(answer: &Answer) -> Judged {
     let case = &answer.case;
     let is_right = |judged: Judged| judged.is_some_and(|result| result.is_ok());
     if !answer.has_triangles()
         || is_minimum(case)
-        || may_touch_outline(case, specification)
-        || !is_right(segments(answer, None, specification))
-        || !is_right(inner_levels(answer, None, specification))
+        || answer.touches
+        || !is_right(segments(answer, None))
+        || !is_right(inner_levels(answer, None))
     {
         return None;
     }

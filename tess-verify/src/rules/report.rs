@@ -1,6 +1,9 @@
 //! The report on the rules of one standard.
 
-use super::standard::{Rule, Specification};
+use super::Judgement;
+use super::asked::Asked;
+use super::rule::{Row, Rule};
+use super::standard::Specification;
 use crate::case::Case;
 use crate::names::{Named, named};
 use std::fmt;
@@ -10,8 +13,11 @@ named! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum Verdict: "verdict" {
-        /// Every judged patch or pair meets the demand.
+        /// Every judged patch or pair meets the demand, and all levels were asked that can show a
+        /// fault.
         Held = "held",
+        /// Every judged patch or pair meets the demand, and some levels were not asked.
+        HeldAsFarAsAsked = "held as far as asked",
         /// Some judged patches or pairs do not.
         Broken = "broken",
         /// No patch or pair could show a fault.
@@ -41,6 +47,8 @@ pub struct RuleRow {
     pub judged: u64,
     /// The number of judgements that found it broken.
     pub broken: u64,
+    /// The levels that the judgements were about.
+    pub asked: Asked,
     /// The broken example with the fewest vertices; the first one, if several have as few.
     pub smallest: Option<Example>,
 }
@@ -48,10 +56,11 @@ pub struct RuleRow {
 impl RuleRow {
     /// The rule's verdict.
     #[must_use]
-    pub const fn verdict(&self) -> Verdict {
+    pub fn verdict(&self) -> Verdict {
         match (self.judged, self.broken) {
             (0, _) => Verdict::NotExercised,
-            (_, 0) => Verdict::Held,
+            (_, 0) if self.asked.is_complete() => Verdict::Held,
+            (_, 0) => Verdict::HeldAsFarAsAsked,
             _ => Verdict::Broken,
         }
     }
@@ -76,24 +85,33 @@ impl RulesReport {
     }
 }
 
-/// A table of the rules, with the smallest example below each broken one, and a summary line.
+/// A table of the rules: verdict, broken judgements of all, levels asked of those that can show a
+/// fault, and source. Below a rule that is held as far as asked, what was not asked; below a broken
+/// one, the smallest example. A summary line ends it.
 impl fmt::Display for RulesReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for row in &self.rows {
-            let (rule, verdict) = (row.rule.name(), row.verdict().name());
-            let RuleRow { source, judged, broken, .. } = row;
-            writeln!(f, "{rule:<13} {verdict:<13} {broken:>7} of {judged:>8}  {source}")?;
+            let (rule, verdict) = (row.rule.name(), row.verdict());
+            let RuleRow { source, judged, broken, asked, .. } = row;
+            let (name, [levels, wanted]) = (verdict.name(), asked.levels());
+            write!(f, "{rule:<13} {name:<20} {broken:>7} of {judged:>8}")?;
+            writeln!(f, "  {levels:>5} of {wanted:>5} levels  {source}")?;
+            if verdict == Verdict::HeldAsFarAsAsked {
+                writeln!(f, "  not asked: {asked}")?;
+            }
             if let Some(example) = &row.smallest {
                 writeln!(f, "  {}", example.what)?;
                 example.cases.iter().try_for_each(|case| writeln!(f, "  {case}"))?;
             }
         }
-        let [held, broken, not] =
-            [Verdict::Held, Verdict::Broken, Verdict::NotExercised].map(|v| self.count(v));
+        let [held, partly, broken, not] =
+            [Verdict::Held, Verdict::HeldAsFarAsAsked, Verdict::Broken, Verdict::NotExercised]
+                .map(|verdict| self.count(verdict));
         let (patches, name) = (self.patches, self.specification.name());
         writeln!(
             f,
-            "{patches} patches, {name}: {held} rules held, {broken} broken, {not} not exercised"
+            "{patches} patches, {name}: {held} rules held, {partly} held as far as asked, \
+             {broken} broken, {not} not exercised"
         )
     }
 }
@@ -107,28 +125,30 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    pub(super) const fn new(rule: Rule, source: &'static str) -> Self {
-        let row = RuleRow { rule, source, judged: 0, broken: 0, smallest: None };
-        Self { row, size: usize::MAX }
-    }
-
-    pub(super) fn is_of(&self, rule: Rule) -> bool {
-        self.row.rule == rule
+    pub(super) fn new(row: &Row, specification: Specification) -> Option<Self> {
+        let (rule, source) = (row.rule, row.source(specification)?);
+        let asked = Asked::new(rule, specification);
+        let row = RuleRow { rule, source, judged: 0, broken: 0, asked, smallest: None };
+        Some(Self { row, size: usize::MAX })
     }
 
     pub(super) fn row(&self) -> RuleRow {
         self.row.clone()
     }
 
+    pub(super) const fn rule(&self) -> Rule {
+        self.row.rule
+    }
+
+    pub(super) const fn broken(&self) -> u64 {
+        self.row.broken
+    }
+
     /// Counts a judgement of a case with `size` vertices, and of an earlier case if there is one.
-    pub(super) fn add(
-        &mut self,
-        case: &Case,
-        other: Option<Case>,
-        size: usize,
-        result: Result<(), String>,
-    ) {
+    pub(super) fn add(&mut self, case: &Case, size: usize, judgement: Judgement) {
+        let Judgement { other, positions, result } = judgement;
         self.row.judged += 1;
+        self.row.asked.add(case, positions);
         let Err(what) = result else { return };
         self.row.broken += 1;
         if size < self.size {

@@ -17,7 +17,8 @@
 //! ```
 //!
 //! A vertex belongs to a ring by its distance from the outline. Where two rings are so close that
-//! rounding might mix them up, no [`Rings`] are made, and no rule about rings judges the patch.
+//! rounding might mix them up, no [`Rings`] are made. `inner-spacing` allows that only where the level
+//! puts two rings so close.
 
 use super::answer::{Place, TOLERANCE};
 use tess_core::fixed_point::ONE;
@@ -63,25 +64,10 @@ fn depth(place: Place) -> u32 {
 impl Rings {
     /// The rings of `n` segments that the vertices inside form. `None` if the number of vertices
     /// differs from that of `n` segments, or if rings are too close to tell apart.
-    pub(super) fn new(mut inside: Vec<Place>, n: u32) -> Option<Self> {
-        if inside.len() != vertices_inside(n) {
-            return None;
-        }
-        inside.sort_by_key(|place| depth(*place));
-        let mut rest = inside.as_slice();
-        let mut rings: Vec<Ring> = Vec::new();
-        for number in 1..=n / 2 {
-            let (own, others) = rest.split_at_checked(ring_vertices(n, number))?;
-            let ring = Ring::new(number, own)?;
-            let is_apart =
-                rings.last().is_none_or(|outer| outer.depths[1] + 2 * TOLERANCE < ring.depths[0]);
-            if !is_apart {
-                return None;
-            }
-            rings.push(ring);
-            rest = others;
-        }
-        Some(Self { rings })
+    pub(super) fn new(inside: Vec<Place>, n: u32) -> Option<Self> {
+        let rings = by_depth(inside, n)?;
+        let is_clear = too_close(&rings).next().is_none();
+        is_clear.then_some(Self { rings })
     }
 
     /// The places t of the outermost ring's vertices, from its edge along v = 0.
@@ -89,6 +75,28 @@ impl Rings {
         let edge = self.rings.first().map(|ring| &ring.edges[1]);
         edge.into_iter().flatten().map(|(t, _)| *t).collect()
     }
+}
+
+/// The vertices inside as rings of `n` segments, by their distance from the outline; `None` if
+/// their number differs from that of `n` segments.
+pub(super) fn by_depth(mut inside: Vec<Place>, n: u32) -> Option<Vec<Ring>> {
+    if inside.len() != vertices_inside(n) {
+        return None;
+    }
+    inside.sort_by_key(|place| depth(*place));
+    let mut rest = inside.as_slice();
+    let ring = |number| {
+        let (own, others) = rest.split_at_checked(ring_vertices(n, number))?;
+        rest = others;
+        Ring::new(number, own)
+    };
+    (1..=n / 2).map(ring).collect()
+}
+
+/// The numbers of the rings that are too close to the next outer one to tell their vertices apart.
+pub(super) fn too_close(rings: &[Ring]) -> impl Iterator<Item = u32> {
+    let is_close = |pair: &&[Ring]| pair[0].depths[1] + 2 * TOLERANCE >= pair[1].depths[0];
+    rings.windows(2).filter(is_close).map(|pair| pair[1].number)
 }
 
 impl Ring {

@@ -2,23 +2,39 @@
 //! sections 5 to 7).
 //!
 //! The order of primitives is free, and so is the leading vertex of a triangle (section 13). The
-//! specified answer is the model's. There is none if a level has two legal conversions or the patch
-//! is culled.
+//! specified answer is the model's, or one with another legal conversion of its levels. There is none
+//! if the patch is culled.
 
 use super::Judged;
 use super::answer::{Answer, Place, show};
-use super::levels::has_one_conversion;
-use crate::case::Case;
+use crate::check::{Alternatives, Conversion};
 use std::collections::BTreeMap;
 use tess_core::Domain;
 
-/// The answer that Direct3D specifies for a case, if it leaves no choice and is not empty.
-pub(super) fn specified(case: &Case) -> Option<Answer> {
-    if !has_one_conversion(case) {
-        return None;
+/// The answer that Direct3D specifies for a case, if it is not empty.
+///
+/// A level may have two legal conversions to 16 fraction bits (section 13). Of the specified
+/// answers that these give, this is one that agrees with the device's in as much as any does.
+pub(super) fn specified(answer: &Answer) -> Option<Answer> {
+    let legal = Alternatives::new(&answer.case, Conversion::Within06Ulp);
+    let of = |choice| {
+        let output = legal.case(choice).patch().tessellate();
+        Answer::new(&answer.case, &output, answer.specification).ok()
+    };
+    let agrees = |judge: fn(&Answer, Option<&Answer>) -> Judged, other: &Answer| {
+        judge(answer, Some(other)).is_none_or(|result| result.is_ok())
+    };
+    let mut best = of(0).filter(|own| !own.is_empty())?;
+    for choice in legal.choices().skip(1) {
+        if agrees(primitives, &best) && agrees(places, &best) {
+            break;
+        }
+        let other = of(choice)?;
+        if agrees(places, &other) && (!agrees(places, &best) || agrees(primitives, &other)) {
+            best = other;
+        }
     }
-    let answer = Answer::new(case, &case.patch().tessellate()).ok();
-    answer.filter(|answer| !answer.is_empty())
+    Some(best)
 }
 
 /// There are as many primitives as in the specified answer; coinciding points may be merged.

@@ -120,7 +120,8 @@ fn faults_of_vertices() {
     });
     found_by_alone(VULKAN, Rule::PointsOnce, &[POINTS], |output| output.indices.push(3));
     found_by_alone(VULKAN, Rule::PointsSame, &[TRI, POINTS], |output| {
-        output.points[15] = DomainPoint::from_bits(0x5555, 0x5554);
+        let [u, v] = [output.points[15].u.to_bits(), output.points[15].v.to_bits()];
+        output.points[15] = DomainPoint::from_bits(u + 1, v);
     });
 }
 

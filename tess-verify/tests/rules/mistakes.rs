@@ -156,14 +156,13 @@ struct Judge {
 impl Judge {
     fn new(standard: Specification) -> Self {
         let checker = Checker::new(standard);
-        let rows = checker.report().rows;
-        let rules: Vec<_> = rows.iter().map(|row| row.rule.name()).collect();
+        let rules: Vec<_> = checker.broken().map(|(rule, _)| rule.name()).collect();
         Self { checker, sums: vec![0; rules.len()], rules }
     }
 
     fn add(&mut self, case: &Case, output: &Tessellation) -> Vec<u64> {
         self.checker.add(case, output);
-        let sums: Vec<u64> = self.checker.report().rows.iter().map(|row| row.broken).collect();
+        let sums: Vec<u64> = self.checker.broken().map(|(_, broken)| broken).collect();
         let more: Vec<u64> =
             sums.iter().zip(&self.sums).map(|(now, before)| now - before).collect();
         self.sums = sums;

@@ -61,7 +61,8 @@ fn denormals_beside_levels_that_discard() {
         reports.map(|report| row(&report, Rule::Discard).verdict())
     };
     assert_eq!(judged("40400000"), [Verdict::NotExercised; 2], "either");
-    assert_eq!(judged("80000000"), [Verdict::Held, Verdict::Broken], "no primitive");
+    let held = Verdict::HeldAsFarAsAsked;
+    assert_eq!(judged("80000000"), [held, Verdict::Broken], "no primitive");
 }
 
 /// The text for what a level counts.
@@ -189,7 +190,11 @@ fn edges_may_be_mirrored() {
     };
     // A clockwise walk goes along two edges in the direction of growing coordinates, and along two
     // in the opposite direction.
-    assert_eq!(verdict(&[[0, 0], [0, ONE], [1, 0], [1, ONE]]), Verdict::Held, "mirrored");
+    assert_eq!(
+        verdict(&[[0, 0], [0, ONE], [1, 0], [1, ONE]]),
+        Verdict::HeldAsFarAsAsked,
+        "mirrored"
+    );
     assert_eq!(verdict(&[[0, 0], [0, ONE], [1, 0]]), Verdict::Broken, "one is another");
 }
 
@@ -243,4 +248,151 @@ fn the_smallest_example_is_kept() {
     assert_eq!(kept(&[QUAD, &other]), Some(vec![case(QUAD)]), "the first");
     assert!(size(LINES) < size(QUAD), "fewer vertices");
     assert_eq!(kept(&[QUAD, LINES, &other]), Some(vec![case(LINES)]), "the smallest");
+}
+
+/// A device may put vertices of the inside on the outline where an inner level of at most 1 counts
+/// as just above 1 (22.6, 22.7). That excuses nothing else.
+#[test]
+fn inner_levels_of_one_excuse_no_more_than_their_sentence() {
+    // Three equal segments, an outline of 7 segments for level 4.5, an inside of a larger level,
+    // and columns far from the outline.
+    let odd = |domain: &str, levels: &[f32]| {
+        let bits = levels.iter().map(|level| format!(" {:08x}", level.to_bits()));
+        case(&format!("case {domain} fractional_odd triangle_cw ruler{}", bits.collect::<String>()))
+    };
+    for (asked, answered, rule) in [
+        (odd("tri", &[3.0, 3.0, 3.0, 1.0]), odd("tri", &[3.0, 3.0, 3.0, 3.0]), "inner-spacing"),
+        (odd("tri", &[3.0, 4.5, 3.0, 1.0]), odd("tri", &[3.0, 7.0, 3.0, 1.0]), "segments"),
+        (odd("tri", &[3.0, 4.5, 3.0, 0.5]), odd("tri", &[3.0, 3.0, 3.0, 0.5]), "segments"),
+        (
+            odd("quad", &[4.5, 3.0, 3.0, 3.0, 1.0, 7.0]),
+            odd("quad", &[7.0, 3.0, 3.0, 3.0, 1.0, 7.0]),
+            "segments",
+        ),
+        (
+            odd("quad", &[4.5, 3.0, 3.0, 3.0, 1.0, 1.0]),
+            odd("quad", &[7.0, 3.0, 3.0, 3.0, 1.0, 1.0]),
+            "segments",
+        ),
+        (
+            odd("quad", &[3.0, 3.0, 3.0, 3.0, 1.0, 5.0]),
+            odd("quad", &[3.0, 3.0, 3.0, 3.0, 3.0, 5.0]),
+            "inner-spacing",
+        ),
+        (
+            odd("quad", &[3.0, 3.0, 3.0, 3.0, 1.0, 5.0]),
+            odd("quad", &[3.0, 3.0, 3.0, 3.0, 1.0, 7.0]),
+            "inner-levels",
+        ),
+        (
+            odd("quad", &[3.0, 3.0, 3.0, 3.0, 5.0, 1.0]),
+            odd("quad", &[3.0, 3.0, 3.0, 3.0, 3.0, 1.0]),
+            "inner-levels",
+        ),
+    ] {
+        let model = judge(VULKAN, [model(asked)]);
+        assert_eq!(rules(&model, Verdict::Broken), [""; 0], "{asked}: {model}");
+        let wrong = judge(VULKAN, [(asked, answered.patch().tessellate())]);
+        assert!(rules(&wrong, Verdict::Broken).contains(&rule), "{asked}: {rule}: {wrong}");
+    }
+    // A vertex of the outline that is not mirrored, and one that neither it nor the inside has.
+    let asked = odd("quad", &[5.0, 3.0, 3.0, 3.0, 1.0, 1.0]);
+    for (to, rule) in [(0x3000, "segments"), (0x3333 + 40, "segments")] {
+        let (asked, mut output) = model(asked);
+        move_point(&mut output, [0, 0x3333], [0, to]);
+        let report = judge(VULKAN, [(asked, output)]);
+        assert!(rules(&report, Verdict::Broken).contains(&rule), "{to:05x}: {report}");
+    }
+}
+
+/// An inner level that is NaN says nothing about one axis of a quad; the other is judged.
+#[test]
+fn nan_inside_excuses_one_axis() {
+    let line = QUAD.replace("40a00000 40c00000", "7fc00000 40c00000");
+    let five: Fault = |output| {
+        *output =
+            case(&QUAD.replace("40a00000 40c00000", "7fc00000 40a00000")).patch().tessellate();
+    };
+    let rows = "inner level 2 is 6 and asks for 6 rows; there are 5";
+    assert_eq!(said(&line, Rule::InnerLevels, five).as_deref(), Some(rows));
+    let three: Fault = |output| {
+        *output =
+            case(&QUAD.replace("40a00000 40c00000", "40400000 40c00000")).patch().tessellate();
+    };
+    assert_eq!(said(&line, Rule::InnerLevels, three), None, "no sentence says how many columns");
+}
+
+/// Rings of a triangle cannot be told apart just above a number of segments. Elsewhere, two rings
+/// at one place are a fault.
+#[test]
+fn rings_may_be_close_only_just_above_a_number() {
+    let tri = |level: f32| {
+        let bits = level.to_bits();
+        format!("case tri fractional_even triangle_cw ruler 40400000 40400000 40400000 {bits:08x}")
+    };
+    // The second ring of 6 segments, at the places of the first one.
+    let close = |output: &mut Tessellation, by: u32| {
+        let depth = |point: DomainPoint| {
+            let [u, v] = [point.u.to_bits(), point.v.to_bits()];
+            u.min(v).min(ONE - u - v)
+        };
+        let depths = output.points.iter().map(|point| depth(*point));
+        let depths: std::collections::BTreeSet<u32> = depths.filter(|d| *d > 16).collect();
+        let depths: Vec<u32> = depths.into_iter().collect();
+        let first = depths[0];
+        let second = *depths.iter().find(|d| **d > first + 32).expect("a second ring");
+        for point in &mut output.points {
+            let [u, v] = [point.u.to_bits(), point.v.to_bits()];
+            if depth(*point).abs_diff(second) < 16 {
+                let shift = second - first - by;
+                let moved = |x: u32| if x.abs_diff(second) < 16 { x - shift } else { x };
+                *point = DomainPoint::from_bits(moved(u), moved(v));
+            }
+        }
+    };
+    let whole = said(&tri(8.0), Rule::InnerSpacing, |output| close(output, 20));
+    assert_eq!(whole.as_deref(), Some("rings 1 and 2 are equally far inside"), "8 segments");
+    assert_eq!(said(&tri(8.0), Rule::InnerSpacing, |_| {}), None, "the model's 8 segments");
+    let just_above = f32::from_bits(6f32.to_bits() + 0x40);
+    let report = judge(VULKAN, [model(case(&tri(just_above)))]);
+    assert_eq!(row(&report, Rule::InnerSpacing).judged, 0, "two rings coincide");
+}
+
+/// A level with two legal conversions may have either of two outputs in Direct3D, and no third.
+#[test]
+fn either_conversion_is_right_and_no_other() {
+    const D3D11: Specification = Specification::D3d11;
+    let with = |bits: u32| {
+        let line = "case quad fractional_odd triangle_cw ruler LEVEL 40200000 40a00000 40500000 \
+                    40900000 40d00000";
+        case(&line.replace("LEVEL", &format!("{bits:08x}")))
+    };
+    // Halfway between two numbers of units, these numbers, and a number further on.
+    let asked = with(0x4000_8120);
+    let broken = |bits: u32| {
+        let report = judge(D3D11, [(asked, with(bits).patch().tessellate())]);
+        rules(&report, Verdict::Broken)
+    };
+    assert_eq!(broken(0x4000_8100), [""; 0], "down");
+    assert_eq!(broken(0x4000_8140), [""; 0], "up");
+    assert!(broken(0x4000_9000).contains(&"places"), "another number");
+}
+
+/// What was not asked is named: whole domains, their spacings and roles, single numbers.
+#[test]
+fn a_verdict_names_what_was_not_asked() {
+    let report = judge(VULKAN, [model(case(TRI)), model(case(LINES))]);
+    let text = report.to_string();
+    let segments = row(&report, Rule::Segments);
+    assert_eq!(segments.verdict(), Verdict::HeldAsFarAsAsked, "{text}");
+    let missing = segments.asked.missing();
+    assert_eq!(missing[..2], ["quad", "isoline fractional_odd"], "{missing:?}");
+    let edge = "tri integer u0: 1 to 3, 5 to 64 segments, denormals";
+    assert!(missing.iter().all(|text| !text.starts_with(edge)), "denormals need not be asked");
+    let edge = "tri integer u0: 1 to 3, 5 to 64 segments, numbers below 1 and 59 classes more";
+    assert!(missing.iter().any(|text| text == edge), "{missing:?}");
+    assert!(text.contains("\n  not asked: quad; isoline fractional_odd; "), "{text}");
+    assert!(text.ends_with(" not exercised\n") && text.contains(": 0 rules held, "), "{text}");
+    let [asked, wanted] = segments.asked.levels();
+    assert!(0 < asked && asked < wanted, "{asked} of {wanted}");
 }

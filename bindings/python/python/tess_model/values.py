@@ -205,13 +205,16 @@ class RuleRow(NamedTuple):
     source: str
     """The place in the standard that states it."""
     verdict: str
-    """``held``, ``broken`` or ``not exercised``."""
+    """``held``, ``held as far as asked``, ``broken`` or ``not exercised``."""
     judged: int
     """Patches, or pairs of a patch and an earlier one, that it judged."""
     broken: int
     """How many of them break it."""
     example: Optional[RuleExample]
     """The smallest example, if it is broken."""
+    not_asked: "tuple[str, ...]"
+    """The levels that were not asked and could show a fault: domains, their spacings, their roles,
+    and numbers of segments and classes of values in a role."""
 
 
 class RulesReport(NamedTuple):
