@@ -103,7 +103,8 @@ fn axes_continue_in_their_own_way() {
         for v in ways {
             let map = image.clone().with_addresses([u, v]);
             for place in [-0.375, 0.0, 0.125, 0.875, 1.0, 1.75] {
-                let along = |way: Address, texcoord| image.clone().with_address(way).sample(texcoord);
+                let along =
+                    |way: Address, texcoord| image.clone().with_address(way).sample(texcoord);
                 let across = along(u, Vec2::new(place, 0.375)).0;
                 assert_eq!(map.sample(Vec2::new(place, 0.375)).0, across, "{u:?} at u {place}");
                 let down = along(v, Vec2::new(0.375, place)).0;

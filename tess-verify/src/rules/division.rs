@@ -11,7 +11,8 @@
 //! This finds the sets of vertices that the level allows: as many as it asks for, mirrored about
 //! the middle, and spaced as it asks.
 
-use super::edge::{TOLERANCE, unequal};
+use super::answer::TOLERANCE;
+use super::edge::unequal;
 use super::levels::Level;
 use tess_core::fixed_point::ONE;
 
