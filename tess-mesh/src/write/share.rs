@@ -79,6 +79,10 @@ fn hash(block: &Block<'_>, at: usize) -> [u32; 3] {
         values[at].into_iter().for_each(&mut add);
     }
     let [a, b] = mix.map(|mix| mix.wrapping_mul(0x9FB2_1C65_1E98_DF25));
-    let [low, high] = [a as u32, (a >> 32) as u32];
-    [low, high, (b >> 32) as u32]
+    let halves = |mix: u64| {
+        let [a, b, c, d, rest @ ..] = mix.to_le_bytes();
+        [u32::from_le_bytes([a, b, c, d]), u32::from_le_bytes(rest)]
+    };
+    let [[low, high], [_, other]] = [halves(a), halves(b)];
+    [low, high, other]
 }

@@ -71,6 +71,13 @@ fn columns_and_rows(answer: &Answer, specified: Option<&Answer>) -> Result<(), S
     Err(empty_crossing(answer, &grid))
 }
 
+fn empty_crossing(answer: &Answer, grid: &Grid) -> String {
+    let crossings = grid.columns.iter().flat_map(|&u| grid.rows.iter().map(move |&v| [u, v]));
+    let mut empty = crossings.filter(|place| answer.places.binary_search(place).is_err());
+    let place = empty.next().map(show).unwrap_or_default();
+    format!("a column and a row cross at {place}, where there is no vertex")
+}
+
 /// An inner level of at most 1 counts as just above 1, which puts the outermost column, row or ring
 /// close to the outline. Only there may vertices of the inside be on it.
 const NEAR: u32 = ONE / VANISHING + TOLERANCE;

@@ -8,10 +8,10 @@ const BIN: &[u8] = b"BIN\0";
 /// The JSON of a file, and the chunk of bytes that a GLB file may have. Lengths that are not
 /// multiples of 4, and bytes beyond the length in the header, are counted by `irregular`. Errors: a
 /// GLB file whose header or first chunks are cut off.
-pub(crate) fn split<'a>(
-    bytes: &'a [u8],
+pub(crate) fn split(
+    bytes: &[u8],
     mut irregular: impl FnMut(String),
-) -> Result<(&'a [u8], Option<&'a [u8]>), String> {
+) -> Result<(&[u8], Option<&[u8]>), String> {
     let Some(rest) = bytes.strip_prefix(MAGIC) else { return Ok((bytes, None)) };
     let (version, rest) = word(rest).ok_or("GLB header: it is cut off")?;
     let (length, mut rest) = word(rest).ok_or("GLB header: it is cut off")?;

@@ -329,7 +329,7 @@ impl Node {
         self.name.as_str().map(str::to_owned)
     }
 
-    /// Whether KHR_node_visibility hides the node and all below it.
+    /// Whether `KHR_node_visibility` hides the node and all below it.
     pub(crate) fn is_hidden(&self) -> bool {
         let visibility = self.extensions.get("KHR_node_visibility");
         visibility.is_some_and(|extension| extension["visible"] == Value::Bool(false))

@@ -20,7 +20,7 @@ pub(crate) struct Nodes<'a> {
     pub(crate) seen: Vec<usize>,
     /// The number of the scene, if the document has scenes.
     pub(crate) scene: Option<usize>,
-    /// The nodes that KHR_node_visibility hides.
+    /// The nodes that `KHR_node_visibility` hides.
     pub(crate) hidden: Tally,
 }
 
