@@ -60,7 +60,13 @@ fn gltf_files() {
         let options = tess_mesh::LoadOptions { max_memory: 1 << 22, ..Default::default() };
         tess_mesh::raw::gltf(bytes, &options).is_ok()
     };
-    compare("gltf", &naive::seeds::gltf(), naive::gltf::check, is_read);
+    let has_texcoords = |bytes: &&Vec<u8>| {
+        let read = tess_mesh::raw::gltf(bytes, &tess_mesh::LoadOptions::default());
+        read.is_ok_and(|mesh| !mesh.texcoords.is_empty())
+    };
+    let seeds = naive::seeds::gltf();
+    assert_eq!(seeds.iter().filter(has_texcoords).count(), 4, "files with texture coordinates");
+    compare("gltf", &seeds, naive::gltf::check, is_read);
 }
 
 #[test]

@@ -4,8 +4,10 @@
 use crate::edges::CUBE;
 use crate::support::{Gltf, floats_of, obj, written};
 use serde_json::{Value, json};
+use std::io;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use tess_mesh::tess_surface::{Address, FactorRule};
-use tess_mesh::write::Obj;
+use tess_mesh::write::{Glb, GltfOptions, IndexWidth, Obj, WriteAt};
 use tess_mesh::{Job, Loaded};
 
 fn obj_of(loaded: &Loaded, factor: f32) -> String {
@@ -189,4 +191,45 @@ fn seams_stay() {
     assert_eq!(count(&obj_of(&obj(text), 3.0), "v "), 32, "two squares of 16");
     let joined = text.replace("f 2/1 5/2 6/3 3/4", "f 2/2 5/1 6/4 3/3");
     assert_eq!(count(&obj_of(&obj(&joined), 3.0), "v "), 28, "four are shared");
+}
+
+/// A disk that is full after some writes.
+struct Full {
+    writes: AtomicUsize,
+    most: usize,
+}
+
+impl WriteAt for Full {
+    fn write_at(&self, _: &[u8], _: u64) -> io::Result<()> {
+        match self.writes.fetch_add(1, Ordering::Relaxed) < self.most {
+            true => Ok(()),
+            false => Err(io::Error::other("the disk is full")),
+        }
+    }
+}
+
+/// Whichever write fails, the error is told.
+#[test]
+fn write_errors_are_not_lost() {
+    let loaded = rich().loaded();
+    let mut failed = 0;
+    for most in 0.. {
+        let options = GltfOptions {
+            up: loaded.up,
+            indices: IndexWidth::Auto,
+            parts: Some(&loaded.parts),
+            image_prefix: "",
+        };
+        let mut glb = Glb::new(Full { writes: AtomicUsize::new(0), most }, options);
+        let job = Job {
+            parts: Some(&loaded.parts),
+            ..Job::new(&loaded.model, FactorRule::Uniform(40.0))
+        };
+        let done = job.run(&mut glb, &mut ()).and_then(|_| glb.finish());
+        let Err(error) = done else { break };
+        assert_eq!(error.to_string(), "the disk is full", "after {most} writes");
+        failed += 1;
+    }
+    // Vertices in two parts, indices, the image, the padding, and the header with the JSON.
+    assert_eq!(failed, 6, "every write");
 }

@@ -81,3 +81,22 @@ fn corners_on_edges_with_neighbours() {
     let is_noted = |loaded: &Loaded| loaded.notes.iter().any(|note| note.contains("may open"));
     assert!(!is_noted(&welded), "{:?}", welded.notes);
 }
+
+/// Faces are cut, dropped and cut again; places are those of the file all the same.
+#[test]
+fn places_after_repairs() {
+    let text = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 3 1 0\nv 2 0 0\nv 1e17 0 0\n\
+        f 1 2 3 4 4\nf 1 2 5 3\nf 1 1 2\nf 1 6 2\nf 1 6 2 3 4\nf 1 2 7\n";
+    let message = obj_with(text, &LoadOptions::default()).expect_err("too large").to_string();
+    assert!(message.starts_with("line 13: a position is too large"), "{message}");
+    let right = text.replace("1e17", "9");
+    let notes = obj(&right).notes;
+    for (start, line) in [
+        ("1 concave quad", 9),
+        ("1 face with corners in the same place", 10),
+        ("2 faces with all corners on one line", 11),
+    ] {
+        let note = notes.iter().find(|note| note.starts_with(start));
+        assert!(note.is_some_and(|note| note.contains(&format!("line {line})"))), "{notes:#?}");
+    }
+}

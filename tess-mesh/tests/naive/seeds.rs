@@ -197,6 +197,22 @@ pub(crate) fn gltf() -> Vec<Vec<u8>> {
             {"rotation": [0, 0.6, 0, 0.8], "scale": [1, -1, 0]},
         ]);
     };
+    // A second set of joints, which moves every vertex as much as the first.
+    let skinned_twice = |b: &mut Builder| {
+        let joints = b.accessor(&[1, 0, 0, 0].repeat(4), 5121, "VEC4", 4);
+        let weights = b.accessor(&floats(&[1.0, 0.0, 0.0, 0.0].repeat(4)), 5126, "VEC4", 4);
+        b.attribute("JOINTS_1", joints);
+        b.attribute("WEIGHTS_1", weights);
+    };
+    let sparse_offsets = small().with(|b| {
+        let indices = b.view(&[9, 9, 1, 0, 3, 0]);
+        let values = [&[0xFF; 4][..], &floats(&[9.0, 8.0, 7.0, 6.0, 5.0, 4.0])].concat();
+        let values = b.view(&values);
+        b.document["accessors"][0]["sparse"] = json!({
+            "count": 2, "values": {"bufferView": values, "byteOffset": 4},
+            "indices": {"bufferView": indices, "componentType": 5123, "byteOffset": 2},
+        });
+    });
     let modes = |mode: u32| {
         small().with(|b| {
             let triangles = b.document["meshes"][0]["primitives"][0].clone();
@@ -260,6 +276,8 @@ pub(crate) fn gltf() -> Vec<Vec<u8>> {
         interleaved.binary(),
         small().with(normals).with(moved).text(),
         small().with(normals).with(moved).with(skinned).text(),
+        small().with(normals).with(skinned).with(skinned_twice).text(),
+        sparse_offsets.text(),
         modes(5).text(),
         modes(6).binary(),
         modes(1).text(),

@@ -39,10 +39,15 @@ class Mesh:
 
     def __init__(self, path):
         file = Gltf(path)
-        primitive = file.gltf.meshes[0].primitives[0]
-        corners = file.accessor(primitive.indices).reshape(-1, 3)
-        self.positions = file.accessor(primitive.attributes.POSITION)[corners]
-        self.normals = file.accessor(primitive.attributes.NORMAL).astype(float)[corners]
+        primitives = [primitive for mesh in file.gltf.meshes for primitive in mesh.primitives]
+        corners = [file.accessor(primitive.indices).reshape(-1, 3) for primitive in primitives]
+
+        def values(name):
+            parts = [file.accessor(getattr(primitive.attributes, name)) for primitive in primitives]
+            return np.concatenate([part[of] for part, of in zip(parts, corners)])
+
+        self.positions = values("POSITION")
+        self.normals = values("NORMAL").astype(float)
 
 
 def areas(triangles):
