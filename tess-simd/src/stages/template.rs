@@ -79,7 +79,7 @@ use crate::data::format::OutputPoint;
 use crate::data::lanes::LANES;
 use crate::data::writer::Writer;
 use crate::stages::connect;
-use crate::stages::connect::cache_order::{self, MOST_RUNS, Run};
+use crate::stages::connect::cache_order::{self, Run};
 use crate::stages::packet::{COMPACT_EDGE, PacketPatch, SMALL_TOPOLOGIES};
 use crate::stages::points::{self, LocationTables, corner};
 use crate::stages::settings::Settings;
@@ -149,7 +149,7 @@ impl Templates {
         self.make_small();
         self.others.reserve();
         self.made.make_room(MAX_POINTS, MAX_INDICES);
-        self.made.runs.reserve_exact(MOST_RUNS);
+        cache_order::make_room(&mut self.made.runs);
     }
 
     /// Makes room for the templates of a packet of compact patches. If the packet might not fit,
@@ -236,8 +236,7 @@ impl Templates {
         patch: PacketPatch<'_>,
     ) -> (&[u16], &[Run]) {
         self.made.make_indices(settings, patch);
-        cache_order::note(settings, patch, &mut self.made.runs);
-        (&self.made.indices, &self.made.runs)
+        (&self.made.indices, cache_order::note(settings, patch, &mut self.made.runs))
     }
 
     #[cold]

@@ -55,8 +55,8 @@ pub(crate) fn of_patches(kernel: Kernel, work: &TapInput, made: &mut TapOutput) 
             let mut out = Writer::new(&mut made.indices);
             for patch in work.patches() {
                 let index = |place: u16| work.base.wrapping_add(place.into());
-                cache_order::note(&work.settings, patch, &mut made.runs);
-                cache_order::emit(&made.runs, &made.places, &mut out, index);
+                let runs = cache_order::note(&work.settings, patch, &mut made.runs);
+                cache_order::emit(runs, &made.places, &mut out, index);
             }
         }
         _ => return false,

@@ -48,15 +48,28 @@ pub(crate) fn runs(
 pub(crate) type Run = [u16; 2];
 
 /// The most runs of a patch: for each edge, column and ring, and for what is inside all rings.
-pub(crate) const MOST_RUNS: usize = 4 * 17 * 32 + 1;
+const MOST_RUNS: usize = 4 * 17 * 32 + 1;
 
-/// Notes all [`runs`] of a patch in place of what the list had. The list's capacity becomes
-/// [`MOST_RUNS`].
+/// Makes room in a list for the runs of any patch. It has them as elements, not as capacity, so
+/// that a copy of the list has the room too.
+pub(crate) fn make_room(list: &mut Vec<Run>) {
+    list.resize(MOST_RUNS, [0; 2]);
+}
+
+/// Notes all [`runs`] of a patch at the beginning of a list.
 #[expect(clippy::cast_possible_truncation, reason = "a patch has fewer than 2^16 indices")]
-pub(crate) fn note(settings: &Settings, patch: PacketPatch<'_>, list: &mut Vec<Run>) {
-    list.clear();
-    list.reserve_exact(MOST_RUNS);
-    runs(settings, patch, |run| list.push([run.start as u16, run.len() as u16]));
+pub(crate) fn note<'a>(
+    settings: &Settings,
+    patch: PacketPatch<'_>,
+    list: &'a mut Vec<Run>,
+) -> &'a [Run] {
+    make_room(list);
+    let mut count = 0;
+    runs(settings, patch, |run| {
+        list[count] = [run.start as u16, run.len() as u16];
+        count += 1;
+    });
+    &list[..count]
 }
 
 /// Writes the indices of a patch, run by run. `specified` has them in the specification's order,
