@@ -1,4 +1,5 @@
 //! Patches with every number of segments.
+#![expect(clippy::float_arithmetic, reason = "exact: eighths")]
 
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_verify::Case;

@@ -218,9 +218,11 @@ fn most_frequent(sets: &[&BTreeSet<&'static str>]) -> Option<&'static str> {
     best.map(|(rule, _)| rule)
 }
 
-/// Plants every mistake of a family. Returns the outcome for each standard, and the mistakes that no
-/// patch shows.
-fn plant(family: &[Mistake], groups: &[Group]) -> ([Outcome; 2], Vec<String>) {
+/// The outcome for each standard, and the mistakes that no patch shows.
+type Planted = ([Outcome; 2], Vec<String>);
+
+/// Plants every mistake of a family.
+fn plant(family: &[Mistake], groups: &[Group]) -> Planted {
     let mut outcomes = [Outcome::default(), Outcome::default()];
     let mut unseen = Vec::new();
     for mistake in family {
@@ -284,7 +286,7 @@ fn cell(mistake: &Mistake, standard: Specification, outcome: &Outcome) -> (Strin
 fn table() -> (Vec<String>, Vec<String>) {
     let families: Vec<&[Mistake]> = all().chunk_by(|a, b| a.family() == b.family()).collect();
     let groups = Group::all();
-    let found: Mutex<BTreeMap<usize, ([Outcome; 2], Vec<String>)>> = Mutex::default();
+    let found: Mutex<BTreeMap<usize, Planted>> = Mutex::default();
     let next = std::sync::atomic::AtomicUsize::new(0);
     let work = || {
         while let number = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed)
