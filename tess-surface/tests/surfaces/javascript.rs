@@ -10,13 +10,14 @@ use tess_surface::factors::{
 };
 use tess_verify::generate::SplitMix64;
 
-/// Distances that are 0, equal, tiny and huge, so that results are clamped at both ends.
-const SCALES: [f32; 8] = [0.0, 1e-30, 0.01, 0.7, 1.0, 5.3, 900.0, f32::INFINITY];
+/// Distances that are 0, equal, tiny and huge, so that results are clamped at both ends; and those
+/// that a page should not pass, a negative one and a NaN.
+const SCALES: [f32; 10] = [0.0, 1e-30, 0.01, 0.7, 1.0, 5.3, 900.0, f32::INFINITY, -1.3, f32::NAN];
 
 /// A row for each call: the function's name, its arguments and its results, all as bits.
 fn table() -> String {
     let mut random = SplitMix64::new(53);
-    let mut scale = |_| SCALES[(random.next_u64() % 8) as usize];
+    let mut scale = |_| SCALES[(random.next_u64() % 10) as usize];
     let mut rows = Vec::new();
     let mut row = |name, arguments: &[&[f32]], results: &[f32]| {
         let bits = |numbers: &[f32]| numbers.iter().map(|number| number.to_bits()).collect();
@@ -25,10 +26,12 @@ fn table() -> String {
         rows.push(format!("[\"{name}\", {arguments:?}, {results:?}]"));
     };
     let mut place = SplitMix64::new(54);
-    let mut number = || (place.next_u64() % 8192) as f32 / 1024.0 - 4.0 + 0.1;
-    for i in 0..120 {
+    // Full significands: each step of a rule rounds, so the order of its steps shows.
+    let mut number = || f32::from_bits(0x4080_0000 | place.next_u32() & 0x807F_FFFF);
+    for i in 0..240 {
         let [a, b, eye] = [0; 3].map(|_| Vec3::from_array([0; 3].map(|_| number())));
-        // Every tenth edge is a point at the eye.
+        // Every tenth edge is a point at the eye; some of those are so far away that sums overflow.
+        let a = if i % 40 == 0 { a * 4e37 } else { a };
         let (b, eye) = if i % 10 == 0 { (a, a) } else { (b, eye) };
         let points = [a, b, eye].map(|point| point.to_array());
         let [pixels, segment, most] = [0; 3].map(&mut scale);
@@ -40,7 +43,9 @@ fn table() -> String {
         row("edgeByLength", &[&edge[..], &[&[pixels], &[segment]]].concat(), &[length]);
         let distance = edge_by_distance([a, b], eye, pixels);
         row("edgeByDistance", &[&seen[..], &[&[pixels]]].concat(), &[distance]);
-        row("atMost", &[&[length], &[most]], &[at_most(length, most)]);
+        for [factor, most] in [[length, most], [most, length], [pixels, most]] {
+            row("atMost", &[&[factor], &[most]], &[at_most(factor, most)]);
+        }
         let edges = [screen, length, distance, number().abs()];
         row("insideQuad", &[&edges], &inside_quad(edges));
         let three = [screen, length, edges[3]];
