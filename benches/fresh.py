@@ -27,7 +27,7 @@ def fresh():
         elif run_git("cat-file", "-e", f"{commit}^{{commit}}") is None:
             problem = f"its commit {commit} does not exist"
         else:
-            sources = tuple(measurement.sources)
+            sources = tuple(measurement.code.paths())
             if sources not in here:
                 here[sources] = code_of("HEAD", sources)
             now = here[sources]
@@ -55,8 +55,13 @@ def code_of(commit, folders):
     """The code of each file of some folders at a commit."""
     there = [folder for folder in folders if run_git("cat-file", "-e", f"{commit}:{folder}") is not None]
     with tarfile.open(fileobj=io.BytesIO(run_git("archive", commit, "--", *there))) as files:
-        sources = [file for file in files if file.name.endswith((".rs", ".wgsl"))]
-        return {file.name: code_in(files.extractfile(file).read().decode()) for file in sources}
+        sources = [file for file in files if file.isfile() and not file.name.endswith(".md")]
+        return {file.name: code_of_file(file.name, files.extractfile(file).read()) for file in sources}
+
+
+def code_of_file(name, content):
+    """The lines of code in a file of Rust or WGSL; of another file, such as a compiled shader, all of it."""
+    return code_in(content.decode()) if name.endswith((".rs", ".wgsl")) else content
 
 
 def code_in(text):

@@ -11,6 +11,7 @@ compiler, so another machine can do it. `take` makes records of the rows, and ta
 
 import argparse
 import datetime
+import functools
 import json
 import os
 import re
@@ -25,10 +26,55 @@ from records import RECORDS, ROOT, performance, text_of
 # The folder of cargo's builds.
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 
-CORE = ["tess-core/src", "tess-verify/src/workloads.rs", "tess-verify/src/workloads/scenes.rs"]
-CPU = [*CORE, "tess-level/src", "tess-simd/src"]
-GPU = [*CORE, "tess-gpu/src", "tess-gpu/shaders", "tess-wgpu/src"]
-SURFACES = ["tess-core/src", "tess-level/src", "tess-surface/src"]
+
+class Code(NamedTuple):
+    """The code that is measured: packages with all packages of the workspace that they depend on, and files of others."""
+
+    packages: list
+    files: list
+
+    def paths(self):
+        """The paths of the code. Which packages and folders these are is cargo's knowledge."""
+        return sorted({*self.files, *(path for name in with_dependencies(self.packages) for path in folders_of(name))})
+
+
+# The verification kit makes the inputs. Nothing else of it is measured.
+KIT = "tess-verify"
+WORKLOADS = ["tess-verify/src/workloads.rs", "tess-verify/src/workloads/scenes.rs"]
+CPU = Code(["tess-simd"], WORKLOADS)
+GPU = Code(["tess-wgpu"], WORKLOADS)
+
+
+@functools.cache
+def workspace():
+    """The packages of the workspace, by name."""
+    words = ["cargo", "metadata", "--no-deps", "--offline", "--format-version", "1"]
+    answer = subprocess.run(words, cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout
+    return {package["name"]: package for package in json.loads(answer)["packages"]}
+
+
+def with_dependencies(names):
+    """These packages and those of the workspace that they are built with."""
+    found, rest = set(), list(names)
+    while rest:
+        if (name := rest.pop()) not in found | {KIT}:
+            found.add(name)
+            used = [one for one in workspace()[name]["dependencies"] if one["kind"] != "dev"]
+            rest += [one["name"] for one in used if one["name"] in workspace()]
+    return found
+
+
+def folders_of(name):
+    """The folders of a package, except those of its tests, benches and examples."""
+    package = workspace()[name]
+    folder = Path(package["manifest_path"]).parent
+    first = lambda target: Path(target["src_path"]).relative_to(folder).parts[0]
+    others = {"test", "bench", "example"}
+    own = {first(target) for target in package["targets"] if not others & set(target["kind"])}
+    apart = {first(target) for target in package["targets"]} - own
+    inner = {path.relative_to(folder).parts[0] for path in folder.glob("*/**/Cargo.toml")}
+    folders = (path for path in folder.iterdir() if path.is_dir() and path.name not in apart | inner)
+    return [str(path.relative_to(ROOT)) for path in folders]
 
 UNLIKE = ["terrain", "character", "mosaic", "mosaic-even"]
 ALL = ["uniform", *UNLIKE, "meshes", "worst"]
@@ -39,8 +85,7 @@ class Measurement(NamedTuple):
 
     # It needs a GPU, if its programs do.
     set: str
-    # The folders whose code is measured.
-    sources: list
+    code: Code
     commands: list
     rows: Callable
     # The keys of the rows in the order of the table; empty for rows of `tess bench`.
@@ -177,7 +222,7 @@ def lines_of(outputs):
     return [json.loads(line) for line in outputs[0].splitlines()]
 
 
-def sweep(*backends, sources, needs_gpu=False):
+def sweep(*backends, code, needs_gpu=False):
     """Comparisons of the recorded sweep in steps of 0.01, of which a row is a hundred patches."""
 
     def rows(outputs):
@@ -185,7 +230,7 @@ def sweep(*backends, sources, needs_gpu=False):
         return [{"backend": name, "rows": int(row[1]), "mismatches": int(row[2])} for name, row in zip(backends, found, strict=True)]
 
     commands = [["tess", "check", "golden/uniform.csv", "--backend", backend] for backend in backends]
-    return Measurement("study", sources, commands, rows, needs_gpu=needs_gpu)
+    return Measurement("study", code, commands, rows, needs_gpu=needs_gpu)
 
 
 EDITS = ["gpu", "ablation", "benches/edits"]
@@ -212,7 +257,7 @@ MEASUREMENTS = {
         of_threads,
         ["workload", *map(str, THREADS)],
     ),
-    "surface": Measurement("cpu", SURFACES, [["surface", "--bench"]], of_surface, ["surface", "level", "ns a vertex", "fills"]),
+    "surface": Measurement("cpu", Code(["tess-surface"], []), [["surface", "--bench"]], of_surface, ["surface", "level", "ns a vertex", "fills"]),
     "gpu": gpu(workloads=ALL),
     "gpu-u16": gpu("--index-type", "u16", workloads=["uniform-1", "uniform-16", "uniform-64"]),
     "gpu-no-copies": gpu("--no-copies", workloads=["uniform"]),
@@ -229,14 +274,14 @@ MEASUREMENTS = {
     "gpu-groups": Measurement("gpu", GPU, [["gpu", "groups"]], of_groups, ["meshes", "microseconds"]),
     "gpu-crossover": Measurement(
         "gpu",
-        [*GPU, "tess-simd/src"],
+        Code([*GPU.packages, *CPU.packages], WORKLOADS),
         [["gpu", "crossover"]],
         of_crossover,
         ["patches", "uniform-1", "uniform-4", "uniform-16", "uniform-64", "character"],
     ),
     "drawn": Measurement(
         "gpu",
-        [*GPU, "tools/probe/src"],
+        Code([*GPU.packages, "tess-probe"], WORKLOADS),
         [["tess", "probe", "--bench", "--json", *(word for name in DRAWN for word in ("--workload", name))]],
         of_probe,
         [
@@ -252,15 +297,15 @@ MEASUREMENTS = {
     ),
     "stage": Measurement(
         "gpu",
-        [*GPU, "tess-wgpu/examples"],
+        Code(GPU.packages, [*WORKLOADS, "tess-wgpu/examples"]),
         [["tess-examples", "terrain", "--bench", "50", "--triangles", "1000000,10000000,50000000", "--points", "stored,pull,none"]],
         of_stage,
         ["points", "triangles", "prepare_us", "draw_us", "G_triangles/s"],
     ),
-    "study-cpu": Measurement("study", [*CPU, "benches/src"], [["study"]], lines_of),
-    "study-gpu": Measurement("study", [*GPU, "benches/src"], [["gpu", "study"]], lines_of, needs_gpu=True),
-    "study-sweep": sweep("core", "simd", sources=CPU),
-    "study-sweep-gpu": sweep("gpu", sources=GPU, needs_gpu=True),
+    "study-cpu": Measurement("study", Code(CPU.packages, [*WORKLOADS, "benches/src"]), [["study"]], lines_of),
+    "study-gpu": Measurement("study", Code(GPU.packages, [*WORKLOADS, "benches/src"]), [["gpu", "study"]], lines_of, needs_gpu=True),
+    "study-sweep": sweep("core", "simd", code=CPU),
+    "study-sweep-gpu": sweep("gpu", code=GPU, needs_gpu=True),
 }
 
 

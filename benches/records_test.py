@@ -1,7 +1,7 @@
 """Tests of the tables and charts of records, and of faults that must be detected."""
 
 import study
-from fresh import code_in
+from fresh import code_in, code_of_file
 from measure import MEASUREMENTS, fastest, of_ablation, of_crossover, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
 from records import bench_table, digits, svg, table, with_tables
 
@@ -80,6 +80,29 @@ def test_a_record_has_its_command():
     assert record["command"].startswith("cargo run --release -- bench --json --backend simd --threads N --frame 64"), record
     assert list(record) == ["command", "machine", "date", "commit", "columns", "rows"]
     assert all(record_of(name, measured, "abc")["command"] for name in MEASUREMENTS)
+
+
+def test_all_code_that_is_measured_counts():
+    paths = {name: measurement.code.paths() for name, measurement in MEASUREMENTS.items()}
+    for name, path in (
+        ("gpu", "tess-wgpu/shaders"),
+        ("gpu", "tess-gpu/shaders"),
+        ("gpu", "tess-core/src"),
+        ("stage", "tess-wgpu/examples"),
+        ("drawn", "tools/probe/shaders"),
+        ("gpu-crossover", "tess-simd/src"),
+        ("surface", "tess-simd/src"),
+        ("simd", "tess-verify/src/workloads.rs"),
+    ):
+        assert path in paths[name], f"{name}: {paths[name]} lacks {path}"
+    others = [path for of in paths.values() for path in of if path.endswith(("/tests", "/benches")) or path == "tess-verify/src"]
+    assert not others, others
+    assert "tess-wgpu/examples" not in paths["gpu"] and "tess-gpu/src" not in paths["simd"], paths
+
+
+def test_shaders_that_are_compiled_count_whole():
+    assert code_of_file("a.rs", b"one  // remark\n\n") == code_of_file("a.rs", b"one\n")
+    assert code_of_file("a.spv", b"\xff// 1") != code_of_file("a.spv", b"\xff// 2")
 
 
 def test_each_row_is_the_fastest():
