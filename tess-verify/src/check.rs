@@ -28,7 +28,7 @@ pub use report::{CheckError, Difference, MAX_DIFFERENCES, MismatchGroup, Report}
 pub use second::SecondFormulation;
 pub(crate) use strength::Alternatives;
 pub use strength::{Conversion, Denormals, Elements, ListOrder, Strength, flushed, vertices};
-pub use verify::{Subject, SubjectRow, verify};
+pub use verify::{Progress, Subject, SubjectRow, Unit, units, verify};
 
 use crate::backend::{Answers, Backend, BackendError, tessellate};
 use crate::case::Case;

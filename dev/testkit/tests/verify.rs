@@ -8,7 +8,7 @@ use tess_verify::{Backend, CoreBackend};
 
 fn run(backends: Vec<Box<dyn Backend>>, subject: Subject, shard: Shard) -> Vec<SubjectRow> {
     let known = Known::default();
-    verify(&mut [backends], subject, shard, &known, &|_, _| {}).expect("the backends run")
+    verify(&mut [backends], subject, shard, &known, &|_| {}).expect("the backends run")
 }
 
 /// The faults that a subject's units must detect, and a shard with few of the units.
@@ -30,7 +30,7 @@ fn every_subject_sees_every_fault() {
             let faulty = Faulty::new(CoreBackend, fault, 0);
             let committed = faulty.committed();
             let mut workers: [Vec<Box<dyn Backend>>; 1] = [vec![Box::new(faulty)]];
-            let result = verify(&mut workers, subject, shard, &Known::default(), &|_, _| {});
+            let result = verify(&mut workers, subject, shard, &Known::default(), &|_| {});
             assert!(committed.load(Ordering::Relaxed), "{fault:?} was committed");
             if fault == Fault::ShortAnswer {
                 assert!(result.is_err(), "{subject:?}: an answer too few");
@@ -82,7 +82,7 @@ fn a_known_difference_is_no_mismatch() {
     let line = row.first.as_deref().and_then(|first| first.lines().next()).expect("a case line");
     let with = |line: &str| {
         let known = Known::read("known", line.as_bytes(), None, "2026-01-01").expect("a baseline");
-        let rows = verify(&mut [faulty()], subject, Shard::WHOLE, &known, &|_, _| {});
+        let rows = verify(&mut [faulty()], subject, Shard::WHOLE, &known, &|_| {});
         let row = rows.expect("the backend runs").remove(0);
         let outcome = known.outcome(true);
         (row.mismatches, row.known, outcome.gone.len() + outcome.faults.len())

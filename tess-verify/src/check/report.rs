@@ -169,9 +169,10 @@ impl Difference {
     }
 }
 
-/// A record by itself as a vector file; `None` for a listing, which may be long.
+/// A record by itself as a vector file, without notes, which describe the cases of the whole file;
+/// `None` for a listing, which may be long.
 pub(super) fn file_of(header: &Header, record: &Record) -> Option<String> {
-    let header = Header { count: Some(1), ..header.clone() };
+    let header = Header { count: Some(1), notes: Vec::new(), ..header.clone() };
     record.text().map(|row| format!("{}{row}\n", header.head()))
 }
 

@@ -8,9 +8,10 @@ mod subject;
 mod topologies;
 mod units;
 
-pub use run::{SubjectRow, verify};
+pub use run::{Progress, SubjectRow, verify};
 pub use subject::Subject;
-use units::{Unit, Units};
+pub use units::{Unit, units};
+use units::{Units, Work};
 
 #[cfg(test)]
 mod tests;

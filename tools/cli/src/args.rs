@@ -1,12 +1,12 @@
 //! Arguments shared by several commands: a patch (domain, factors and configuration), generated
 //! cases, and names.
 
-use crate::campaign::{Placed, ShardArgs};
+use crate::campaign::ShardArgs;
 use crate::failure::Failure;
 use crate::output::{counted, note};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use tess_core::{Config, Domain, Order, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
-use tess_verify::generate::{GenLevel, LEVEL_VERSION, Selection, Shard};
+use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::{Case, Named, factor};
 
 /// Values with their names on the command line and their help texts.
@@ -128,28 +128,6 @@ impl SelectionArgs {
             output: self.output,
             split: None,
         }
-    }
-
-    /// The options on which the cases depend, so that a file records how it was made. Each note has
-    /// the name of its option, except `random`, which is that of `--count`.
-    pub(crate) fn notes(&self, placed: Placed) -> Vec<(String, String)> {
-        let pair = |key: &str, value: String| (key.to_owned(), value);
-        let mut notes = vec![
-            pair("level", self.level.to_string()),
-            pair("level-version", LEVEL_VERSION.to_string()),
-            pair("seed", self.seed.to_string()),
-            pair("random", self.selection().random_count().to_string()),
-        ];
-        let named = [
-            ("domain", self.domain.map(Named::name)),
-            ("partitioning", self.partitioning.map(Named::name)),
-            ("output", self.output.map(Named::name)),
-        ];
-        notes.extend(named.into_iter().filter_map(|(key, name)| Some(pair(key, name?.into()))));
-        if placed.shard != Shard::WHOLE {
-            notes.push(pair("shard", format!("{}/{}", placed.shard.part + 1, placed.shard.of)));
-        }
-        notes
     }
 }
 

@@ -56,14 +56,8 @@ pub fn main() -> ExitCode {
         Program::from_arg_matches(&matches).map(|asked| (asked.command, invocation))
     });
     let ended = match asked {
-        Ok((command, invocation)) => {
-            output::remove_earlier(&words).and_then(|()| commands::run(&command, &invocation))
-        }
-        Err(error) if error.use_stderr() => {
-            // A file that is kept is reported once the command line is right.
-            drop(output::remove_earlier(&words));
-            error.exit()
-        }
+        Ok((command, invocation)) => commands::run(&command, &invocation),
+        Err(error) if error.use_stderr() => error.exit(),
         Err(help) => show(&help),
     };
     match ended {

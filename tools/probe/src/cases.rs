@@ -14,6 +14,13 @@ pub fn cases(selection: Selection, shard: Shard) -> Vec<Case> {
     (0..).zip(asked).filter(|(number, _)| shard.has(*number)).map(|(_, case)| case).collect()
 }
 
+/// The selected cases as a device is asked them for rules: in order, also repeated ones.
+#[must_use]
+pub fn rule_cases(selection: Selection) -> Vec<Case> {
+    let selection = Selection { split: Some(SplitOrder::Ruler), ..selection };
+    selection.cases().map(|case| asked_for(&case)).collect()
+}
+
 /// Replaces the parts of cases that Vulkan lacks: there is one split order, only isolines have
 /// lines, and isolines have no triangles. Each resulting case occurs once.
 #[must_use]

@@ -107,7 +107,9 @@ impl Judge {
     /// Counts a difference that is not known.
     fn differ(&mut self, found: First) {
         self.report.different += 1;
-        self.row(&found.case).0.different += 1;
+        let (row, _) = self.row(&found.case);
+        row.different += 1;
+        row.first.get_or_insert_with(|| (found.line.clone(), found.difference.clone()));
         *self.report.stages.entry(found.stage.clone()).or_default() += 1;
         self.report.first_different.get_or_insert(found);
     }

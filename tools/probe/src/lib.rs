@@ -18,7 +18,7 @@ mod vulkan;
 
 pub use bench::{BenchTimes, bench};
 pub use capture::{Captured, Method, Prober};
-pub use cases::{asked, cases};
+pub use cases::{asked, cases, rule_cases};
 pub use digests::Digests;
 pub use draws::DRAW_VERTICES;
 pub use error::Error;

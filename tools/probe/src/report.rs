@@ -120,6 +120,9 @@ pub struct ProbeRow {
     pub sequence_digest: String,
     /// The digest that does not depend on the order.
     pub set_digest: String,
+    /// The case line and the difference of the first different patch.
+    #[serde(skip)]
+    pub first: Option<(String, String)>,
 }
 
 impl ProbeRow {

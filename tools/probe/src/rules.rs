@@ -1,10 +1,8 @@
 //! Judges a device by the demands of a standard.
 
 use crate::capture::{Method, Prober};
-use crate::cases::asked_for;
+use crate::cases::rule_cases;
 use crate::error::Error;
-use tess_core::SplitOrder;
-use tess_verify::Case;
 use tess_verify::generate::Selection;
 use tess_verify::rules::{Checker, RulesReport, Specification};
 
@@ -24,8 +22,7 @@ pub fn rules(
     if prober.method() == Method::Points {
         return Err(Error::Missing("transform feedback, without which rules cannot be judged"));
     }
-    let selection = Selection { split: Some(SplitOrder::Ruler), ..selection };
-    let cases: Vec<Case> = selection.cases().map(|case| asked_for(&case)).collect();
+    let cases = rule_cases(selection);
     let mut checker = Checker::new(specification);
     prober.each(&cases, &mut progress, |case, captured| {
         let output = captured.output().ok_or_else(|| {

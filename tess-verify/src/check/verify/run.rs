@@ -1,7 +1,7 @@
 //! Compares units and sums up the results.
 
 use super::units::VALUES;
-use super::{Subject, Unit, Units};
+use super::{Subject, Unit, Units, Work};
 use crate::backend::{Answers, Backend, BackendError, all_answered, tessellate};
 use crate::case::Case;
 use crate::check::Known;
@@ -42,7 +42,7 @@ pub struct SubjectRow {
 /// that differs is not a mismatch if the difference is `known`.
 ///
 /// Pass one list of backends per thread; all lists must have the same backends. `progress` is
-/// called from any thread with the number of finished units and the number of all.
+/// called from any thread for each unit that all of them have compared.
 ///
 /// # Errors
 /// A backend could not run, or there is none.
@@ -51,7 +51,7 @@ pub fn verify(
     subject: Subject,
     shard: Shard,
     known: &Known,
-    progress: &(dyn Fn(u64, u64) + Sync),
+    progress: &(dyn Fn(Progress<'_>) + Sync),
 ) -> Answers<SubjectRow> {
     if workers.first().is_none_or(Vec::is_empty) {
         return Err(BackendError::new("no backend to verify"));
@@ -71,7 +71,7 @@ pub fn verify(
                 rows.lock().unwrap_or_else(PoisonError::into_inner)[column].add(compared);
             }
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress(done, mine);
+            progress(Progress { done, all: mine, unit: &unit });
         }
         Ok(())
     };
@@ -79,6 +79,18 @@ pub fn verify(
     let panicked = || BackendError::new("a backend panicked");
     results.into_iter().try_for_each(|result| result.ok_or_else(panicked)?)?;
     Ok(rows.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// A unit that every backend has compared.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Progress<'a> {
+    /// The number of units compared so far.
+    pub done: u64,
+    /// The number of units to compare.
+    pub all: u64,
+    /// The unit.
+    pub unit: &'a Unit,
 }
 
 /// The result of comparing one unit.
@@ -120,14 +132,14 @@ impl Compared {
 
 fn compare_unit(
     backend: &mut dyn Backend,
-    unit: &Unit,
+    Unit(work): &Unit,
     known: &Known,
 ) -> Result<Compared, BackendError> {
-    match unit {
-        Unit::Patches(cases) => compare_patches(backend, cases, known),
-        Unit::Random(unit) => compare_patches(backend, &unit.cases(), known),
-        Unit::Values { partitioning, first } => compare_values(backend, *partitioning, *first),
-        Unit::Bucket { split, parity, bucket } => compare_bucket(backend, *split, *parity, *bucket),
+    match work {
+        Work::Patches(cases) => compare_patches(backend, cases, known),
+        Work::Random(unit) => compare_patches(backend, &unit.cases(), known),
+        Work::Values { partitioning, first } => compare_values(backend, *partitioning, *first),
+        Work::Bucket { split, parity, bucket } => compare_bucket(backend, *split, *parity, *bucket),
     }
 }
 

@@ -1,20 +1,20 @@
 //! The units of each subject are complete, disjoint and reproducible.
 
 use super::subject::Subject;
-use super::units::{Unit, Units};
+use super::units::{Units, Work, units};
 use crate::case::Case;
 use crate::generate::{GenLevel, Selection, Shard};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use tess_core::Partitioning;
 
-fn all(units: &Units) -> impl Iterator<Item = Unit> {
-    (0..units.count()).filter_map(|number| units.get(number))
+fn all(units: &Units) -> impl Iterator<Item = Work> {
+    (0..units.count()).filter_map(|number| units.get(number)).map(|unit| unit.0)
 }
 
 fn random_cases(patches: u64, seed: u64) -> Vec<Vec<Case>> {
     let units = Units::of(Subject::Random { patches, seed });
     let cases = all(&units).map(|unit| match unit {
-        Unit::Random(unit) => unit.cases(),
+        Work::Random(unit) => unit.cases(),
         other => panic!("random patches: {other:?}"),
     });
     cases.collect()
@@ -63,7 +63,7 @@ fn levels_are_compared_once() {
     let texts = |subject| -> BTreeSet<String> {
         let units = Units::of(subject);
         let cases = all(&units).flat_map(|unit| match unit {
-            Unit::Patches(cases) => cases,
+            Work::Patches(cases) => cases,
             other => panic!("levels are patches: {other:?}"),
         });
         cases.map(|case| case.to_string()).collect()
@@ -93,11 +93,29 @@ fn factors_are_all_there() {
     let mut units = all(&factors);
     for expected in Partitioning::ALL {
         for number in 0..1u64 << 12 {
-            let Some(Unit::Values { partitioning, first }) = units.next() else {
+            let Some(Work::Values { partitioning, first }) = units.next() else {
                 panic!("unit {number} of {expected:?}")
             };
             assert_eq!((partitioning, u64::from(first)), (expected, number << 20));
         }
     }
     assert!(units.next().is_none(), "no more");
+}
+
+/// The lines of a subject's cases are distinct, also where a unit has no patches.
+#[test]
+fn cases_have_lines_of_their_own() {
+    for (subject, cases) in [
+        (Subject::Level1, 43_062),
+        (Subject::Factors, 4 << 12),
+        (Subject::Locations, 252),
+        (Subject::Random { patches: 20, seed: 1 }, 96 * 20),
+    ] {
+        let lines: Vec<String> = units(subject).flat_map(|unit| unit.cases()).collect();
+        assert_eq!(lines.len(), cases, "{subject:?}");
+        // Level 1 repeats some of its cases.
+        if subject != Subject::Level1 {
+            assert_eq!(lines.iter().collect::<HashSet<_>>().len(), cases, "{subject:?}");
+        }
+    }
 }

@@ -5,6 +5,7 @@ use super::topologies::{interiors, transitions};
 use crate::case::Case;
 use crate::generate::SplitMix64;
 use crate::generate::{GenLevel, Selection, configurations, random_patch};
+use crate::names::Named;
 use std::collections::HashSet;
 use tess_core::{Config, Domain, Parity, Partitioning, SplitOrder};
 
@@ -27,9 +28,13 @@ impl RandomUnit {
     }
 }
 
-/// A part of a subject.
+/// A part of a subject that is compared by itself.
 #[derive(Clone, Debug)]
-pub(super) enum Unit {
+pub struct Unit(pub(super) Work);
+
+/// The work of a unit.
+#[derive(Clone, Debug)]
+pub(super) enum Work {
     /// Whole patches.
     Patches(Vec<Case>),
     /// Random patches of one configuration.
@@ -50,6 +55,33 @@ pub(super) enum Unit {
         /// The integer part.
         bucket: u32,
     },
+}
+
+impl Unit {
+    /// A line for each of its cases: the line of a patch, or a name of a range of values. No other
+    /// unit of any subject has an equal line for other work.
+    #[must_use]
+    pub fn cases(&self) -> Vec<String> {
+        let lines = |cases: &[Case]| cases.iter().map(Case::to_string).collect();
+        match &self.0 {
+            Work::Patches(cases) => lines(cases),
+            Work::Random(unit) => lines(&unit.cases()),
+            Work::Values { partitioning, first } => {
+                let last = first + (VALUES - 1);
+                vec![format!("factors {} {first:08x} to {last:08x}", partitioning.name())]
+            }
+            Work::Bucket { split, parity, bucket } => {
+                vec![format!("locations {} {} {bucket}", split.name(), parity.name())]
+            }
+        }
+    }
+}
+
+/// The units of a subject, in the order in which shards count them. Each is made when it is its
+/// turn.
+pub fn units(subject: Subject) -> impl Iterator<Item = Unit> + Send {
+    let units = Units::of(subject);
+    (0..units.count()).filter_map(move |number| units.get(number))
 }
 
 /// The number of binary32 numbers per unit.
@@ -108,10 +140,14 @@ impl Units {
 
     /// Unit `number`; `None` if it is not below [`Units::count`].
     pub(super) fn get(&self, number: u64) -> Option<Unit> {
+        self.work(number).map(Unit)
+    }
+
+    fn work(&self, number: u64) -> Option<Work> {
         let index = usize::try_from(number).ok()?;
         match &self.0 {
             UnitSource::Patches(cases) => {
-                cases.chunks(PATCHES).nth(index).map(|cases| Unit::Patches(cases.to_vec()))
+                cases.chunks(PATCHES).nth(index).map(|cases| Work::Patches(cases.to_vec()))
             }
             UnitSource::Random { patches, seed, configurations } => {
                 let of_each = patches.div_ceil(RANDOM_PATCHES);
@@ -120,17 +156,17 @@ impl Units {
                 let number = number % of_each;
                 let seed = seed_of_unit(*seed, configuration, number);
                 let patches = RANDOM_PATCHES.min(patches - number * RANDOM_PATCHES);
-                Some(Unit::Random(RandomUnit { domain, config, seed, patches }))
+                Some(Work::Random(RandomUnit { domain, config, seed, patches }))
             }
             UnitSource::Values => {
                 let &partitioning =
                     Partitioning::ALL.get(usize::try_from(number / VALUE_UNITS).ok()?)?;
                 let first = u32::try_from(number % VALUE_UNITS).ok()? * VALUES;
-                Some(Unit::Values { partitioning, first })
+                Some(Work::Values { partitioning, first })
             }
             UnitSource::Buckets(buckets) => {
                 let &(split, parity, bucket) = buckets.get(index)?;
-                Some(Unit::Bucket { split, parity, bucket })
+                Some(Work::Bucket { split, parity, bucket })
             }
         }
     }

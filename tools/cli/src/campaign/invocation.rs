@@ -1,8 +1,8 @@
 //! The run: its words, the options that decide what is compared, and the program itself.
 
+use super::cases::hash;
 use clap::{ArgMatches, Command};
 use std::collections::BTreeMap;
-use std::hash::{DefaultHasher, Hasher};
 
 /// The options that select a shard, or name its files. They differ between the shards of one
 /// campaign. The baseline is compared by its cases.
@@ -38,11 +38,6 @@ impl Invocation {
         });
         Self { words, command: name.to_owned(), options: options.collect() }
     }
-
-    /// The seed, if the command has one.
-    pub(crate) fn seed(&self) -> Option<u64> {
-        self.options.get("seed")?.first()?.parse().ok()
-    }
 }
 
 /// The commit from which the program was built: its hash, with `+changes` if a source file differed
@@ -56,10 +51,7 @@ pub(crate) fn executable() -> Option<String> {
     Some(digest(&std::fs::read(std::env::current_exe().ok()?).ok()?))
 }
 
-/// A digest that distinguishes files and baselines of one campaign. Only programs of one version
-/// compare theirs, as the standard library may use another hash in another version.
+/// A digest that distinguishes programs and baselines: the first half of their SHA-256.
 pub(super) fn digest(bytes: &[u8]) -> String {
-    let mut hasher = DefaultHasher::new();
-    hasher.write(bytes);
-    format!("{:016x}", hasher.finish())
+    format!("{:032x}", hash(bytes))
 }

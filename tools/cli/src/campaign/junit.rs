@@ -99,8 +99,8 @@ impl JunitCase {
 }
 
 impl Outcome {
-    /// The outcome of a comparison with this many mismatches among this many cases. The message has
-    /// the first difference and the period of all.
+    /// The outcome of a comparison with this many mismatches among this many cases. The full text
+    /// has the first difference and the period of all.
     pub(crate) fn of(
         (mismatches, cases): (u64, u64),
         first: Option<&First>,
@@ -109,19 +109,24 @@ impl Outcome {
         if mismatches == 0 {
             return Self::Passed;
         }
-        let first = first.map(|first| format!("first: {}", first.text("\n")));
-        let full: Vec<_> = first.into_iter().chain(period.map(period_text)).collect();
+        let first = first.map_or_else(
+            || "none of the differences that the run kept is of this part".to_owned(),
+            |first| format!("first: {}", first.text("\n")),
+        );
+        let full: Vec<_> = [first].into_iter().chain(period.map(period_text)).collect();
         Self::Failed(format!("{mismatches} of {cases} differ"), full.join("\n"))
     }
 }
 
 fn of_end(report: &Report) -> Outcome {
-    let message = report.message.clone().unwrap_or_default();
-    match report.state {
-        RunState::Done => Outcome::Passed,
-        RunState::Interrupted => Outcome::Error("interrupted".to_owned(), message),
-        RunState::Failed => Outcome::Error("failed".to_owned(), message),
-    }
+    let (state, usual) = match report.state {
+        RunState::Done => return Outcome::Passed,
+        RunState::Running => ("running", "it has not ended: it still runs, or was killed"),
+        RunState::Interrupted => ("interrupted", "a signal ended it, or the reader of stdout left"),
+        RunState::Failed => ("failed", "it does not say why"),
+    };
+    let message = report.message.clone().filter(|message| !message.is_empty());
+    Outcome::Error(state.to_owned(), message.unwrap_or_else(|| usual.to_owned()))
 }
 
 /// Seconds in decimal, such as `1.050`.
@@ -168,7 +173,7 @@ mod tests {
   <testsuite name=\"tess verify\" tests=\"3\" failures=\"1\" errors=\"1\" skipped=\"0\" time=\"1.050\">
     <testcase classname=\"tess.verify\" name=\"level-1 simd (shard 3/8)\"/>
     <testcase classname=\"tess.verify\" name=\"a&lt;b&gt;&amp;&quot;c\u{fffd}&quot; (shard 3/8)\">
-      <failure message=\"2 of 9 differ\" type=\"failure\"></failure>
+      <failure message=\"2 of 9 differ\" type=\"failure\">none of the differences that the run kept is of this part</failure>
     </testcase>
     <testcase classname=\"tess.verify\" name=\"run (shard 3/8)\">
       <error message=\"interrupted\" type=\"error\">two&#10;lines</error>

@@ -101,22 +101,9 @@ impl Baseline {
         recorder.update(|report| report.known.clone_from(&self.file));
     }
 
-    /// Ends a run and writes its report. If the run was complete, the report has the outcome of the
-    /// baseline, and an expired or unmet line counts as a difference.
-    ///
-    /// # Errors
-    /// Those of the run, and a report that cannot be written.
-    pub(crate) fn finish(
-        &self,
-        recorder: Recorder,
-        placed: Placed,
-        ended: Result<Exit, Failure>,
-    ) -> Result<Exit, Failure> {
-        let ended = ended.map(|exit| self.conclude(&recorder, placed, exit));
-        recorder.finish(ended)
-    }
-
-    fn conclude(&self, recorder: &Recorder, placed: Placed, exit: Exit) -> Exit {
+    /// Adds the outcome of the baseline to the report of a run that was complete. An expired or unmet
+    /// line counts as a difference.
+    pub(crate) fn conclude(&self, recorder: &Recorder, placed: Placed, exit: Exit) -> Exit {
         let KnownOutcome { met, gone, faults, .. } =
             self.known.outcome(placed.shard == Shard::WHOLE);
         if !gone.is_empty() {

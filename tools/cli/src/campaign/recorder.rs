@@ -1,13 +1,23 @@
-//! Writes the report of a run when the run ends, in whatever way.
+//! Writes the report of a run: `running` when it begins, and how it went when it ends.
+//!
+//! ```text
+//! command line understood       files distinct and writable     run ends, or a signal ends it
+//! |                             |                               |
+//! nothing is touched before     r.jsonl says `running`          r.jsonl says `done`, `failed`, `interrupted`
+//! ```
+//!
+//! Each is moved into its place when it is whole. So a report says `done` only if its run ended, even
+//! if the process is killed; and while a run goes on, no earlier report is in its place.
 
+use super::cases::{CaseSet, CaseSum};
 use super::invocation::{Invocation, commit, executable};
 use super::junit::JunitSuite;
 use super::report::{FORMAT, Report, RunState};
 use super::shard::Placed;
 use crate::failure::{Exit, Failure};
 use crate::output::ending::{self, Guard};
-use crate::output::{OutputArgs, OutputFile, Role};
-use std::fmt;
+use crate::output::{self, OutputArgs, OutputFile, Role, Trusted};
+use std::fmt::{self, Display};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
@@ -17,9 +27,9 @@ use std::time::Instant;
 pub(crate) struct ReportArgs {
     /// Write a report of the run to this file: a line of JSON that `tess merge` reads
     ///
-    /// It is written on exit, also when a signal ends the run. The report of an earlier run is
-    /// removed before anything else is done; a file that is not a report is kept, and is an error.
-    /// docs/campaigns.md explains the entries.
+    /// It says `running` until the run ends, also when a signal ends it. An earlier report is
+    /// replaced once the command line is understood; a file that is not a report is kept, and is
+    /// an error. docs/campaigns.md explains the entries.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Write the result to this file as JUnit XML, for Jenkins and similar tools
@@ -38,12 +48,25 @@ impl ReportArgs {
         places.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?)))
     }
 
-    /// Begins to record a run. Errors: a place that cannot be written or is not a file.
-    pub(crate) fn begin(
+    /// Runs a command and records it from beginning to end. Call this once the command line is
+    /// understood and its files are known to be distinct. `others` are the command's other outputs
+    /// that are trusted.
+    ///
+    /// # Errors
+    /// A place that cannot be written or has a file of another kind; then nothing is replaced.
+    /// Those of the run, and a report that cannot be written.
+    pub(crate) fn record(
         &self,
         invocation: &Invocation,
-        placed: Placed,
-    ) -> Result<Recorder, Failure> {
+        others: &[Trusted<'_>],
+        run: impl FnOnce(&Recorder) -> Result<Exit, Failure>,
+    ) -> Result<Exit, Failure> {
+        let recorder = self.begin(invocation, others)?;
+        let ended = run(&recorder);
+        recorder.finish(ended)
+    }
+
+    fn begin(&self, invocation: &Invocation, others: &[Trusted<'_>]) -> Result<Recorder, Failure> {
         for (option, path) in self.places() {
             if !OutputFile::would_be_file(path) {
                 let message = format!(
@@ -52,14 +75,17 @@ impl ReportArgs {
                 );
                 return Err(Failure::bad_input(message));
             }
-            OutputArgs { file: path.to_owned() }.require_writable()?;
         }
+        let own = self.report.as_deref().map(Trusted::report).into_iter();
+        let own = own.chain(self.junit.as_deref().map(Trusted::junit));
+        output::begin(&own.chain(others.iter().copied()).collect::<Vec<_>>())?;
         let files = self.clone();
         if self.places().next().is_none() {
             let live = Arc::new(Mutex::new(None));
             return Ok(Recorder { files, live, _guard: None });
         }
-        let live = Live { report: begun(invocation, placed), since: Instant::now() };
+        let live = Live { report: begun(invocation), since: Instant::now() };
+        self.write(&live.report)?;
         let (live, guard) = ending::guarded(|| {
             let live = Arc::new(Mutex::new(Some(live)));
             let (at_end, files) = (Arc::clone(&live), files.clone());
@@ -80,16 +106,21 @@ impl ReportArgs {
         line.into_iter().chain(xml)
     }
 
+    /// Writes each file, even if another cannot be written. Errors: the first of those.
+    fn write(&self, report: &Report) -> Result<(), Failure> {
+        let write = |(path, text): (&Path, String)| {
+            OutputArgs { file: path.to_owned() }.write(text.as_bytes())
+        };
+        self.contents(report).map(write).fold(Ok(()), Result::and)
+    }
+
     fn interrupt(&self, live: Live) {
-        let report = live.ended(RunState::Interrupted);
-        for (path, text) in self.contents(&report) {
-            // There is nobody to tell; `tess merge` reports that the file is missing.
-            _ = OutputArgs { file: path.to_owned() }.write(text.as_bytes());
-        }
+        // There is nobody to tell of an error; the files still say that the run has not ended.
+        _ = self.write(&live.ended(RunState::Interrupted));
     }
 }
 
-fn begun(invocation: &Invocation, placed: Placed) -> Report {
+fn begun(invocation: &Invocation) -> Report {
     Report {
         format: FORMAT.to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -98,10 +129,9 @@ fn begun(invocation: &Invocation, placed: Placed) -> Report {
         command: invocation.command.clone(),
         words: invocation.words.clone(),
         options: invocation.options.clone(),
-        seed: invocation.seed(),
-        shard: placed.shard.part + 1,
-        shards: placed.shard.of,
-        shard_from: placed.source.map(str::to_owned),
+        shard: 1,
+        shards: 1,
+        state: RunState::Running,
         ..Report::default()
     }
 }
@@ -145,9 +175,31 @@ impl Recorder {
         }
     }
 
+    /// Adds which shard the run does.
+    pub(crate) fn place(&self, placed: Placed) {
+        self.update(|report| {
+            (report.shard, report.shards) = (placed.shard.part + 1, placed.shard.of);
+            report.shard_from = placed.source.map(str::to_owned);
+        });
+    }
+
+    /// Adds how the cases of all shards are made, if that is known. [`Self::saw`] adds the cases
+    /// of this run.
+    pub(crate) fn asks(&self, set: Option<CaseSet>) {
+        self.update(|report| (report.set, report.asked) = (set, Some(CaseSum::default())));
+    }
+
+    /// Adds cases that this run accounts for, by their lines, from any thread.
+    pub(crate) fn saw<T: Display>(&self, cases: impl IntoIterator<Item = T>) {
+        if self.files.places().next().is_some() {
+            let sum = CaseSum::of(cases);
+            self.update(|report| report.asked.iter_mut().for_each(|asked| asked.join(sum)));
+        }
+    }
+
     /// Writes the report of a run that has ended, and passes on how it ended. Errors: those of the
     /// run, and a file that cannot be written.
-    pub(crate) fn finish(self, ended: Result<Exit, Failure>) -> Result<Exit, Failure> {
+    fn finish(self, ended: Result<Exit, Failure>) -> Result<Exit, Failure> {
         let Some(live) = lock(&self.live).take() else { return ended };
         let state = match &ended {
             Ok(_) => RunState::Done,
@@ -156,10 +208,7 @@ impl Recorder {
         };
         let message = ended.as_ref().err().map(ToString::to_string);
         let report = Report { message, ..live.ended(state) };
-        let mut written = Ok(());
-        for (path, text) in self.files.contents(&report) {
-            written = written.and(OutputArgs { file: path.to_owned() }.write(text.as_bytes()));
-        }
+        let written = self.files.write(&report);
         let exit = ended?;
         written.map(|()| exit)
     }

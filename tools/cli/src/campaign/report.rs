@@ -1,10 +1,11 @@
 //! The report of one run: a line of JSON. docs/campaigns.md explains each entry.
 
+use super::cases::{CaseSet, CaseSum};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The name and version of the report's format.
-pub(crate) const FORMAT: &str = "tess-report 1";
+pub(crate) const FORMAT: &str = "tess-report 2";
 
 /// The largest number of shards of a campaign. `tess merge` has an entry for each.
 const MAX_SHARDS: u64 = 1_000_000;
@@ -28,8 +29,12 @@ pub(crate) struct Report {
     pub(crate) words: Vec<String>,
     /// The options that decide what is compared.
     pub(crate) options: BTreeMap<String, Vec<String>>,
+    /// How the cases of all shards are made, if that is known.
     #[serde(default)]
-    pub(crate) seed: Option<u64>,
+    pub(crate) set: Option<CaseSet>,
+    /// The cases that this run accounts for, if they are single ones.
+    #[serde(default)]
+    pub(crate) asked: Option<CaseSum>,
     /// The number of the shard, from 1.
     pub(crate) shard: u64,
     /// The number of shards.
@@ -67,6 +72,8 @@ pub(crate) struct Report {
 pub(crate) enum RunState {
     /// Everything was compared.
     Done,
+    /// It has not ended: it still goes on, or it was killed.
+    Running,
     /// A signal ended it, or the reader of stdout left.
     #[default]
     Interrupted,

@@ -2,19 +2,18 @@
 //!
 //! Commands write files only through [`mod@file`], and stdout only through [`stdout()`]. Both
 //! register with [`ending`] what a signal must not leave behind. [`form`] chooses a file's format
-//! by its name. [`earlier`] removes the results of an earlier run.
+//! by its name. [`trusted`] removes the results of earlier runs.
 
 mod distinct;
-mod earlier;
 pub(crate) mod ending;
 mod file;
 mod folder;
 pub(crate) mod form;
+mod trusted;
 
 use crate::failure::Failure;
 use crate::threads::startable;
 pub(crate) use distinct::{Role, refuse_shared};
-pub(crate) use earlier::remove_earlier;
 use file::Destination;
 pub(crate) use file::{OutputFile, create_unless_there};
 pub(crate) use folder::{NewFolder, refuse_stdout};
@@ -22,6 +21,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+pub(crate) use trusted::{Trusted, begin};
 
 /// The `-o` option.
 #[derive(Clone, Debug, clap::Args)]

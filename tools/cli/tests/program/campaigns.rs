@@ -5,6 +5,7 @@ use crate::support::{Folder, Run, command, directory, shell, tess, tess_with_inp
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
+use tess_verify::generate::LEVEL_VERSION;
 
 pub(crate) fn json(path: &Path) -> Value {
     let text = fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
@@ -13,7 +14,7 @@ pub(crate) fn json(path: &Path) -> Value {
 }
 
 /// A report that an earlier run may have left.
-const EARLIER: &str = "{\"format\":\"tess-report 1\"}\n";
+const EARLIER: &str = "{\"format\":\"tess-report 2\",\"state\":\"done\"}\n";
 
 /// Runs `tess` in a folder.
 pub(crate) fn tess_in(folder: &Folder, words: &str) -> Run {
@@ -42,10 +43,11 @@ fn reports_say_what_was_run_and_found() {
         tess_in(&folder, "verify --backend simd --random 20 --seed 7 --shard 2/3 --report r.jsonl");
     run.exits(0);
     let report = json(&folder.join("r.jsonl"));
-    assert_eq!(report["format"], "tess-report 1", "{report}");
+    assert_eq!(report["format"], "tess-report 2", "{report}");
     assert_eq!(report["version"], env!("CARGO_PKG_VERSION"), "{report}");
+    let set = format!("subjects=random level-version={LEVEL_VERSION} patches=20 seed=7");
     assert_eq!((&report["shard"], &report["shards"]), (&2.into(), &3.into()), "{report}");
-    assert_eq!((&report["seed"], &report["state"]), (&7.into(), &"done".into()), "{report}");
+    assert_eq!((&report["set"], &report["state"]), (&Value::from(set), &"done".into()), "{report}");
     assert_eq!(report["options"]["random"][0], "20", "{report}");
     assert_eq!(report["words"][2], "--backend", "{report}");
     assert_eq!(report["parts"][0]["name"], "random simd", "{report}");
@@ -84,6 +86,29 @@ fn differences_are_in_the_report() {
     assert!(xml.contains(" failures=\"1\" errors=\"0\" "), "{xml}");
     let failing = format!("name=\"{configuration}\">\n      <failure message=\"1 of ");
     assert!(xml.contains(&failing) && xml.contains(&case), "{xml}");
+}
+
+/// However many records differ, every configuration that fails has a body with one of its cases.
+#[test]
+fn every_failing_part_has_a_body() {
+    let folder = directory("every-failing-part-has-a-body");
+    let file = "gen --level 3 --count 600 --format csv -o right.csv";
+    tess_in(&folder, file).exits(0);
+    let wrong = "sed '3,$s/.$/x/; s/0x$/1/; s/x$/0/' right.csv > wrong.csv; \
+                 $TESS check wrong.csv --junit r.xml --report r.jsonl";
+    let run = shell(wrong, &folder);
+    run.exits(1).prints("\n600 cases, 600 mismatches\n");
+    let report = json(&folder.join("r.jsonl"));
+    let parts = report["parts"].as_array().expect("parts");
+    assert!(parts.len() > 20, "more than the differences that are kept: {report}");
+    let xml = fs::read_to_string(folder.join("r.xml")).expect("JUnit");
+    assert_eq!(xml.matches("<failure ").count(), parts.len(), "{xml}");
+    for part in parts {
+        let name = part["name"].as_str().expect("text");
+        let (_, body) = xml.split_once(&format!("name=\"{name}\">")).expect("its test case");
+        let (body, _) = body.split_once("</failure>").expect("its body");
+        assert!(body.contains(&format!(">first: case {name} ")), "{name}: {body}");
+    }
 }
 
 /// The report has each missing answer in a part of its own, with the case that was asked.
@@ -131,18 +156,16 @@ fn failed_runs_have_a_report() {
 #[ignore = "slow: many runs of the program"]
 fn interrupted_and_killed_runs() {
     let folder = directory("report-interrupted");
-    for (signal, state) in [("TERM", Some("interrupted")), ("KILL", None)] {
+    for (signal, state) in [("TERM", "interrupted"), ("KILL", "running")] {
         fs::write(folder.join("r.jsonl"), EARLIER).expect("written");
         let script = format!(
             "rm -f rows; \"$TESS\" verify --backend simd --exhaustive --report r.jsonl > rows & p=$!\n\
              while ! grep -qs ^level-1 rows; do sleep 0.05; done; kill -s {signal} $p; wait $p"
         );
         shell(&script, &folder);
-        let report = folder.join("r.jsonl");
-        assert_eq!(report.exists(), state.is_some(), "{signal}");
-        if let Some(state) = state {
-            let report = json(&report);
-            assert_eq!(report["state"], state, "{report}");
+        let report = json(&folder.join("r.jsonl"));
+        assert_eq!(report["state"], state, "{report}");
+        if signal == "TERM" {
             assert_eq!(report["parts"][0]["cases"], 44070, "what was done is in it: {report}");
         }
     }
@@ -182,7 +205,7 @@ fn a_whole_campaign() {
     let words = "merge r1.jsonl r3.jsonl r2.jsonl --junit a.xml";
     tess_in(&folder, words).exits(0).prints("\n3 of 3 shards ran once: 50 cases, 0 mismatches, ");
     let read = |name: &str| fs::read_to_string(folder.join(name)).expect("a file");
-    assert!(read("a.xml").contains("tests=\"3\" failures=\"0\" errors=\"0\""), "{}", read("a.xml"));
+    assert!(read("a.xml").contains("tests=\"4\" failures=\"0\" errors=\"0\""), "{}", read("a.xml"));
     let all = read("r1.jsonl") + &read("r2.jsonl") + &read("r3.jsonl");
     tess_with_input("merge -", &all).exits(0); // one file of all
 }
@@ -214,7 +237,6 @@ fn reports_of_other_campaigns() {
     let report: Value = serde_json::from_str(&own).expect("JSON");
     let commit = report["commit"].as_str().expect("text").to_owned();
     for (old, new, why) in [
-        ("\"seed\":1", "\"seed\":2", "the seed is 2; in r1.jsonl it is 1"),
         ("\"version\":\"", "\"version\":\"9", "the version is 9"),
         (&format!("\"commit\":\"{commit}"), "\"commit\":\"00", "the commit is 00"),
         (
@@ -251,7 +273,7 @@ fn differing_and_unfinished_shards() {
     let shown = "shard 2/3 differs: 2 of 17 (r2.jsonl)\n  case a\n  b, c\n";
     run.prints(shown);
     let xml = fs::read_to_string(folder.join("a.xml")).expect("JUnit");
-    assert!(xml.contains("<failure message=\"2 of 17 differ\""), "{xml}");
+    assert!(xml.contains("<failure message=\"2 of 17 differ\" type=\"failure\">first: "), "{xml}");
     for (state, shown) in
         [("interrupted", "was interrupted"), ("failed", "failed: for an unknown reason")]
     {
@@ -271,7 +293,8 @@ fn what_is_no_report() {
         (String::new(), "bad.jsonl:1: the file is empty"),
         ("\n".to_owned(), "bad.jsonl:1: no report"),
         (own[..own.len() / 2].to_owned(), "bad.jsonl:1: no report"),
-        (own.replacen("report 1", "report 2", 1), "the format is `tess-report 2`"),
+        (own.replacen("report 2", "report 1", 1), "the format is `tess-report 1`"),
+        (own.replacen("\"digest\":\"", "\"digest\":\"0", 1), "a digest has 32 hex digits"),
         (own.replacen("\"shard\":2", "\"shard\":0", 1), "shards are counted from 1"),
         (own.replacen("\"shard\":2", "\"shard\":4", 1), "shard 4 of 3"),
         (own.replacen("\"shards\":3", "\"shards\":1000001", 1), "has at most 1000000"),
@@ -328,46 +351,15 @@ fn shards_of_files() {
     tess_in(&folder, "check device.txt --cases asked.txt --report r.jsonl").exits(0);
     let report = json(&folder.join("r.jsonl"));
     assert_eq!((&report["shard"], &report["shards"]), (&2.into(), &4.into()), "{report}");
+    let set = format!("level=3 level-version={LEVEL_VERSION} seed=5 random=40");
     assert_eq!(
-        (&report["seed"], &report["shard_from"]),
-        (&5.into(), &"--cases".into()),
+        (&report["set"], &report["shard_from"]),
+        (&Value::from(set), &"--cases".into()),
         "{report}"
     );
-    assert_eq!(report["options"]["asked random"][0], "40", "{report}");
+    assert_eq!(report["asked"]["cases"], 10, "{report}");
     let run = tess_in(&folder, "check device.txt --shard 3/4");
     run.exits(2).says("one says shard 3/4, the other shard 2/4 (from FILE)");
-}
-
-/// Answers whose files state how their cases were made belong to one campaign only if they answer
-/// the same cases.
-#[test]
-fn shards_of_other_cases() {
-    let folder = directory("shards-of-other-cases");
-    let make = |option: &str, shard: usize| {
-        let selection = "--domain isoline --partitioning pow2 --format listing";
-        let made = format!("gen {option} --shard {shard}/2 {selection} -o d{shard}.txt");
-        tess_in(&folder, &made).exits(0);
-    };
-    for (option, other, why) in [
-        ("--level 3 --seed 1 --count 20", "--level 3 --seed 2 --count 20", "seed"),
-        ("--level 3 --count 20", "--level 1 --count 20", "level"),
-        ("--level 3 --count 20", "--level 3 --count 21", "random"),
-    ] {
-        for (shard, option) in [(1, option), (2, other)] {
-            make(option, shard);
-            tess_in(&folder, &format!("check d{shard}.txt --report r{shard}.jsonl")).exits(0);
-        }
-        let run = tess_in(&folder, "merge r1.jsonl r2.jsonl");
-        run.exits(2).prints("r2.jsonl is of another campaign: the ").prints(why);
-    }
-    let report = fs::read_to_string(folder.join("r2.jsonl")).expect("a report");
-    let older = report.replacen("level-version\":[\"4\"]", "level-version\":[\"2\"]", 1);
-    assert_ne!(older, report, "it has the version");
-    make("--level 3 --count 21", 1);
-    tess_in(&folder, "check d1.txt --report r1.jsonl").exits(0);
-    tess_in(&folder, "merge r1.jsonl r2.jsonl").exits(0); // the same cases
-    fs::write(folder.join("r2.jsonl"), older).expect("written");
-    tess_in(&folder, "merge r1.jsonl r2.jsonl").exits(2).prints("asked level-version is [\"2\"]");
 }
 
 /// A known deviation is not a mismatch; an unknown one is, and one that no longer occurs is named.
@@ -406,6 +398,9 @@ fn known_differences_have_terms() {
     let folder = directory("known_terms");
     let (faulty, case) = faulty_listing();
     fs::write(folder.join("device.txt"), &faulty).expect("written");
+    let asked: String =
+        faulty.lines().filter(|line| line.starts_with("case ")).collect::<Vec<_>>().join("\n");
+    fs::write(folder.join("asked.txt"), asked).expect("written");
     let run = tess_in(&folder, "check device.txt");
     let shown = run.stdout.lines().skip_while(|line| !line.ends_with(&case)).nth(1);
     let found = shown.expect("a difference").trim();
@@ -422,9 +417,14 @@ fn known_differences_have_terms() {
         (&right.replacen("observed", "observes", 1), "", 1, "k.txt:1: expects `"),
         (&right.replace("9999", "2020"), "", 1, "k.txt:1: expired on 2020-12-31"),
         (&(right.clone() + &terms(equal, "*")), "", 1, "k.txt:2: is unused"),
-        (&(right.clone() + &terms(equal, "*")), "--shard 1/2", 1, "k.txt:2: is unused"),
+        (
+            &(right.clone() + &terms(equal, "*")),
+            "--shard 1/2 --cases asked.txt",
+            1,
+            "k.txt:2: is unused",
+        ),
         (&(right.clone() + &terms(other, "*")), "", 1, "k.txt:2: is unused"),
-        (&(right.clone() + &terms(other, "*")), "--shard 1/2", 0, ""),
+        (&(right.clone() + &terms(other, "*")), "--shard 1/2 --cases asked.txt", 0, ""),
         (&(right.clone() + "rule cover | 1 | ada | 9999-12-31 | not judged here"), "", 0, ""),
         (&(right.clone() + &case), "", 2, "k.txt:2: subject: is also on line 1"),
     ] {

@@ -14,6 +14,8 @@ mod distinct;
 mod draw;
 #[cfg(unix)]
 mod earlier;
+#[cfg(unix)]
+mod evidence;
 mod explain;
 #[cfg(unix)]
 mod files;

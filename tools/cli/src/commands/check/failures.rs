@@ -1,5 +1,7 @@
 //! The records that differ, as a vector file.
 
+use super::record;
+use crate::campaign::cases::CaseSet;
 use crate::failure::Failure;
 use crate::output::{OutputFile, counted, note};
 use std::collections::BTreeMap;
@@ -36,7 +38,10 @@ impl Failures {
             return Err(Failure::bad_input("--failures needs the path of a regular file"));
         }
         let mut file = BufWriter::new(OutputFile::create(path)?);
-        let header = Header { count: None, ..header.clone() };
+        // These records are no longer the set that the notes describe.
+        let is_kept = |key: &str| key != record::SHARD && !CaseSet::describes(key);
+        let notes = header.notes.iter().filter(|(key, _)| is_kept(key)).cloned().collect();
+        let header = Header { count: None, notes, ..header.clone() };
         file.write_all(header.head().as_bytes()).map_err(|error| Failure::write(path, error))?;
         let waiting = BTreeMap::new();
         let state = Mutex::new(State { file, records: 0, written: Ok(()), next: 1, waiting });

@@ -1,5 +1,6 @@
 //! `tess check`: runs the cases of a vector file and compares the results.
 
+mod asked;
 mod failures;
 mod record;
 mod rules;
@@ -12,7 +13,8 @@ use crate::campaign::{Invocation, KnownArgs, Recorder, ReportArgs, ShardArgs};
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
 use crate::input::{self, Reader};
-use crate::output::{Role, counted, note, progress, refuse_shared, stdout};
+use crate::output::{Role, Trusted, counted, progress, refuse_shared, stdout};
+use asked::{AskedCases, Source};
 use failures::Failures;
 use indicatif::ProgressBar;
 use std::collections::HashSet;
@@ -24,7 +26,6 @@ use strength::StrengthArgs;
 use tess_verify::check::{
     self, CheckError, Checked, Difference, Known, MAX_DIFFERENCES, Report, Tested,
 };
-use tess_verify::generate::LEVEL_VERSION;
 use tess_verify::rules::Specification;
 use tess_verify::vectors::{Cases, Kind, Record, VectorError, VectorFile};
 use tess_verify::{Backend, Case, Named};
@@ -38,7 +39,7 @@ With --backend, that backend is tested, and the file is right. Without it, a fil
 
 Listings of a device are compared at a strength: --order, --points, --conversion and --denormals grant freedoms of the public specification (docs/verification.md).
 
-With --cases, the file must answer those cases, one for one and in their order. They are a vector file, or lines that begin with `case`. A case without an answer is one difference (`record 9 is missing`), and so is an answer to another case; the explanation with the fewest differences counts.
+With --cases, the file must answer those cases, one for one and in their order. They are a vector file, or lines that begin with `case`. Without it, the file must answer the cases of `tess gen` that the notes in its first line describe (level, seed and so on); a file without such notes is compared record by record. A case without an answer is one difference (`record 9 is missing`), and so is an answer to another case; the explanation with the fewest differences counts.
 
 A file may be one shard of a campaign (docs/campaigns.md). Its number comes from --shard, from the batch system, or from the note shard=I/N in the first line of --cases or FILE; they may not contradict each other.
 
@@ -103,40 +104,38 @@ pub(crate) fn run(args: &CheckCommand, invocation: &Invocation) -> Result<Exit, 
     if let Some(cases) = &args.cases {
         args.known.refuse_judged("what is asked", &Role::input("--cases", cases))?;
     }
-    // This is checked before a device is opened.
     args.strength.tested(Kind::Listings, args.backend)?;
+    let failures = args.failures.as_deref().map(Trusted::failures);
+    let others: Vec<_> = failures.into_iter().collect();
+    args.report.record(invocation, &others, |recorder| check(args, recorder))
+}
+
+fn check(args: &CheckCommand, recorder: &Recorder) -> Result<Exit, Failure> {
     // The backends are opened before stdin is read, which may take long.
     let backends = backends(args);
     let file =
         VectorFile::new(args.name(), input::reader(&args.file)?).map_err(|e| failure(e.into()))?;
-    let asked = args.asked(file.header().kind)?;
-    let asked_header = asked.as_ref().and_then(Cases::header);
-    let level = asked_header.or(Some(file.header())).and_then(record::level);
-    let own = LEVEL_VERSION.to_string();
-    if let Some((level, version)) = level.filter(|(_, version)| *version != own) {
-        note(&format!(
-            "cases of level {level}, version {version}; this program makes version {own}"
-        ));
-    }
+    let given = args.asked(file.header().kind)?;
+    let asked_header = given.as_ref().and_then(Cases::header);
     let placed = record::place(args.shard, file.header(), asked_header)?;
+    recorder.place(placed);
     let known = args.known.read(args.rules)?;
-    let recorder = args.report.begin(invocation, placed)?;
-    known.note(&recorder);
-    let made = asked_header.unwrap_or(file.header());
-    recorder.update(|report| record::add_asked(report, made));
-    let ended = match args.rules {
-        Some(specification) => rules::run(file, asked, specification, &known.known, &recorder),
-        None => backends
-            .and_then(|backends| compare(args, file, asked, &known.known, backends, &recorder)),
+    known.note(recorder);
+    let (asked, source) = asked::asked(given, file.header(), placed.shard, recorder);
+    let exit = match args.rules {
+        Some(specification) => {
+            rules::run(file, (asked, source), specification, &known.known, recorder)?
+        }
+        None => compare(args, file, (asked, source), &known.known, backends?, recorder)?,
     };
-    known.finish(recorder, placed, ended)
+    Ok(known.conclude(recorder, placed, exit))
 }
 
 /// Compares the records of a file.
 fn compare(
     args: &CheckCommand,
     file: VectorFile<Reader>,
-    mut asked: Option<Cases<Reader>>,
+    (mut asked, source): (Option<AskedCases<'_>>, Source),
     known: &Known,
     mut backends: Vec<Box<dyn Backend>>,
     recorder: &Recorder,
@@ -150,6 +149,7 @@ fn compare(
     let right = Mutex::new(HashSet::new());
     let report = check::check_asked(file, asked, known, &mut backends, tested, &|checked| {
         bar.inc(checked.records.len() as u64);
+        source.see(checked, recorder);
         note_right(&mut right.lock().unwrap_or_else(PoisonError::into_inner), checked);
         recorder.update(|report| record::add(report, checked));
         if let Some(failures) = &failures {
@@ -168,6 +168,7 @@ fn compare(
         difference.passes_alone |= difference.case.is_some_and(|case| right.contains(&case));
     }
     recorder.update(|record| record::finish(record, &report));
+    source.explain(&report);
     let backend = backends.first().map_or("core", |backend| backend.name());
     let name = args.name();
     let sides = match tested {

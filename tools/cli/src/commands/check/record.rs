@@ -3,7 +3,7 @@
 use crate::campaign::report::{First, Report, ReportPart};
 use crate::campaign::{Placed, ShardArgs, shard};
 use crate::failure::Failure;
-use tess_verify::check::{self, Checked, Difference, SpecStage};
+use tess_verify::check::{self, Checked, Difference, Element, SpecStage};
 use tess_verify::vectors::Header;
 use tess_verify::{Case, Named};
 
@@ -32,19 +32,27 @@ pub(super) fn finish(report: &mut Report, found: &check::Report) {
     if cases > 0 || mismatches > 0 {
         report.add_part(ReportPart { name: OTHERS.to_owned(), cases, mismatches, first: None });
     }
-    for difference in &found.differences {
-        let is_other = difference.mismatch.stage == SpecStage::Answer;
-        let name = if is_other { OTHERS.to_owned() } else { part_of(difference.case) };
-        if report.parts.iter().any(|part| part.name == name) {
-            let first = Some(first(difference));
-            report.add_part(ReportPart { name, first, ..ReportPart::default() });
+    // Only some of the first differences are kept, but of each configuration the smallest.
+    let groups = found.groups();
+    for difference in found.differences.iter().chain(groups.iter().map(|group| &group.smallest)) {
+        let part = report.parts.iter_mut().find(|part| part.name == part_with(difference));
+        if let Some(part) = part.filter(|part| part.mismatches > 0) {
+            part.first.get_or_insert_with(|| first(difference));
         }
     }
     // The threads of a check finish in any order.
     report.parts.sort_by(|a, b| a.name.cmp(&b.name));
     report.first = found.differences.first().map(first);
     report.period = found.period();
-    report.add_stages(found.groups().iter().map(|group| (group.stage, group.mismatches)));
+    report.add_stages(groups.iter().map(|group| (group.stage, group.mismatches)));
+}
+
+/// The part that counts a difference.
+fn part_with(difference: &Difference) -> String {
+    let found = &difference.mismatch;
+    let is_other =
+        found.stage == SpecStage::Answer || matches!(found.element, Element::Conversion(_));
+    if is_other { OTHERS.to_owned() } else { part_of(difference.case) }
 }
 
 pub(super) fn first(difference: &Difference) -> First {
@@ -53,33 +61,8 @@ pub(super) fn first(difference: &Difference) -> First {
     First { case, difference, passes_alone }
 }
 
-/// The notes of `tess gen` on how the cases were made, without the shard.
-const MADE: [&str; 8] =
-    ["level", VERSION, "seed", "random", "domain", "partitioning", "output", "split"];
-
-/// Adds how the cases were made, which the shards of a campaign have in common. The source is the
-/// first line of the asked cases or of the answers.
-pub(super) fn add_asked(report: &mut Report, asked: &Header) {
-    let version = level(asked).map(|(_, version)| (VERSION.to_owned(), version.to_owned()));
-    let made = asked.notes.iter().filter(|(key, _)| MADE.contains(&&**key));
-    for (key, value) in made.chain(&version) {
-        report.options.insert(format!("asked {key}"), vec![value.clone()]);
-        if key == "seed" {
-            report.seed = value.parse().ok();
-        }
-    }
-}
-
-/// The level of generated cases and its version. Files of version 1 do not record a version.
-pub(super) fn level(header: &Header) -> Option<(&str, &str)> {
-    let note = |key| header.notes.iter().find(|(known, _)| known == key);
-    let (_, level) = note("level")?;
-    Some((level, note(VERSION).map_or("1", |(_, version)| version)))
-}
-
-const VERSION: &str = "level-version";
-
-const SHARD: &str = "shard";
+/// The note that names the shard of a file.
+pub(super) const SHARD: &str = "shard";
 
 /// The shard that a file belongs to: from the option or the environment, or from the note in the
 /// first line of the asked cases or of the file itself.

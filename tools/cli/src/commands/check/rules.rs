@@ -1,5 +1,6 @@
 //! `tess check --rules`: judges a device's listings by the demands of a standard.
 
+use super::asked::{AskedCases, Source};
 use super::{NO_VERDICT, record, so_far};
 use crate::campaign::Recorder;
 use crate::campaign::report::ReportPart;
@@ -12,7 +13,7 @@ use std::sync::{Mutex, PoisonError};
 use tess_core::Tessellation;
 use tess_verify::check::{self, Known, ListOrder, Strength, Tested};
 use tess_verify::rules::{Checker, Specification};
-use tess_verify::vectors::{Cases, Kind, Record, VectorFile};
+use tess_verify::vectors::{Kind, Record, VectorFile};
 use tess_verify::{Backend, Case, CoreBackend, Named};
 
 /// Judges every listing of a file. Prints the verdicts, and those `asked` cases that the file does
@@ -23,7 +24,7 @@ use tess_verify::{Backend, Case, CoreBackend, Named};
 /// read.
 pub(super) fn run(
     file: VectorFile<Reader>,
-    mut asked: Option<Cases<Reader>>,
+    (mut asked, source): (Option<AskedCases<'_>>, Source),
     specification: Specification,
     known: &Known,
     recorder: &Recorder,
@@ -42,6 +43,7 @@ pub(super) fn run(
     let answered = asked.as_mut().map(|asked| asked as _);
     let answers =
         check::check_asked(file, answered, known, &mut model, Tested::Answers, &|checked| {
+            source.see(checked, recorder);
             let mut judges = judges.lock().unwrap_or_else(PoisonError::into_inner);
             let (checker, beside) = &mut *judges;
             let mut judge = |case: &Case, output: &Tessellation| {
@@ -67,6 +69,7 @@ pub(super) fn run(
         recorder.update(|record| record.add_part(ReportPart { name, cases, mismatches, first }));
         answers.differences.iter().try_for_each(|difference| print(&format!("{difference}\n")))?;
         print(&format!("{answers} of answers\n"))?;
+        source.explain(&answers);
     }
     let ended = conclude("listings", &checker.report(), known, recorder)?;
     let [equal, reordered, different] = beside;

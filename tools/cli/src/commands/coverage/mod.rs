@@ -6,7 +6,7 @@ use crate::args::name_of;
 use crate::coverage_file;
 use crate::failure::{Exit, Failure};
 use crate::input::{self, name};
-use crate::output::{OutputArgs, Role, counted, note, refuse_shared};
+use crate::output::{self, OutputArgs, Role, Trusted, counted, note, refuse_shared};
 use std::collections::HashSet;
 use std::path::PathBuf;
 use tess_core::{Domain, OutputPrimitive, Partitioning, SplitOrder};
@@ -79,8 +79,9 @@ pub(crate) fn run(args: &CoverageCommand) -> Result<Exit, Failure> {
     }
     refuse_shared(&args.roles())?;
     args.refuse_double()?;
-    let outputs = args.merged.iter().chain([&args.report.file]);
-    outputs.cloned().try_for_each(|file| OutputArgs { file }.require_writable())?;
+    args.report.require_writable()?;
+    let merged = args.merged.as_deref().map(Trusted::merged);
+    output::begin(&merged.into_iter().collect::<Vec<_>>())?;
     let exclusions = args.exclusions()?;
     let mut sum = Coverage::default();
     for file in &args.files {

@@ -4,6 +4,7 @@ mod images;
 mod stages;
 
 use crate::args::{SelectionArgs, name_of};
+use crate::campaign::cases::CaseSet;
 use crate::campaign::report::ReportPart;
 use crate::campaign::{Invocation, Placed, Recorder, ReportArgs};
 use crate::coverage_file::{self, CoverageFile};
@@ -16,10 +17,10 @@ use std::fs::File;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use tess_core::SplitOrder;
+use tess_verify::Case;
 use tess_verify::cover::{Coverage, Exclusions};
-use tess_verify::generate::{GenLevel, Selection, configurations_among};
+use tess_verify::generate::{GenLevel, Selection, Shard, configurations_among};
 use tess_verify::vectors::{Header, Kind, write_cases};
-use tess_verify::{Case, Named};
 
 /// Generate test vectors with expected results; equal arguments give equal bytes
 #[derive(Debug, clap::Args)]
@@ -83,14 +84,14 @@ enum VectorFormat {
 
 /// Runs the command. Errors: a selection without cases; an output that cannot be written.
 pub(crate) fn run(args: &GenCommand, invocation: &Invocation) -> Result<Exit, Failure> {
-    let placed = args.selection.shard.place()?;
     refuse_shared(&args.roles()?)?;
-    let recorder = args.report.begin(invocation, placed)?;
-    let ended = generate(args, placed, &recorder);
-    recorder.finish(ended)
+    args.report.record(invocation, &[], |recorder| generate(args, recorder))
 }
 
-fn generate(args: &GenCommand, placed: Placed, recorder: &Recorder) -> Result<Exit, Failure> {
+fn generate(args: &GenCommand, recorder: &Recorder) -> Result<Exit, Failure> {
+    let placed = args.selection.shard.place()?;
+    recorder.place(placed);
+    recorder.asks(Some(CaseSet::of(&args.selection())));
     let all = args.all();
     let count = placed.shard.items(all);
     if count == 0 && all > 0 {
@@ -109,7 +110,7 @@ fn generate(args: &GenCommand, placed: Placed, recorder: &Recorder) -> Result<Ex
     }
     let header = args.header(count, placed);
     let bar = args.progress(count);
-    let cases = bar.wrap_iter(args.cases(placed));
+    let cases = bar.wrap_iter(args.cases(placed, recorder));
     let written = match args.format {
         VectorFormat::Csv | VectorFormat::Listing => {
             args.output.stream(|out| write_cases(out, &header, cases))
@@ -141,9 +142,10 @@ impl GenCommand {
         Selection { split: self.split, level, ..selection }
     }
 
-    fn cases(&self, Placed { shard, .. }: Placed) -> impl Iterator<Item = Case> {
+    fn cases(&self, placed: Placed, recorder: &Recorder) -> impl Iterator<Item = Case> {
         let numbered = (0..).zip(self.selection().cases());
-        numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
+        let own = numbered.filter(move |(i, _)| placed.shard.has(*i)).map(|(_, case)| case);
+        own.inspect(|case| recorder.saw([case]))
     }
 
     /// Writes the vectors of one stage.
@@ -162,7 +164,7 @@ impl GenCommand {
             }
         };
         let bar = self.progress(count);
-        let rows = stages::rows(block, bar.wrap_iter(self.cases(placed)));
+        let rows = stages::rows(block, bar.wrap_iter(self.cases(placed, recorder)));
         bar.finish_and_clear();
         self.output.stream(|out| write(out, block, &rows))?;
         recorder.update(|report| report.add_part(part(count)));
@@ -181,7 +183,7 @@ impl GenCommand {
         let mut alone = Coverage::default();
         let coverage = file.as_mut().map_or(&mut alone, |file| &mut file.coverage);
         let bar = self.progress(count);
-        coverage.record_stream(None, bar.wrap_iter(self.cases(placed)));
+        coverage.record_stream(None, bar.wrap_iter(self.cases(placed, recorder)));
         bar.finish_and_clear();
         recorder.update(|report| report.add_part(part(count)));
         // The file may also have hits of other configurations.
@@ -218,17 +220,11 @@ impl GenCommand {
 
     /// The first line of the output, with the arguments on which the cases depend as notes.
     fn header(&self, count: u64, placed: Placed) -> Header {
-        let mut notes = self.selection.notes(placed);
-        if self.rules {
-            let random = self.selection().random_count().to_string();
-            for (key, value) in [("level", "rules".to_owned()), ("random", random)] {
-                notes
-                    .iter_mut()
-                    .filter(|(known, _)| known == key)
-                    .for_each(|note| note.1 = value.clone());
-            }
+        let mut notes = CaseSet::of(&self.selection()).notes();
+        if placed.shard != Shard::WHOLE {
+            let shard = format!("{}/{}", placed.shard.part + 1, placed.shard.of);
+            notes.push(("shard".to_owned(), shard));
         }
-        notes.extend(self.split.map(|split| ("split".to_owned(), split.name().to_owned())));
         let source = "tess-core".to_owned();
         let kind =
             if self.format == VectorFormat::Listing { Kind::Listings } else { Kind::Patches };

@@ -25,7 +25,7 @@ pub(super) struct ShardReports(Vec<FoundReport>);
 
 /// Everything in which the reports of a campaign must agree, by name.
 fn identity(report: &Report) -> BTreeMap<String, String> {
-    let Report { version, commit, executable, command, seed, shards, known, options, .. } = report;
+    let Report { version, commit, executable, command, shards, known, options, .. } = report;
     // A build from changed or unknown sources is identified only by its file.
     let is_sure = commit != "unknown" && !commit.ends_with("+changes");
     let file = executable.as_ref().filter(|_| !is_sure);
@@ -35,7 +35,6 @@ fn identity(report: &Report) -> BTreeMap<String, String> {
         ("the version", version.clone()),
         ("the commit", commit.clone() + &file),
         ("the command", command.clone()),
-        ("the seed", seed.map_or("none".to_owned(), |seed| seed.to_string())),
         ("the number of shards", shards.to_string()),
         ("the baseline", baseline.to_owned()),
     ];
@@ -67,6 +66,7 @@ impl ShardReports {
         };
         match one.report.state {
             RunState::Done => Ok(one),
+            RunState::Running => Err("has not ended: it still runs, or was killed".to_owned()),
             RunState::Interrupted => Err("was interrupted".to_owned()),
             RunState::Failed => {
                 let why = one.report.message.as_deref().unwrap_or("for an unknown reason");

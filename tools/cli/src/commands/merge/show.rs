@@ -1,6 +1,7 @@
 //! A campaign as text and as `JUnit` XML.
 
 use super::campaign::{Campaign, ShardReports};
+use super::cases::Compared;
 use super::read::FoundReport;
 use crate::campaign::junit::{JunitCase, JunitSuite, Outcome, seconds};
 use crate::campaign::report::Report;
@@ -8,13 +9,14 @@ use crate::output::counted;
 use std::fmt::Write;
 
 /// The table, the differences, the faults, and the command line of a shard if some must run again.
-pub(super) fn text(campaign: &Campaign) -> String {
+pub(super) fn text(campaign: &Campaign, compared: &Compared) -> String {
     let mut text = String::new();
     // Writing to a String does not fail, so the results of `write!` are dropped throughout.
-    let Report { command, version, commit, options, .. } = &campaign.sample;
+    let Report { command, version, commit, options, set, .. } = &campaign.sample;
     let options: String =
         options.iter().map(|(name, values)| format!(" {name}={}", values.join(","))).collect();
     _ = writeln!(text, "tess {command}:{options}\ntess {version}, commit {commit}");
+    set.iter().for_each(|set| _ = writeln!(text, "cases: {set}"));
     table(&mut text, campaign);
     for FoundReport { place, report } in campaign.shards.values().filter_map(ShardReports::ended) {
         let Report { shard, shards, cases, mismatches, .. } = report;
@@ -27,6 +29,13 @@ pub(super) fn text(campaign: &Campaign) -> String {
         _ = writeln!(text, "{place} is of another campaign: {why}");
     }
     let once = faults(&mut text, campaign);
+    match compared {
+        Compared::Equal(asked) => _ = writeln!(text, "asked: {asked}"),
+        Compared::Other(lines) => lines.iter().for_each(|line| _ = writeln!(text, "{line}")),
+        Compared::Unknown(why) => {
+            _ = writeln!(text, "{NOT_COMPARED}: {why}; give the asked ones with --cases");
+        }
+    }
     let Report { cases, mismatches, milliseconds, .. } = &campaign.sum;
     if *cases == 0 {
         _ = writeln!(text, "no case was compared");
@@ -38,6 +47,8 @@ pub(super) fn text(campaign: &Campaign) -> String {
     );
     text
 }
+
+const NOT_COMPARED: &str = "the cases were not compared";
 
 fn table(text: &mut String, campaign: &Campaign) {
     _ = writeln!(text, "{:<44} {:>15} {:>10}", "part", "cases", "mismatches");
@@ -90,8 +101,8 @@ fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
-/// One test case per shard, and one per report of another campaign.
-pub(super) fn junit(campaign: &Campaign) -> String {
+/// One test case per shard, one for the asked cases, and one per report of another campaign.
+pub(super) fn junit(campaign: &Campaign, compared: &Compared) -> String {
     let Report { command, shards, .. } = &campaign.sample;
     let case = |name, milliseconds, outcome| JunitCase {
         class: format!("tess.{command}"),
@@ -106,7 +117,12 @@ pub(super) fn junit(campaign: &Campaign) -> String {
                 let outcome = Outcome::of(counts, report.first.as_ref(), report.period);
                 (Some(report.milliseconds), outcome)
             }
-            Err(what) => (None, Outcome::Error(what, shard.places())),
+            Err(what) => {
+                let again = format!("run it again with --shard {number}/{shards}");
+                let lines = [shard.places(), again];
+                let full = lines.into_iter().filter(|line| !line.is_empty()).collect::<Vec<_>>();
+                (None, Outcome::Error(what, full.join("\n")))
+            }
         };
         case(format!("shard {number}/{shards}"), milliseconds, outcome)
     };
@@ -114,7 +130,14 @@ pub(super) fn junit(campaign: &Campaign) -> String {
         let outcome = Outcome::Error("of another campaign".to_owned(), why.clone());
         case(place.clone(), None, outcome)
     });
-    let tests = campaign.shards.iter().map(of_shard).chain(strangers).collect();
+    let of_cases = match compared {
+        Compared::Equal(_) => Outcome::Passed,
+        Compared::Other(lines) => Outcome::Error("other cases".to_owned(), lines.join("\n")),
+        Compared::Unknown(why) => Outcome::Failed(NOT_COMPARED.to_owned(), why.clone()),
+    };
+    let of_cases = case("cases".to_owned(), None, of_cases);
+    let shards = campaign.shards.iter().map(of_shard);
+    let tests = shards.chain([of_cases]).chain(strangers).collect();
     let (name, milliseconds) = (format!("tess {command}"), campaign.sum.milliseconds);
     JunitSuite { name, milliseconds, tests }.to_xml()
 }

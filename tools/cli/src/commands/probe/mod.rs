@@ -4,6 +4,7 @@
 mod bench;
 
 use crate::args::{Choices, SelectionArgs, choice, name_of};
+use crate::campaign::cases::CaseSet;
 use crate::campaign::report::{First as FirstOf, PASSES_ALONE, Report, ReportPart};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs};
 use crate::comparison::{CONVERSIONS, DENORMALS, rules};
@@ -13,13 +14,12 @@ use crate::output::form;
 use crate::output::{OutputArgs, Role, json, note, progress, refuse_shared};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tess_probe::{First, ProbeReport, ProbeRow, Prober, cases, list, probe_known};
+use tess_probe::{First, ProbeReport, Prober, cases, list, probe_known};
 use tess_verify::check::{Conversion, Denormals, Known, ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::rules::Specification;
 use tess_verify::show::{self, DrawOptions};
 use tess_verify::vectors::Listing;
-use tess_verify::{Case, Named};
 
 /// Compare the tessellator of a Vulkan device with the model
 #[derive(Debug, clap::Args)]
@@ -115,26 +115,30 @@ pub(crate) fn run(args: &ProbeCommand, invocation: &Invocation) -> Result<Exit, 
         let ProbeCommand { device, workload, checks, json, output, .. } = args;
         return bench::run(*device, workload, *checks, *json, output).map(|()| Exit::Done);
     }
-    let placed = match args.rules {
-        Some(_) => args.selection.shard.whole("probe --rules")?,
-        None => args.selection.shard.place()?,
-    };
-    let known = args.known.read(args.rules)?;
-    args.output.require_writable()?;
-    let picture = args.picture.as_deref().map(FirstPicture::prepare).transpose()?;
-    let drawn = picture.iter().map(|picture| Role::output("--picture", &picture.output.file));
+    let drawn = args.picture.iter().map(|file| Role::output("--picture", file));
     let others = args.known.role().into_iter().chain(args.report.roles());
     refuse_shared(&drawn.chain([args.output.role()]).chain(others).collect::<Vec<_>>())?;
-    let recorder = args.report.begin(invocation, placed)?;
-    known.note(&recorder);
-    let ended = match args.rules {
-        Some(specification) => args.judge(specification, &known.known, &recorder),
-        None => args.compare(placed, picture.as_ref(), &known.known, &recorder),
-    };
-    known.finish(recorder, placed, ended)
+    args.report.record(invocation, &[], |recorder| args.probe(recorder))
 }
 
 impl ProbeCommand {
+    fn probe(&self, recorder: &Recorder) -> Result<Exit, Failure> {
+        let placed = match self.rules {
+            Some(_) => self.selection.shard.whole("probe --rules")?,
+            None => self.selection.shard.place()?,
+        };
+        recorder.place(placed);
+        let known = self.known.read(self.rules)?;
+        known.note(recorder);
+        self.output.require_writable()?;
+        let picture = self.picture.as_deref().map(FirstPicture::prepare).transpose()?;
+        let exit = match self.rules {
+            Some(specification) => self.judge(specification, &known.known, recorder)?,
+            None => self.compare(placed, picture.as_ref(), &known.known, recorder)?,
+        };
+        Ok(known.conclude(recorder, placed, exit))
+    }
+
     /// Compares the device with the model.
     fn compare(
         &self,
@@ -160,6 +164,8 @@ impl ProbeCommand {
         let report = probe_known(&mut prober, &cases, strength, known, |patches| bar.inc(patches));
         bar.finish_and_clear();
         let report = report.map_err(Failure::unavailable)?;
+        recorder.asks(Some(CaseSet::of_device(&selection)));
+        recorder.saw(&cases);
         recorder.update(|record| note_parts(record, &report));
         if let (Some(picture), Some(first)) = (picture, &report.unexplained.first) {
             picture.draw(first)?;
@@ -194,6 +200,8 @@ impl ProbeCommand {
             tess_probe::rules(&mut prober, selection, specification, |patches| bar.inc(patches));
         bar.finish_and_clear();
         note(&prober.info().to_string());
+        recorder.asks(Some(CaseSet::of_device(&selection)));
+        recorder.saw(tess_probe::rule_cases(selection));
         rules::conclude("device", &report.map_err(Failure::unavailable)?, known, recorder)
     }
 
@@ -226,28 +234,21 @@ fn verdict(report: &ProbeReport) -> Exit {
     Exit::Done
 }
 
-/// Whether a row counts this case.
-fn is_of(row: &ProbeRow, case: &Case) -> bool {
-    let Case { config, .. } = case;
-    let names = (case.domain().name(), config.partitioning.name(), config.output.name());
-    names == (row.domain, row.partitioning, row.output)
-}
-
 /// Adds the configurations, with the first difference of each.
 fn note_parts(record: &mut Report, report: &ProbeReport) {
-    let passes_alone = report.passes_alone;
-    let first = |First { line, difference, .. }: &First| FirstOf {
+    // Only the first patch of all was repeated by itself.
+    let repeated = report.first_different.as_ref().filter(|_| report.passes_alone);
+    let first = |(line, difference): &(String, String)| FirstOf {
         case: Some(line.clone()),
         difference: difference.clone(),
-        passes_alone,
+        passes_alone: repeated.is_some_and(|first| first.line == *line),
     };
     for row in &report.rows {
-        let shown = report.first_different.as_ref().filter(|first| is_of(row, &first.case));
         record.add_part(ReportPart {
             name: format!("{} {} {}", row.domain, row.partitioning, row.output),
             cases: row.patches,
             mismatches: row.different,
-            first: shown.map(first),
+            first: row.first.as_ref().map(first),
         });
     }
     record.add_stages(report.stages.iter().map(|(stage, more)| (stage, *more)));

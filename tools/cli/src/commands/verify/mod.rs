@@ -2,6 +2,7 @@
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
+use crate::campaign::cases::CaseSet;
 use crate::campaign::report::{First, PASSES_ALONE, Report, ReportPart};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, ShardArgs};
 use crate::comparison::rules;
@@ -67,24 +68,28 @@ pub(crate) struct VerifyCommand {
 /// Runs the command. Errors: an unavailable backend.
 pub(crate) fn run(args: &VerifyCommand, invocation: &Invocation) -> Result<Exit, Failure> {
     args.options.fit(args.backends())?;
-    let placed = match args.rules {
-        Some(_) => args.shard.whole("verify --rules")?,
-        None => args.shard.place()?,
-    };
     let roles = args.known.role().into_iter().chain([Role::stdout()]).chain(args.report.roles());
     refuse_shared(&roles.collect::<Vec<_>>())?;
-    let known = args.known.read(args.rules)?;
-    let workers = args.workers()?;
-    let recorder = args.report.begin(invocation, placed)?;
-    known.note(&recorder);
-    let ended = match args.rules {
-        Some(specification) => args.judge(specification, &known.known, &recorder),
-        None => args.compare(workers, placed, &known.known, &recorder),
-    };
-    known.finish(recorder, placed, ended)
+    args.report.record(invocation, &[], |recorder| args.verify(recorder))
 }
 
 impl VerifyCommand {
+    fn verify(&self, recorder: &Recorder) -> Result<Exit, Failure> {
+        let placed = match self.rules {
+            Some(_) => self.shard.whole("verify --rules")?,
+            None => self.shard.place()?,
+        };
+        recorder.place(placed);
+        let known = self.known.read(self.rules)?;
+        known.note(recorder);
+        let workers = self.workers()?;
+        let exit = match self.rules {
+            Some(specification) => self.judge(specification, &known.known, recorder)?,
+            None => self.compare(workers, placed, &known.known, recorder)?,
+        };
+        Ok(known.conclude(recorder, placed, exit))
+    }
+
     /// Compares the backends with the model.
     fn compare(
         &self,
@@ -93,15 +98,17 @@ impl VerifyCommand {
         known: &Known,
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
+        recorder.asks(Some(CaseSet::of_subjects(&self.subjects())));
         let bar = progress(0, "units");
         print(&bar, &heading())?;
         let started = Instant::now();
         let mut all_equal = true;
         for subject in self.subjects() {
             bar.set_message(subject.name());
-            let table = verify(&mut workers, subject, placed.shard, known, &|done, all| {
-                bar.set_length(all);
-                bar.set_position(done);
+            let table = verify(&mut workers, subject, placed.shard, known, &|progress| {
+                recorder.saw(progress.unit.cases());
+                bar.set_length(progress.all);
+                bar.set_position(progress.done);
             });
             let table = table.inspect_err(|_| bar.finish_and_clear())?;
             recorder.update(|report| record(report, &table));
@@ -132,6 +139,7 @@ impl VerifyCommand {
     ) -> Result<Exit, Failure> {
         let split = Some(SplitOrder::Ruler);
         let selection = Selection { split, ..Selection::level(GenLevel::Rules, 1) };
+        recorder.asks(Some(CaseSet::of(&selection)));
         let cases: Vec<_> = selection.cases().collect();
         let mut exit = Exit::Done;
         for &name in self.backends() {
@@ -146,6 +154,7 @@ impl VerifyCommand {
                 exit = Exit::Different;
             }
         }
+        recorder.saw(&cases);
         Ok(exit)
     }
 
