@@ -1,6 +1,6 @@
 //! Vertices that several patches have in common, each written once.
 //!
-//! Two vertices are one if all their values have the same bits. Only points on the border of a patch
+//! Two vertices are one if all their values are equal. Only points on the border of a patch
 //! can be those of another patch, so only these are looked up. Where patches disagree about a normal
 //! or a texture coordinate, as on a hard edge or at the seam of an image, both vertices stay.
 
@@ -59,11 +59,13 @@ impl Sharing {
 }
 
 /// 96 bits that depend on every bit of a vertex's values.
+#[expect(clippy::cast_possible_truncation, reason = "parts of a hash")]
 fn hash(block: &Block<'_>, at: usize) -> [u32; 3] {
     let vertex = &block.vertices[at];
     let mut mix = [0x9E37_79B9_7F4A_7C15u64, 0xC2B2_AE3D_27D4_EB4F];
     let mut add = |value: f32| {
-        let word = u64::from(value.to_bits());
+        // Zeros of either sign are one number.
+        let word = u64::from((value + 0.0).to_bits());
         mix[0] = (mix[0] ^ word).wrapping_mul(0xFF51_AFD7_ED55_8CCD);
         mix[0] ^= mix[0] >> 32;
         mix[1] = (mix[1].rotate_left(29) ^ word).wrapping_mul(0xC4CE_B9FE_1A85_EC53);

@@ -304,9 +304,9 @@ impl File {
             5120 | 5122 => is_quantized,
             _ => false,
         };
-        let values = self.accessor(number)?;
-        let is_whole = is_right && values.len() == count && accessor["type"] == "VEC2";
-        is_whole.then_some(values)
+        let is_whole =
+            is_right && index(&accessor["count"]) == Some(count) && accessor["type"] == "VEC2";
+        if is_whole { self.accessor(number) } else { None }
     }
 
     /// Every element of an accessor; all numbers of 32 bits are exact in `f64`.
@@ -334,7 +334,7 @@ impl File {
             let indices = &sparse["indices"];
             let at =
                 self.element(indices, index(&indices["componentType"])? as u64, false, 1, k)?[0];
-            elements[at as usize] =
+            *elements.get_mut(at as usize)? =
                 self.element(&sparse["values"], kind, normalized, components, k)?;
         }
         Some(elements)
@@ -350,7 +350,7 @@ impl File {
         k: usize,
     ) -> Option<Vec<f64>> {
         let view = &self.json["bufferViews"][index(&source["bufferView"])?];
-        let bytes = &self.buffers[index(&view["buffer"])?];
+        let bytes = self.buffers.get(index(&view["buffer"])?)?;
         let size = match kind {
             5120 | 5121 => 1,
             5122 | 5123 => 2,

@@ -149,7 +149,10 @@ fn the_teapot_reads_back() {
         let counts_of_notes = left_out.filter_map(|note| note.split(' ').next());
         let dropped: u64 = counts_of_notes.filter_map(|count| count.parse::<u64>().ok()).sum();
         assert!(dropped > 0, "{options}: a note of the poles: {}", second.stderr);
-        assert_eq!(counts(&first)[2], counts(&second)[0] + dropped, "{options}: triangles");
+        let (all, kept) = (counts(&first)[2], counts(&second)[0] + dropped);
+        // The neighbours of a face without area are cut at its corners.
+        let is_joined = second.stderr.contains("their neighbours meet there");
+        assert!(if is_joined { all < kept } else { all == kept }, "{options}: {all}, {kept}");
         let folded = second
             .stderr
             .contains("1 edge of more than two faces: the faces are neighbours in pairs");

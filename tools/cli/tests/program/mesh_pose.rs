@@ -300,7 +300,7 @@ fn small_integers() {
     file.document["accessors"][normals]["normalized"] = json!(true);
     file.primitive()["attributes"]["NORMAL"] = json!(normals);
     let input = write_gltf(&file.folder, "plain.gltf", file.document.clone(), &file.bytes);
-    refused(&input, "", "NORMAL: accessors[5] is Vec3 of Byte; it must be VEC3 of Float");
+    refused(&input, "", "POSITION: accessors[4] is Vec3 of Short; it must be VEC3 of Float");
     for list in ["extensionsUsed", "extensionsRequired"] {
         file.document[list] = json!(["KHR_mesh_quantization"]);
     }

@@ -245,6 +245,11 @@ fn refused(error: LoadError) -> Failure {
     }
 }
 
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part is 0 to 1")]
+const fn percent(part: f32) -> u64 {
+    (part * 100.0) as u64
+}
+
 /// The number of triangles with which the default factor is chosen: what viewers open at once.
 const VIEWABLE: u64 = 300_000;
 
@@ -322,7 +327,7 @@ impl MeshCommand {
             Some(path) => {
                 let bar = progress(100, "% of the model");
                 tess_mesh::load_watched(path, &options, &|part| {
-                    bar.set_position(f64::from(part * 100.0) as u64);
+                    bar.set_position(percent(part));
                 })
             }
             None => tess_mesh::teapot(&options),
