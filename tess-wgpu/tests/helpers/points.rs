@@ -76,6 +76,7 @@ fn lines() -> Vec<Case> {
             all.push(Case { args: args(&[b, a, one(1.0 - t)]), expected: Expected::AsBefore });
         }
     }
+    lines_of_uneven_ends(&mut all, &mut random);
     // The fourth component also decides the direction, and is interpolated.
     for _ in 0..20 {
         let [a, b] = [(); 2].map(|()| [0.3, 0.7, 0.1, number(&mut random, -1.0, 1.0)]);
@@ -87,6 +88,39 @@ fn lines() -> Vec<Case> {
         }
     }
     all
+}
+
+/// A number of this size with a full significand, of either sign.
+fn of_size(random: &mut SplitMix64, size: f32) -> f32 {
+    let sign = if random.below(2) == 0 { 1.0 } else { -1.0 };
+    sign * size * number(random, 0.5, 1.0)
+}
+
+/// The size of the coordinates at the small end of an uneven line.
+const SMALL: f32 = 1.0 / 1_048_576.0;
+
+/// Lines between a large and a small end. Their difference is rounded to the large end's unit, so a
+/// point near the small end has other bits if it is computed from the large end, whether a device
+/// rounds once or twice. That shows the direction, which the components decide one after another.
+fn lines_of_uneven_ends(all: &mut Vec<Case>, random: &mut SplitMix64) {
+    for number_of in 0..64 {
+        let equal = number_of % 4;
+        let ends = uneven_ends(random, equal);
+        let [a, b] = if number_of % 8 < 4 { ends } else { [ends[1], ends[0]] };
+        for t in places(random) {
+            let expected = std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t);
+            let expected = Expected::Near(expected, OF_A_POINT * ULP);
+            all.push(Case { args: args(&[a, b, one(t)]), expected });
+            all.push(Case { args: args(&[b, a, one(1.0 - t)]), expected: Expected::AsBefore });
+        }
+    }
+}
+
+/// A large and a small end that differ in all components after the first `equal` ones.
+fn uneven_ends(random: &mut SplitMix64, equal: usize) -> [[f32; 4]; 2] {
+    let large: [f32; 4] = std::array::from_fn(|_| of_size(random, 1.0));
+    let small = std::array::from_fn(|i| if i < equal { large[i] } else { of_size(random, SMALL) });
+    [large, small]
 }
 
 /// Inner control points of edges. The sums have terms of up to 6, and the quotient by 3 an error
@@ -163,8 +197,8 @@ const EDGES_OF_TRIANGLES: &str = "select(tess_along(a[0], a[1], a[4].z), \
 fn edges(corners: usize) -> Vec<Case> {
     let sides = if corners == 4 { Sides::Quad([(); 4]) } else { Sides::Triangle([(); 3]) };
     let (mut all, mut random) = (Vec::new(), SplitMix64::new(23));
-    for _ in 0..30 {
-        let corners = [(); 4].map(|()| point(&mut random, SIZE_OF_A_PATCH));
+    for number_of in 0..60 {
+        let corners = corners_of(&mut random, number_of);
         let [a, b, c, d] = corners.map(|corner| vec(corner, 0.25));
         let by_cpu = patch(&sides, corners);
         for (edge, &[from, to]) in edge_corners(&sides).iter().enumerate() {
@@ -182,6 +216,35 @@ fn edges(corners: usize) -> Vec<Case> {
         }
     }
     all
+}
+
+/// Corners of any size, or large and small ones in turn: see [`lines_of_uneven_ends`].
+fn corners_of(random: &mut SplitMix64, number_of: usize) -> [Vec3; 4] {
+    std::array::from_fn(|corner| match number_of % 3 {
+        0 => point(random, SIZE_OF_A_PATCH),
+        turn => {
+            let size = if (corner + turn).is_multiple_of(2) { 1.0 } else { SMALL };
+            Vec3::from_array([(); 3].map(|()| of_size(random, size)))
+        }
+    })
+}
+
+/// The two directions of an uneven line give other bits, with an operation that rounds once and with
+/// two that round. So a device of either arithmetic shows which end it began at.
+#[test]
+#[expect(clippy::disallowed_methods, reason = "the arithmetic of a device that rounds once")]
+fn uneven_ends_show_the_direction() {
+    let mut random = SplitMix64::new(26);
+    for number_of in 0..64 {
+        let [large, small] = uneven_ends(&mut random, number_of % 4).map(|end| end[3]);
+        let t = 65_535.0 / 65_536.0;
+        let [forth, back] = [small - large, large - small];
+        let twice = [large + forth * t, small + back * (1.0 - t)];
+        let once = [forth.mul_add(t, large), back.mul_add(1.0 - t, small)];
+        for [from_large, from_small] in [twice, once] {
+            assert_ne!(from_large.to_bits(), from_small.to_bits(), "{large} to {small}");
+        }
+    }
 }
 
 /// Heights at places around multiples of 1/256 of a texel, where interpolation between 8-bit texels
