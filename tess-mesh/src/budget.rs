@@ -1,8 +1,8 @@
 //! The memory that one file may take.
 //!
 //! A file can repeat what it has: nodes repeat meshes, accessors without a buffer view have any
-//! number of elements, and skins have joints times nodes. Whatever a file can repeat is charged here
-//! before it is made.
+//! number of elements, and skins have joints times nodes. Whatever a file can repeat is charged
+//! here before it is made.
 
 use std::cell::Cell;
 

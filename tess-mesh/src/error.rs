@@ -20,7 +20,8 @@ pub enum LoadErrorKind {
     Format,
     /// The contents break a rule of their format, or cannot be made into a surface.
     Content,
-    /// The contents need more memory than [`LoadOptions::max_memory`](crate::LoadOptions::max_memory).
+    /// The contents need more memory than
+    /// [`LoadOptions::max_memory`](crate::LoadOptions::max_memory).
     Limit,
     /// An option does not apply to this kind of file.
     Option,

@@ -77,9 +77,10 @@ pub struct Loaded {
     pub notes: Vec<String>,
     /// The other files that were read.
     pub files: Vec<PathBuf>,
-    /// How an image continues beyond its borders along u and v. A glTF file has it in the samplers of
-    /// its textures. Otherwise an image repeats along an axis if texture coordinates are outside of
-    /// 0 and 1, or if the surface closes there as a planet does at its date line; else it is clamped.
+    /// How an image continues beyond its borders along u and v. A glTF file has it in the samplers
+    /// of its textures. Otherwise an image repeats along an axis if texture coordinates are outside
+    /// of 0 and 1, or if the surface closes there as a planet does at its date line; else it is
+    /// clamped.
     pub address: [Address; 2],
     /// A note about the faces without texture coordinates; each of them gets the whole image.
     pub untextured: Option<String>,

@@ -6,7 +6,8 @@ use serde_json::{Map, Value};
 /// Faces that have one name, one material and the same kinds of values at their corners.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Part {
-    /// The number of the node or object that it belongs to, counted from 0 in the order of the file.
+    /// The number of the node or object that it belongs to, counted from 0 in the order of the
+    /// file.
     pub node: usize,
     /// The name of the node, or of the object (`o`).
     pub object: Option<String>,

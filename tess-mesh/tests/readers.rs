@@ -1,5 +1,6 @@
-//! The readers against independent ones, over small valid files of every form and over files with one
-//! change: changed, missing and repeated bytes, and every value of a document replaced or removed.
+//! The readers against independent ones, over small valid files of every form and over files with
+//! one change: changed, missing and repeated bytes, and every value of a document replaced or
+//! removed.
 
 #![expect(
     clippy::float_arithmetic,

@@ -10,8 +10,8 @@ pub struct Creases<'a> {
     /// their groups say nothing. With -1 all are smooth.
     pub least_cosine: f32,
     /// The smoothing group of each face, as in OBJ files: neighbours are smooth if they are in the
-    /// same group, and a face in group 0 is flat. `None`, and faces beyond the end of the list, leave
-    /// it to the angle.
+    /// same group, and a face in group 0 is flat. `None`, and faces beyond the end of the list,
+    /// leave it to the angle.
     pub groups: &'a [Option<u32>],
 }
 
@@ -24,8 +24,8 @@ impl Creases<'_> {
         self.group(face) == Some(0)
     }
 
-    /// Whether the edge between two faces is hard, and if so, whether that is for their angle alone.
-    /// `cosine` is that of the angle between their normals.
+    /// Whether the edge between two faces is hard, and if so, whether that is for their angle
+    /// alone. `cosine` is that of the angle between their normals.
     pub(crate) fn hardness(&self, one: usize, other: usize, cosine: f32) -> Hardness {
         match (self.group(one), self.group(other)) {
             (Some(0), _) | (_, Some(0)) => Hardness::Group,

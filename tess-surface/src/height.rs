@@ -53,8 +53,8 @@ impl HeightMap {
         self.with_addresses([address; 2])
     }
 
-    /// The same image with other continuations along u and v. On a planet u goes round and v ends at
-    /// the poles: `[Address::Repeat, Address::Clamp]`.
+    /// The same image with other continuations along u and v. On a planet u goes round and v ends
+    /// at the poles: `[Address::Repeat, Address::Clamp]`.
     #[must_use]
     pub fn with_addresses(self, address: [Address; 2]) -> Self {
         Self { address, ..self }

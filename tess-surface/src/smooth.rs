@@ -31,8 +31,8 @@ const ONE_SHEET: f32 = 0.5;
 /// Makes smooth normals for the faces that have none. `vertices` has the first position with the
 /// same coordinates for each position.
 ///
-/// A face with a corner where several sheets meet, or where an edge is hard, gets its own normals in
-/// the mesh instead of those of its positions.
+/// A face with a corner where several sheets meet, or where an edge is hard, gets its own normals
+/// in the mesh instead of those of its positions.
 pub(crate) fn smooth_normals(
     mesh: &mut PolygonMesh,
     vertices: &[u32],
@@ -116,8 +116,8 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// The half-edges at seams, and one side of each edge whose sides are not joined smoothly. Edges
-    /// between faces that have their own normals are left out.
+    /// The half-edges at seams, and one side of each edge whose sides are not joined smoothly.
+    /// Edges between faces that have their own normals are left out.
     fn breaks(self) -> impl Iterator<Item = (HalfEdge, Link)> + 'a {
         let Self { mesh, topology, .. } = self;
         let halves = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {

@@ -1,5 +1,5 @@
-//! Tests of the table of mistakes: each is seen as different by a comparison, and named only where it
-//! explains every difference and no right record refutes it.
+//! Tests of the table of mistakes: each is seen as different by a comparison, and named only where
+//! it explains every difference and no right record refutes it.
 
 #[path = "common/numbers.rs"]
 mod numbers;
@@ -90,8 +90,8 @@ fn fault(own: &'static Mistake) -> Option<String> {
     (shortest.len() > own.words().len()).then(|| format!("named {shortest}"))
 }
 
-/// A device with each mistake differs, and the explainer names that mistake, or one that is as short
-/// and explains as much.
+/// A device with each mistake differs, and the explainer names that mistake, or one that is as
+/// short and explains as much.
 #[test]
 fn each_mistake_is_seen_and_named() {
     let faults: Vec<String> =
@@ -218,8 +218,8 @@ fn of_a_file(answers: &[(Case, Tessellation)], threads: usize) -> Vec<Explanatio
     check(file, &mut backends, tested, &|_| ()).expect("a verdict").explanations
 }
 
-/// Threads take 256 records at a time. A record of one thread counts for all of them, be it right or
-/// wrong, and a mistake may take something from a record of another thread.
+/// Threads take 256 records at a time. A record of one thread counts for all of them, be it right
+/// or wrong, and a mistake may take something from a record of another thread.
 #[test]
 fn threads_do_not_matter() {
     let quads = |case: &Case| case.domain() == Domain::Quad && case.primitive_size() == 3;

@@ -1401,8 +1401,8 @@ TessStatus tess_fuzz(const uint8_t *data,
  *
  * `report` receives the text that `tess check --rules` prints: each rule as held, held as far as
  * asked, broken or not exercised, with what was not asked and the smallest patches that break it;
- * or the patch at which the tessellator failed. It ends with a zero byte and is cut off at `report_capacity` bytes; 16384 are enough.
- * This function allocates.
+ * or the patch at which the tessellator failed. It ends with a zero byte and is cut off at
+ * `report_capacity` bytes; 16384 are enough. This function allocates.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:

@@ -57,8 +57,8 @@ pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<
     }
 }
 
-/// The array, or a copy if its elements are not aligned, as those that `numpy.frombuffer` takes from
-/// the middle of a buffer. References to such elements would be undefined.
+/// The array, or a copy if its elements are not aligned, as those that `numpy.frombuffer` takes
+/// from the middle of a buffer. References to such elements would be undefined.
 fn aligned(array: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
     match array.getattr("flags")?.getattr("aligned")?.is_truthy()? {
         true => Ok(array),

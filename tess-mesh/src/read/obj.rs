@@ -1,7 +1,7 @@
 //! OBJ files: polygons with texture coordinates, normals, colours, names and materials.
 //!
-//! A line is refused only if the surface needs it: a face's corner whose position is not there or is
-//! not a number. Everything else that cannot be read is left out and counted: points, lines,
+//! A line is refused only if the surface needs it: a face's corner whose position is not there or
+//! is not a number. Everything else that cannot be read is left out and counted: points, lines,
 //! free-form surfaces, unknown keywords, faces with fewer than three corners. Texture coordinates
 //! and normals that are not there are dropped later, from the faces that refer to them
 //! ([`crate::repair::faces`]). Polygons of more than four corners are cut into triangles.
@@ -114,8 +114,8 @@ pub(crate) fn parse(
     Ok(reader.finish())
 }
 
-/// A line with those that follow it, as long as each ends with a backslash that is not in a comment,
-/// as at the end of a path. `read` counts them.
+/// A line with those that follow it, as long as each ends with a backslash that is not in a
+/// comment, as at the end of a path. `read` counts them.
 fn joined<'a>(line: &'a [u8], text: &mut TextLines<'a>, read: &mut usize) -> Cow<'a, [u8]> {
     let mut whole = Cow::Borrowed(line);
     while let Some(before) = whole.trim_ascii_end().strip_suffix(b"\\") {

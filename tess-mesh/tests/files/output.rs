@@ -43,7 +43,8 @@ fn rich() -> Gltf {
     gltf.document["nodes"][0]["scale"] = json!([2, 2, -2]);
     gltf.document["materials"] = json!([{}, {
         "name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1],
-            "baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}}},
+            "baseColorTexture": {
+                "index": 0, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}}},
     }]);
     gltf.document["textures"] = json!([{"source": 0, "sampler": 0}, {"source": 1}]);
     gltf.document["samplers"] = json!([{"wrapS": 33648, "wrapT": 33071}]);

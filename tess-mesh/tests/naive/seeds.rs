@@ -154,7 +154,11 @@ pub(crate) fn gltf() -> Vec<Vec<u8>> {
         b.document["nodes"] = json!([
             {"children": [1, 2], "rotation": [0, 0.6, 0, 0.8], "translation": [1, 2, 3.5]},
             {"mesh": 0, "scale": [1, -2, 0.5]},
-            {"mesh": 0, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1], "children": [3]},
+            {
+                "mesh": 0,
+                "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1],
+                "children": [3],
+            },
             {"mesh": 0, "translation": [0, 0, 1e3]},
         ]);
         b.document["scene"] = json!(0);
@@ -241,7 +245,9 @@ pub(crate) fn gltf() -> Vec<Vec<u8>> {
         let view = b.document["accessors"][number]["bufferView"].clone();
         b.document["bufferViews"][1]["byteStride"] = json!(32);
         let range = json!({"min": [-4, -4, -4], "max": [12, 12, 12]});
-        for (name, at, kind) in [("POSITION", 0, "VEC3"), ("NORMAL", 12, "VEC3"), ("TEXCOORD_0", 24, "VEC2")] {
+        let attributes =
+            [("POSITION", 0, "VEC3"), ("NORMAL", 12, "VEC3"), ("TEXCOORD_0", 24, "VEC2")];
+        for (name, at, kind) in attributes {
             let accessors = b.document["accessors"].as_array_mut().expect("a list");
             accessors.push(json!({
                 "bufferView": view, "byteOffset": at, "componentType": 5126, "type": kind, "count": 3,

@@ -231,8 +231,8 @@ fn every_configuration(cases: &mut Vec<Case>, choices: &Choices) {
 }
 
 /// Pairs of patches in which the first may leave its state to the second: every kind after every
-/// kind, an ordinary patch after each class of value in each position, and each value of a configuration after each other one while everything else stays the
-/// same.
+/// kind, an ordinary patch after each class of value in each position, and each value of a
+/// configuration after each other one while everything else stays the same.
 fn sequences(cases: &mut Vec<Case>, choices: &Choices) {
     kinds(cases, choices);
     registers(&choices.domains, choices.registers(choices.splits[0]), cases);

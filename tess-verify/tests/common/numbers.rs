@@ -4,8 +4,9 @@
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_verify::Case;
 
-/// For each domain, patches whose levels are all equal: each number of segments, and a level a little
-/// below it. Isolines are one line. Patches in a row differ in the output alone, or in the spacing.
+/// For each domain, patches whose levels are all equal: each number of segments, and a level a
+/// little below it. Isolines are one line. Patches in a row differ in the output alone, or in the
+/// spacing.
 pub(crate) fn every_number() -> Vec<Case> {
     let spacings =
         [Partitioning::Integer, Partitioning::FractionalOdd, Partitioning::FractionalEven];

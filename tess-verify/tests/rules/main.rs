@@ -77,8 +77,8 @@ fn is_on_outline(point: DomainPoint) -> bool {
     u == 0 || v == 0 || u == ONE || v == ONE
 }
 
-/// The population exercises every rule about every level. The model holds all of Direct3D's, and of Vulkan's all but
-/// those that docs/rules.md names.
+/// The population exercises every rule about every level. The model holds all of Direct3D's, and of
+/// Vulkan's all but those that docs/rules.md names.
 #[test]
 fn the_model_and_the_standards() {
     let answers: Vec<_> = population().map(model).collect();

@@ -1,8 +1,9 @@
 //! Accessors: the rules about their bytes, and reading them.
 //!
 //! The source is the glTF 2.0 Specification, section 3.6.2 and the properties `accessor` and
-//! `bufferView` in section 5. An accessor is checked when it is read for the first time. Rules about
-//! alignment are for programs that pass the bytes to a GPU; here a place that breaks one is counted.
+//! `bufferView` in section 5. An accessor is checked when it is read for the first time. Rules
+//! about alignment are for programs that pass the bytes to a GPU; here a place that breaks one is
+//! counted.
 
 use super::buffers::Buffers;
 use super::document::{Accessor, BufferView, ComponentType, Document, Sparse, broken};

@@ -34,9 +34,9 @@ impl<'a> Buffers<'a> {
         Self { contents, folder, blob, budget, files: RefCell::default() }
     }
 
-    /// The contents of a buffer. Errors: a buffer without contents or with too few bytes; a URI that
-    /// leads out of the folder; a file that cannot be read or is not an ordinary file; too many
-    /// bytes in all.
+    /// The contents of a buffer. Errors: a buffer without contents or with too few bytes; a URI
+    /// that leads out of the folder; a file that cannot be read or is not an ordinary file; too
+    /// many bytes in all.
     pub(crate) fn get(&self, document: &Document, number: usize) -> Result<&[u8], String> {
         let content = self.contents[number].get_or_init(|| self.load(document, number));
         content.as_ref().map(|content| &**content).map_err(Clone::clone)

@@ -58,8 +58,8 @@ pub(crate) struct Scene {
 }
 
 /// Reads a scene with morph targets, skins and the transforms of nodes applied. `progress` gets the
-/// number of nodes that have been read, and their number. Errors: the first broken rule of glTF that
-/// something visible needs, with its JSON path; a scene that shows no triangle.
+/// number of nodes that have been read, and their number. Errors: the first broken rule of glTF
+/// that something visible needs, with its JSON path; a scene that shows no triangle.
 pub(crate) fn parse(
     bytes: &[u8],
     request: &Request<'_>,

@@ -51,8 +51,8 @@ pub(crate) struct Skipped {
 }
 
 impl PlacedPrimitive<'_, '_> {
-    /// Appends the triangles, and returns the numbers of the channels that the vertices have; `None`
-    /// if there are none. Errors: a broken rule, with the JSON path.
+    /// Appends the triangles, and returns the numbers of the channels that the vertices have;
+    /// `None` if there are none. Errors: a broken rule, with the JSON path.
     pub(crate) fn append(&self, to: &mut Appended) -> Result<Option<Vec<usize>>, String> {
         let Self { data, primitive, path, pose, .. } = *self;
         let Some(triangles) = self.mode()? else {

@@ -25,9 +25,9 @@ pub(crate) struct Nodes<'a> {
 }
 
 impl<'a> Nodes<'a> {
-    /// The nodes of this scene, of the default scene, of the first one, or all nodes if there are no
-    /// scenes. Errors: a scene or node that is out of range; a visible node that has two parents or
-    /// is below itself.
+    /// The nodes of this scene, of the default scene, of the first one, or all nodes if there are
+    /// no scenes. Errors: a scene or node that is out of range; a visible node that has two parents
+    /// or is below itself.
     pub(crate) fn of(document: &'a Document, scene: Option<usize>) -> Result<Self, String> {
         let count = document.nodes.len();
         let (parents, twice) = parents(document);
@@ -102,8 +102,8 @@ impl<'a> Nodes<'a> {
         Ok(is_visited)
     }
 
-    /// The transform of a node to scene coordinates. Errors: a node that is below itself; an invalid
-    /// transform of the node or of one above it.
+    /// The transform of a node to scene coordinates. Errors: a node that is below itself; an
+    /// invalid transform of the node or of one above it.
     pub(crate) fn transform(&self, number: usize) -> Result<Mat4, String> {
         // From the node upwards, to the first whose transform is known.
         let mut path = Vec::new();
