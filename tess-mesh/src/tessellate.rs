@@ -280,8 +280,8 @@ impl<'a> Stream<'a> {
         Ok(())
     }
 
-    /// Computes the vertices of the block: each patch's domain points on its surface, and the further
-    /// values there.
+    /// Computes the vertices of the block: each patch's domain points on its surface, and the
+    /// further values there.
     fn evaluate(&mut self, part: usize, patches: &[usize]) {
         let Job { model, displaced, parts, .. } = *self.job;
         let points = self.domain_points.points();
@@ -318,7 +318,8 @@ impl<'a> Stream<'a> {
     }
 }
 
-/// Calls `fill` for each patch of a batch, with its number, its domain points and its part of `out`.
+/// Calls `fill` for each patch of a batch, with its number, its domain points and its part of
+/// `out`.
 fn each_patch<T: Send>(
     batch: &Output<[f32; 2], u32>,
     patches: &[usize],

@@ -1,8 +1,8 @@
 //! Passes the program the commit from which it is built, for its reports.
 //!
-//! The commit counts as clean only if every file that the program is made of is as it is there. Which
-//! files these are is cargo's knowledge: the packages of this workspace that this one depends on,
-//! whatever their files are, and the manifests and versions that cargo reads.
+//! The commit counts as clean only if every file that the program is made of is as it is there.
+//! Which files these are is cargo's knowledge: the packages of this workspace that this one depends
+//! on, whatever their files are, and the manifests and versions that cargo reads.
 //! `tests/program/commit.rs` compares them with the files that the compiler read.
 
 use serde_json::Value;
@@ -78,8 +78,8 @@ pub(crate) fn checked_out(folder: &Path) -> Option<Built> {
 }
 
 /// The files of the clone from which the program is built, from its root: all of the packages that
-/// the one in `folder` depends on, except those of their tests, benches and examples, and what cargo
-/// itself reads. `None` if the clone is not that of this workspace.
+/// the one in `folder` depends on, except those of their tests, benches and examples, and what
+/// cargo itself reads. `None` if the clone is not that of this workspace.
 fn sources(folder: &Path, root: &Path) -> Option<Vec<String>> {
     let words = ["metadata", "--no-deps", "--offline", "--format-version", "1"];
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! The numbers of indices are known in advance, but not those of vertices, which patches share: so
-//! the indices come first. Every thread makes the bytes of a part of a block and writes them to their
-//! place.
+//! the indices come first. Every thread makes the bytes of a part of a block and writes them to
+//! their place.
 
 use super::share::Sharing;
 use super::{Block, GltfOptions, IndexWidth, WriteAt};

@@ -35,7 +35,8 @@ pub struct Block<'a> {
 
 /// Takes a result block by block.
 pub trait Sink {
-    /// Takes the size of each part, before the first block. Writers that share vertices write fewer.
+    /// Takes the size of each part, before the first block. Writers that share vertices write
+    /// fewer.
     ///
     /// # Errors
     /// The format cannot hold this much.
@@ -57,8 +58,8 @@ pub struct GltfOptions<'a> {
     pub indices: IndexWidth,
     /// Names, materials and further values.
     pub parts: Option<&'a Parts>,
-    /// What precedes the references to images: it leads from the folder of the output to that of the
-    /// model.
+    /// What precedes the references to images: it leads from the folder of the output to that of
+    /// the model.
     pub image_prefix: &'a str,
 }
 

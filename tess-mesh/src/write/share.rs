@@ -1,8 +1,9 @@
 //! Vertices that several patches have in common, each written once.
 //!
 //! Two vertices are one if all their values are equal. Only points on the border of a patch
-//! can be those of another patch, so only these are looked up. Where patches disagree about a normal
-//! or a texture coordinate, as on a hard edge or at the seam of an image, both vertices stay.
+//! can be those of another patch, so only these are looked up. Where patches disagree about a
+//! normal or a texture coordinate, as on a hard edge or at the seam of an image, both vertices
+//! stay.
 
 use super::Block;
 use rayon::prelude::*;

@@ -17,8 +17,8 @@
 //! ```
 //!
 //! A vertex belongs to a ring by its distance from the outline. Where two rings are so close that
-//! rounding might mix them up, no [`Rings`] are made. `inner-spacing` allows that only where the level
-//! puts two rings so close.
+//! rounding might mix them up, no [`Rings`] are made. `inner-spacing` allows that only where the
+//! level puts two rings so close.
 
 use super::answer::{Place, TOLERANCE};
 use tess_core::fixed_point::ONE;

@@ -2,8 +2,8 @@
 //! sections 5 to 7).
 //!
 //! The order of primitives is free, and so is the leading vertex of a triangle (section 13). The
-//! specified answer is the model's, or one with another legal conversion of its levels. There is none
-//! if the patch is culled.
+//! specified answer is the model's, or one with another legal conversion of its levels. There is
+//! none if the patch is culled.
 
 use super::Judged;
 use super::answer::{Answer, Place, show};

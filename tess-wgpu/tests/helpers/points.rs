@@ -229,8 +229,8 @@ fn corners_of(random: &mut SplitMix64, number_of: usize) -> [Vec3; 4] {
     })
 }
 
-/// The two directions of an uneven line give other bits, with an operation that rounds once and with
-/// two that round. So a device of either arithmetic shows which end it began at.
+/// The two directions of an uneven line give other bits, with an operation that rounds once and
+/// with two that round. So a device of either arithmetic shows which end it began at.
 #[test]
 #[expect(clippy::disallowed_methods, reason = "the arithmetic of a device that rounds once")]
 fn uneven_ends_show_the_direction() {

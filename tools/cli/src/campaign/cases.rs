@@ -8,9 +8,9 @@
 //!        = 50 cases with the digest of the whole set
 //! ```
 //!
-//! A case counts by its line. Its hash is the first half of the line's SHA-256, as a number with the
-//! first byte on top; a digest is the sum of hashes modulo 2^128. So it depends on how often each
-//! case occurs, not on the order, and digests of parts add up.
+//! A case counts by its line. Its hash is the first half of the line's SHA-256, as a number with
+//! the first byte on top; a digest is the sum of hashes modulo 2^128. So it depends on how often
+//! each case occurs, not on the order, and digests of parts add up.
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 use serde::{Deserialize, Serialize};

@@ -101,8 +101,8 @@ impl Baseline {
         recorder.update(|report| report.known.clone_from(&self.file));
     }
 
-    /// Adds the outcome of the baseline to the report of a run that was complete. An expired or unmet
-    /// line counts as a difference.
+    /// Adds the outcome of the baseline to the report of a run that was complete. An expired or
+    /// unmet line counts as a difference.
     pub(crate) fn conclude(&self, recorder: &Recorder, placed: Placed, exit: Exit) -> Exit {
         let KnownOutcome { met, gone, faults, .. } =
             self.known.outcome(placed.shard == Shard::WHOLE);

@@ -2,8 +2,8 @@
 //! which differences are known.
 //!
 //! `shard` finds the shard on the command line or in the environment. `cases` counts the cases and
-//! sums up their hashes. `invocation` describes the run, and `recorder` writes it and its results as
-//! a `report` and as `junit`. `known` reads the baseline. `tess merge` (`commands/merge`) proves
+//! sums up their hashes. `invocation` describes the run, and `recorder` writes it and its results
+//! as a `report` and as `junit`. `known` reads the baseline. `tess merge` (`commands/merge`) proves
 //! from the reports that all shards ran, and that they saw every case. docs/campaigns.md describes
 //! both formats.
 

@@ -6,8 +6,8 @@
 //! nothing is touched before     r.jsonl says `running`          r.jsonl says `done`, `failed`, `interrupted`
 //! ```
 //!
-//! Each is moved into its place when it is whole. So a report says `done` only if its run ended, even
-//! if the process is killed; and while a run goes on, no earlier report is in its place.
+//! Each is moved into its place when it is whole. So a report says `done` only if its run ended,
+//! even if the process is killed; and while a run goes on, no earlier report is in its place.
 
 use super::cases::{CaseSet, CaseSum};
 use super::invocation::{Invocation, commit, executable};

@@ -118,8 +118,8 @@ fn headers_do_not_prove_records() {
     run.says("the notes in the file's first line say which cases were asked; give --cases if");
 }
 
-/// The whole kind: asked cases that lack one, have one twice, one of another shard, one with another
-/// last bit, or that exchange one with the other shard.
+/// The whole kind: asked cases that lack one, have one twice, one of another shard, one with
+/// another last bit, or that exchange one with the other shard.
 #[test]
 fn every_other_set_is_refused() {
     let folder = directory("every_other_set_is_refused");
@@ -251,8 +251,8 @@ fn reports_of_other_cases() {
     }
 }
 
-/// The cases of levels of another version are not made by this program: the answers are compared one
-/// by one, and `tess merge` says what it does not know.
+/// The cases of levels of another version are not made by this program: the answers are compared
+/// one by one, and `tess merge` says what it does not know.
 #[test]
 fn levels_of_other_versions() {
     let folder = directory("levels_of_other_versions");

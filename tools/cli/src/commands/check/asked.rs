@@ -1,5 +1,5 @@
-//! The cases that a file must answer: those of `--cases`, or those that the notes in the file's first
-//! line describe.
+//! The cases that a file must answer: those of `--cases`, or those that the notes in the file's
+//! first line describe.
 
 use crate::campaign::Recorder;
 use crate::campaign::cases::CaseSet;

@@ -53,8 +53,8 @@ pub(super) fn compare(campaign: &Campaign, given: Option<CaseSum>) -> Compared {
 /// The cases of each shard that ended, and the place of its report.
 type Seen<'a> = BTreeMap<u64, (CaseSum, &'a str)>;
 
-/// Compares the sum of all shards, once they are all there. How the given cases were cut into shards
-/// is not known.
+/// Compares the sum of all shards, once they are all there. How the given cases were cut into
+/// shards is not known.
 fn compare_whole(campaign: &Campaign, seen: &Seen<'_>, given: CaseSum) -> Compared {
     let mut sum = CaseSum::default();
     seen.values().for_each(|(own, _)| sum.join(*own));
