@@ -20,4 +20,4 @@ pub use load::{
     CREASE, Format, LoadOptions, Loaded, Progress, Up, Weld, load, load_watched, read, teapot,
 };
 pub use tess_surface;
-pub use tessellate::{Job, Stage, Totals, Watch, largest_factor, uniform_totals};
+pub use tessellate::{Job, Stage, Totals, Watch, largest_factor};

@@ -164,11 +164,7 @@ fn timed<T>(watch: &mut dyn Watch, stage: Stage, part: impl FnOnce() -> T) -> T 
 ///
 /// # Errors
 /// None for models that exist.
-pub fn uniform_totals(
-    model: &Model,
-    partitioning: Partitioning,
-    factor: f32,
-) -> io::Result<Totals> {
+fn uniform_totals(model: &Model, partitioning: Partitioning, factor: f32) -> io::Result<Totals> {
     let count = (0..model.len()).into_par_iter();
     let quads = count.filter(|&patch| matches!(model.sides(patch), Sides::Quad(_))).count() as u64;
     let triangles = model.len() as u64 - quads;

@@ -110,7 +110,7 @@ impl Mistake {
 
     /// Whether the device tessellates another case. Otherwise it changes the answer.
     #[must_use]
-    pub const fn is_of_question(&self) -> bool {
+    pub(crate) const fn is_of_question(&self) -> bool {
         matches!(self.effect, Effect::Question(_))
     }
 
