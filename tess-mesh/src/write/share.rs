@@ -60,7 +60,6 @@ impl Sharing {
 }
 
 /// 96 bits that depend on every bit of a vertex's values.
-#[expect(clippy::cast_possible_truncation, reason = "parts of a hash")]
 fn hash(block: &Block<'_>, at: usize) -> [u32; 3] {
     let vertex = &block.vertices[at];
     let mut mix = [0x9E37_79B9_7F4A_7C15u64, 0xC2B2_AE3D_27D4_EB4F];

@@ -23,7 +23,7 @@ pub(super) fn classes(domain: Domain, config: Config, cases: &mut Vec<Case>) {
                 Case { config, factors: PatchFactors::from_fn(domain, level) }
             };
             cases.push(with(PLAIN));
-            if position >= domain.outer_factors() && !(value > 1.0) {
+            if position >= domain.outer_factors() && (value.is_nan() || value <= 1.0) {
                 cases.push(with([1.0; 6]));
             }
         }

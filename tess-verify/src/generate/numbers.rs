@@ -8,6 +8,7 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 const NARROW: f32 = 3.0;
 /// The largest level.
 const LARGEST: f32 = 64.0;
+const BELOW_LARGEST: f32 = 63.0;
 
 /// The numbers of segments of a spacing, ascending.
 pub(super) fn segments(partitioning: Partitioning) -> impl Iterator<Item = u32> + Clone {
@@ -127,7 +128,7 @@ impl Asked {
     /// Levels on the outline, around the largest numbers inside. A triangle that large is long, so
     /// its edges share one.
     fn around_the_largest(&self, levels: &[f32], cases: &mut Vec<Case>) {
-        for largest in [LARGEST, LARGEST - 1.0] {
+        for largest in [LARGEST, BELOW_LARGEST] {
             if self.domain == Domain::Triangle {
                 let on = |some: &[f32]| self.patch(|edge| some[edge % some.len()], |_| largest);
                 cases.extend(levels.chunks(3).map(on));

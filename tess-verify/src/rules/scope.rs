@@ -80,11 +80,11 @@ impl Class {
             0x0080_0000.. if is_negative => unusual(2),
             1.. if is_negative => unusual(3),
             0 => unusual(if is_negative { 4 } else { ZERO }),
-            ..0x0080_0000 => unusual(DENORMAL),
-            ..0x3F80_0000 => unusual(7),
+            1..0x0080_0000 => unusual(DENORMAL),
+            0x0080_0000..0x3F80_0000 => unusual(7),
             0x4280_0000 => unusual(8),
             0x4280_0001..=0x4300_0000 => unusual(9),
-            0x4300_0001.. => unusual(10),
+            0x4300_0001..0x7F80_0000 => unusual(10),
             // 1 to 64, which are below 2^6 and have 23 fraction bits below their binade.
             _ => Self::of_fraction(bits),
         }
