@@ -172,12 +172,11 @@ fn obj_keeps_names_and_colours() {
 fn vertices_are_shared() {
     let smooth = obj(&format!("s 1\n{CUBE}"));
     let hard = obj(CUBE);
-    for (factor, faces) in [(1.0f32, 12), (2.0, 48), (4.0, 192)] {
+    for (factor, side, faces) in [(1.0, 2, 12), (2.0, 3, 48), (4.0, 5, 192)] {
         let text = obj_of(&smooth, factor);
         assert_eq!(count(&text, "f "), faces, "triangles");
         // Euler: V = 2 + E - F, and E = 3/2 F.
         assert_eq!(count(&text, "v "), 2 + faces / 2, "shared by all");
-        let side = factor as usize + 1;
         assert_eq!(count(&obj_of(&hard, factor), "v "), 6 * side * side, "hard edges are seams");
     }
     let (document, _) = written(&smooth, 1.0);

@@ -6,6 +6,9 @@ use crate::support::{Gltf, has_note, obj, obj_with, tessellated};
 use serde_json::{Value, json};
 use tess_mesh::LoadOptions;
 
+/// Words about a change of a document, and the change.
+type Case = (&'static str, fn(&mut Value));
+
 #[test]
 fn obj_lines_that_nobody_needs() {
     for (line, note) in [
@@ -21,7 +24,7 @@ fn obj_lines_that_nobody_needs() {
         ("f", "1 face with fewer than three corners"),
         ("p 1", "1 `l` or `p` line: left out"),
     ] {
-        let loaded = obj(&format!("s off\n{}{line}\n", &CUBE[..]));
+        let loaded = obj(&format!("s off\n{}{line}\n", CUBE));
         assert_eq!((loaded.model.len(), loaded.notes.len()), (6, 1), "{line}: {:?}", loaded.notes);
         has_note(&loaded, &note.replace("line 15", "line 16"));
     }
@@ -84,7 +87,7 @@ fn positions_that_are_needed() {
 /// Changes of a glTF file after which it means the same.
 #[test]
 fn gltf_values_that_nobody_needs() {
-    let cases: &[(&str, fn(&mut Value))] = &[
+    let cases: &[Case] = &[
         ("an accessor", |gltf| {
             gltf["accessors"].as_array_mut().expect("a list").push(json!({"bufferView": 9}));
         }),
@@ -124,7 +127,7 @@ fn gltf_values_that_nobody_needs() {
 
 #[test]
 fn gltf_values_that_are_left_out() {
-    let cases: &[(&str, fn(&mut Value))] = &[
+    let cases: &[Case] = &[
         (
             "1 attribute that cannot be read: left out (first: meshes[0].primitives[0].attributes.TEXCOORD_0)",
             |gltf| gltf["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(0),
@@ -185,7 +188,7 @@ fn texture_coordinates_that_are_not_numbers() {
 /// A scene that shows nothing: which one, and what would show something.
 #[test]
 fn nothing_is_shown() {
-    let cases: &[(&str, fn(&mut Value))] = &[
+    let cases: &[Case] = &[
         (
             "there is no face: scenes[0] is shown, and none of its nodes has a mesh; scene 1 has some",
             |gltf| {

@@ -39,7 +39,7 @@ fn naive(data: &[u8]) -> Option<Vec<BezierPatch>> {
         let numbers = (all.len() - 1) / count;
         let mut rest = all[1..].iter().cloned();
         let mut line = |length: usize| rest.by_ref().take(length).collect();
-        let length = |k: usize| if k % 17 == 0 { 2 } else { (numbers - 2) / 16 };
+        let length = |k: usize| if k.is_multiple_of(17) { 2 } else { (numbers - 2) / 16 };
         (0..17 * count).map(|k| line(length(k))).collect()
     };
     let patches = lines.chunks(17).map(|lines| {

@@ -277,14 +277,14 @@ impl File {
             4 => indices.as_chunks().0.to_vec(),
             5 => {
                 let odd = |k: usize, [a, b, c]: [usize; 3]| {
-                    if k % 2 == 0 { [a, b, c] } else { [a, c, b] }
+                    if k.is_multiple_of(2) { [a, b, c] } else { [a, c, b] }
                 };
-                let windows = indices.array_windows().enumerate();
-                windows.map(|(k, &triangle)| odd(k, triangle)).collect()
+                let windows = indices.windows(3).enumerate();
+                windows.map(|(k, of)| odd(k, [of[0], of[1], of[2]])).collect()
             }
             _ => {
                 let rest = indices.get(1..).unwrap_or_default();
-                rest.array_windows().map(|&[a, b]| [a, b, indices[0]]).collect()
+                rest.windows(2).map(|of| [of[0], of[1], indices[0]]).collect()
             }
         })
     }
@@ -359,10 +359,11 @@ impl File {
         let offset = |value: &Value| index(&value["byteOffset"]).unwrap_or(0);
         let stride = index(&view["byteStride"]).filter(|&stride| stride > 0);
         let stride = stride.unwrap_or(size * components);
-        let start = offset(view) + offset(source) + k * stride;
+        let start =
+            offset(view).checked_add(offset(source))?.checked_add(k.checked_mul(stride)?)?;
         let component = |c: usize| {
             let mut word = [0; 4];
-            word[..size].copy_from_slice(bytes.get(start + c * size..)?.get(..size)?);
+            word[..size].copy_from_slice(bytes.get(start.checked_add(c * size)?..)?.get(..size)?);
             let whole = u32::from_le_bytes(word);
             Some(match (kind, normalized) {
                 (5126, _) => f64::from(f32::from_bits(whole)),
