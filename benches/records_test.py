@@ -91,7 +91,7 @@ def test_all_code_that_is_measured_counts():
         ("stage", "tess-wgpu/examples"),
         ("drawn", "tools/probe/shaders"),
         ("gpu-crossover", "tess-simd/src"),
-        ("surface", "tess-simd/src"),
+        ("surface", "tess-level/src"),
         ("simd", "tess-verify/src/workloads.rs"),
     ):
         assert path in paths[name], f"{name}: {paths[name]} lacks {path}"
