@@ -3,7 +3,7 @@
 use crate::status::{TESS_NOT_A_CONTEXT, TESS_OUT_OF_RANGE, TessStatus};
 use crate::types::{TessContext, parity};
 use tess_core::fixed_point::ONE;
-use tess_core::place::{place, placement};
+use tess_core::place::placement;
 use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder};
 
 /// The model's context with these numbers; `TESS_NOT_A_CONTEXT` if no factor has it.
