@@ -20,4 +20,5 @@ pub use load::{
     CREASE, Format, LoadOptions, Loaded, Progress, Up, Weld, load, load_watched, read, teapot,
 };
 pub use tess_surface;
-pub use tessellate::{Job, Stage, Totals, Watch, largest_factor};
+pub use tessellate::{Job, Stage, Watch, largest_factor};
+pub use write::Totals;

@@ -4,7 +4,7 @@
 //! are.
 
 use crate::parts::{ChannelKind, Parts};
-use crate::write::{Block, Sink};
+use crate::write::{Block, Sink, Totals};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::io;
@@ -37,15 +37,6 @@ pub struct Job<'a> {
     pub displaced: Option<&'a DisplacedModel<'a>>,
     /// The parts of the model. Without them it is one part with texture coordinates.
     pub parts: Option<&'a Parts>,
-}
-
-/// The size of a result.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Totals {
-    /// The number of vertices in all blocks.
-    pub vertices: u64,
-    /// The number of indices, three per triangle.
-    pub indices: u64,
 }
 
 /// The stages of [`Job::run`], in order.

@@ -15,10 +15,12 @@ mod report;
 mod second;
 mod sequences;
 mod stages;
-mod strength;
 mod verify;
 mod workers;
 
+pub use crate::strength::{
+    Conversion, Denormals, Elements, ListOrder, Strength, flushed, vertices,
+};
 pub use asked::Asked;
 pub use compare::{Element, Mismatch, SpecStage};
 pub use explainer::{Explainer, Explanation};
@@ -26,8 +28,6 @@ pub use freedoms::Freedoms;
 pub use known::{Known, KnownOutcome};
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, MismatchGroup, Report};
 pub use second::SecondFormulation;
-pub(crate) use strength::Alternatives;
-pub use strength::{Conversion, Denormals, Elements, ListOrder, Strength, flushed, vertices};
 pub use verify::{Progress, Subject, SubjectRow, Unit, units, verify};
 
 use crate::backend::{Answers, Backend, BackendError, tessellate};

@@ -12,6 +12,7 @@ mod quote;
 pub mod rules;
 #[cfg(feature = "show")]
 pub mod show;
+mod strength;
 pub mod vectors;
 #[cfg(feature = "workloads")]
 pub mod workloads;

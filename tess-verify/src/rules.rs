@@ -46,6 +46,7 @@ mod asked;
 mod division;
 mod edge;
 mod inside;
+mod lengths;
 mod levels;
 mod lines;
 mod memory;

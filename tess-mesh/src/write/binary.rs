@@ -8,11 +8,11 @@
 //! the indices come first. Every thread makes the bytes of a part of a block and writes them to
 //! their place.
 
+use super::Totals;
 use super::share::Sharing;
 use super::{Block, GltfOptions, IndexWidth, WriteAt};
 use crate::load::Up;
 use crate::parts::{ChannelKind, Part, Parts};
-use crate::tessellate::Totals;
 use glam::Vec3;
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};

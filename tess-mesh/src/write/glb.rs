@@ -1,8 +1,8 @@
 //! GLB: the JSON and the binary part in one file.
 
+use super::Totals;
 use super::binary::Binary;
 use super::{Block, GltfOptions, Sink, WriteAt};
-use crate::tessellate::Totals;
 use serde_json::Value;
 use std::io;
 

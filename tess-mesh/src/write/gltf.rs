@@ -1,8 +1,8 @@
 //! glTF in two files: the JSON, and next to it the binary part.
 
+use super::Totals;
 use super::binary::Binary;
 use super::{Block, GltfOptions, Sink, WriteAt};
-use crate::tessellate::Totals;
 use std::io::{self, Write};
 use std::path::Path;
 

@@ -8,13 +8,21 @@ mod share;
 
 use crate::load::Up;
 use crate::parts::Parts;
-use crate::tessellate::Totals;
 pub use glb::Glb;
 pub use gltf::{Gltf, uri_of};
 pub use obj::Obj;
 use std::fs::File;
 use std::io;
 use tess_surface::Sample;
+
+/// The size of a result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Totals {
+    /// The number of vertices in all blocks.
+    pub vertices: u64,
+    /// The number of indices, three per triangle.
+    pub indices: u64,
+}
 
 /// Some patches of a result.
 #[derive(Clone, Copy, Debug)]

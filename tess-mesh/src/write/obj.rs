@@ -1,10 +1,10 @@
 //! OBJ: positions, texture coordinates, normals and triangles, block by block, with the names and
 //! materials of the parts.
 
+use super::Totals;
 use super::share::{Shared, Sharing};
 use super::{Block, Sink};
 use crate::parts::{ChannelKind, Part, Parts};
-use crate::tessellate::Totals;
 use std::io::{self, Write};
 
 /// Writes a text file block by block.

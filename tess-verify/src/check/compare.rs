@@ -5,8 +5,8 @@ mod mismatch;
 
 pub use mismatch::{Element, Mismatch, SpecStage};
 
-use super::strength::vertices;
 use crate::case::Case;
+use crate::strength::vertices;
 use std::collections::BTreeSet;
 use tess_core::{DomainPoint, FactorContext, FixedFactor, Tessellation};
 

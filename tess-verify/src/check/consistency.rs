@@ -6,7 +6,7 @@
 use super::{Difference, Report};
 use crate::case::Case;
 use crate::check::compare::{Element, Mismatch, SpecStage};
-use crate::check::strength::{Ambiguous, Conversions};
+use crate::strength::{Ambiguous, Conversions};
 use std::collections::HashMap;
 
 /// A record that the model explains if some values were converted in one of several ways.

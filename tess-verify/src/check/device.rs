@@ -3,10 +3,10 @@
 use super::Found;
 use crate::case::Case;
 use crate::check::compare::{self, Element, Mismatch, SpecStage};
-use crate::check::strength::{
+use crate::generate::from_fixed;
+use crate::strength::{
     Alternatives, Difference, Elements, ListOrder, Strength, first_difference, first_stray,
 };
-use crate::generate::from_fixed;
 use crate::vectors::Coordinates;
 use tess_core::{Config, PatchFactors, SplitOrder, Tessellation};
 

@@ -12,8 +12,8 @@
 
 use crate::case::Case;
 use crate::check::freedoms::Freedoms;
-use crate::check::strength::{ListOrder, Strength};
 use crate::mistakes::{self, Common, Mistake, Request, Scope, requests};
+use crate::strength::{ListOrder, Strength};
 use std::collections::HashMap;
 use tess_core::Tessellation;
 

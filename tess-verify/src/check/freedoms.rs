@@ -2,7 +2,7 @@
 //! section 13).
 
 use crate::case::Case;
-use crate::check::strength::{Conversion, Denormals, ListOrder, Strength};
+use crate::strength::{Conversion, Denormals, ListOrder, Strength};
 use std::collections::BTreeSet;
 use tess_core::{DomainPoint, Tessellation};
 

@@ -12,7 +12,7 @@
 //! the middle, and spaced as it asks.
 
 use super::answer::TOLERANCE;
-use super::edge::unequal;
+use super::lengths::unequal;
 use super::levels::Level;
 use tess_core::fixed_point::ONE;
 

@@ -16,10 +16,11 @@
 use super::Judged;
 use super::answer::{Answer, Place, TOLERANCE, show};
 use super::division::divisions;
-use super::edge::{VANISHING, spaced};
-use super::levels::{Level, is_minimum};
+use super::edge::spaced;
+use super::lengths::VANISHING;
+use super::levels::{Level, is_minimum, vertices_inside};
 use super::lines::{Grid, inner_lines, outline, with_ends};
-use super::rings::{Ring, Rings, by_depth, too_close, vertices_inside};
+use super::rings::{Ring, Rings, by_depth, too_close};
 use tess_core::Domain;
 use tess_core::fixed_point::ONE;
 

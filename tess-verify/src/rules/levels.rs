@@ -1,6 +1,5 @@
 //! The number of segments that a standard derives from a level.
 
-use super::rings::vertices_inside;
 use super::standard::Specification;
 use crate::case::Case;
 use tess_core::{Domain, Partitioning};
@@ -106,4 +105,14 @@ pub(super) fn inside_asked(case: &Case) -> Option<usize> {
         Domain::Triangle => segments(0).map(vertices_inside),
         Domain::Quad => Some((segments(0)? - 1) as usize * (segments(1)? - 1) as usize),
     }
+}
+
+/// The number of vertices inside for `n` segments of the inner level.
+pub(super) fn vertices_inside(n: u32) -> usize {
+    (1..=n / 2).map(|ring| ring_vertices(n, ring)).sum()
+}
+
+/// The number of vertices on a ring; the centre is a ring with one.
+pub(super) const fn ring_vertices(n: u32, ring: u32) -> usize {
+    if 2 * ring == n { 1 } else { 3 * (n - 2 * ring) as usize }
 }

@@ -21,6 +21,7 @@
 //! level puts two rings so close.
 
 use super::answer::{Place, TOLERANCE};
+use super::levels::{ring_vertices, vertices_inside};
 use tess_core::fixed_point::ONE;
 
 /// The vertices of one ring.
@@ -40,16 +41,6 @@ pub(super) struct Ring {
 #[derive(Debug)]
 pub(super) struct Rings {
     pub(super) rings: Vec<Ring>,
-}
-
-/// The number of vertices inside for `n` segments of the inner level.
-pub(super) fn vertices_inside(n: u32) -> usize {
-    (1..=n / 2).map(|ring| ring_vertices(n, ring)).sum()
-}
-
-/// The number of vertices on a ring; the centre is a ring with one.
-const fn ring_vertices(n: u32, ring: u32) -> usize {
-    if 2 * ring == n { 1 } else { 3 * (n - 2 * ring) as usize }
 }
 
 /// The third barycentric coordinate of a place in the domain.

@@ -245,6 +245,23 @@ rules! {
     }
 }
 
+impl Specification {
+    /// Its rules, in the order of [`Rule`].
+    pub(super) fn rules(self) -> impl Iterator<Item = &'static Row> {
+        ROWS.iter().filter(move |row| row.source(self).is_some())
+    }
+
+    /// The section of the standard that states a rule, by number and title; `None` if the standard
+    /// has no such rule.
+    ///
+    /// Direct3D's rules are sections of `docs/specification.md`, which refines chapter 11 of the
+    /// D3D11.3 functional specification.
+    #[must_use]
+    pub const fn source(self, rule: Rule) -> Option<&'static str> {
+        Row::of(rule).source(self)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,7 +7,7 @@
 
 use super::Judged;
 use super::answer::{Answer, Place, show};
-use crate::check::{Alternatives, Conversion};
+use crate::strength::{Alternatives, Conversion};
 use std::collections::BTreeMap;
 use tess_core::Domain;
 
