@@ -193,17 +193,17 @@ fn seams_stay() {
     assert_eq!(count(&obj_of(&obj(&joined), 3.0), "v "), 28, "four are shared");
 }
 
-/// A disk that is full after some writes.
+/// A disk on which one write fails.
 struct Full {
     writes: AtomicUsize,
-    most: usize,
+    failing: usize,
 }
 
 impl WriteAt for Full {
     fn write_at(&self, _: &[u8], _: u64) -> io::Result<()> {
-        match self.writes.fetch_add(1, Ordering::Relaxed) < self.most {
-            true => Ok(()),
-            false => Err(io::Error::other("the disk is full")),
+        match self.writes.fetch_add(1, Ordering::Relaxed) == self.failing {
+            true => Err(io::Error::other("the disk is full")),
+            false => Ok(()),
         }
     }
 }
@@ -213,21 +213,21 @@ impl WriteAt for Full {
 fn write_errors_are_not_lost() {
     let loaded = rich().loaded();
     let mut failed = 0;
-    for most in 0.. {
+    for failing in 0.. {
         let options = GltfOptions {
             up: loaded.up,
             indices: IndexWidth::Auto,
             parts: Some(&loaded.parts),
             image_prefix: "",
         };
-        let mut glb = Glb::new(Full { writes: AtomicUsize::new(0), most }, options);
+        let mut glb = Glb::new(Full { writes: AtomicUsize::new(0), failing }, options);
         let job = Job {
             parts: Some(&loaded.parts),
             ..Job::new(&loaded.model, FactorRule::Uniform(40.0))
         };
         let done = job.run(&mut glb, &mut ()).and_then(|_| glb.finish());
         let Err(error) = done else { break };
-        assert_eq!(error.to_string(), "the disk is full", "after {most} writes");
+        assert_eq!(error.to_string(), "the disk is full", "write {failing}");
         failed += 1;
     }
     // Vertices in two parts, indices, the image, the padding, and the header with the JSON.
