@@ -157,7 +157,7 @@ fn this(arguments: &[&str]) -> Result<Command, String> {
     let mut command = Command::new(own);
     // The person who can answer has answered this process.
     command.arg(if setup::installs() { setup::YES } else { setup::NO_INSTALL });
-    command.args(arguments).current_dir(command::workspace());
+    command.args(arguments).current_dir(workspace());
     Ok(command)
 }
 

@@ -5,7 +5,7 @@
 mod build;
 
 use crate::support::{Folder, directory, shell};
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -25,11 +25,11 @@ fn read_by_cargo() -> Vec<PathBuf> {
 #[test]
 fn everything_that_was_read_counts() {
     if SOURCES.is_empty() {
-        assert_eq!(env!("TESS_COMMIT").len() % 41, 40 % 41, "a commit that was given");
+        assert_eq!(env!("TESS_COMMIT").len(), 40, "a commit that was given");
         return;
     }
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("the repository");
-    let sources: HashSet<&Path> = SOURCES.lines().map(Path::new).collect();
+    let sources: BTreeSet<&Path> = SOURCES.lines().map(Path::new).collect();
     let read = read_by_cargo();
     let is_made = |path: &Path| path.components().any(|part| part.as_os_str() == "target");
     let own = read.iter().filter(|path| path.starts_with(root) && !is_made(path));

@@ -137,9 +137,10 @@ fn mismatches_of_a_circuit_are_named() {
         for (list, named) in [("", false), (" --signals signals.tsv", true)] {
             let run = shell(&format!("$TESS {patch} {element}{list}"), &folder);
             run.exits(i32::from(difference.is_some()));
-            run.prints(&difference.map_or("observed: equal".into(), |(text, module)| {
+            let said = difference.map_or("observed: equal".to_owned(), |(text, module)| {
                 format!("differs: {text}{}: observed 0x", if named { module } else { "" })
-            }));
+            });
+            run.prints(&said);
             let count = run.stdout.matches("differs: ").count();
             assert_eq!(count, usize::from(difference.is_some()), "{}", run.stdout);
         }
