@@ -2,14 +2,16 @@
 //! threads.
 
 use tess_core::{Config, PatchFactors, Tessellation};
-use tess_verify::check::{Known, SecondFormulation, Subject, SubjectRow, Tested, check, verify};
+use tess_verify::check::{
+    Known, Progress, SecondFormulation, Subject, SubjectRow, Tested, check, verify,
+};
 use tess_verify::generate::Shard;
 use tess_verify::vectors::{Listing, VectorFile};
 use tess_verify::{Answers, Backend, BackendError, CoreBackend};
 
 fn run(backends: Vec<Box<dyn Backend>>, subject: Subject, shard: Shard) -> SubjectRow {
     let mut workers: Vec<_> = backends.into_iter().map(|backend| vec![backend]).collect();
-    let rows = verify(&mut workers, subject, shard, &Known::default(), &|_, _| {});
+    let rows = verify(&mut workers, subject, shard, &Known::default(), &|_| {});
     let [row] = &rows.expect("the backends run")[..] else { panic!("one row") };
     row.clone()
 }
@@ -31,7 +33,9 @@ fn both_formulations_agree_on_any_number_of_threads() {
 fn progress_ends_with_the_last_unit() {
     for subject in [Subject::Transitions, Subject::Interiors] {
         let calls = std::sync::Mutex::new(Vec::new());
-        let note = |done, all| calls.lock().expect("no panic").push((done, all));
+        let note = |progress: Progress<'_>| {
+            calls.lock().expect("no panic").push((progress.done, progress.all));
+        };
         let mut workers: [Vec<Box<dyn Backend>>; 1] = [vec![Box::new(SecondFormulation)]];
         let shard = Shard { part: 1, of: 4 };
         verify(&mut workers, subject, shard, &Known::default(), &note).expect("it runs");
@@ -102,7 +106,7 @@ fn what_came_before_is_told_from_the_patch() {
 fn no_backend_is_an_error() {
     for (workers, why) in [(&mut [][..], "no worker"), (&mut [vec![]], "no backend")] {
         let known = Known::default();
-        let verified = verify(workers, Subject::Level1, Shard::WHOLE, &known, &|_, _| {});
+        let verified = verify(workers, Subject::Level1, Shard::WHOLE, &known, &|_| {});
         assert!(verified.is_err(), "{why}");
     }
 }

@@ -1,6 +1,6 @@
 //! Marks of the page: areas of triangles, middles and splits of edges.
 
-use tess_core::place::{place, placement};
+use tess_core::place::placement;
 use tess_core::{FactorContext, OutputPrimitive, Patch, PatchFactors, PointOrigin};
 use tess_verify::vectors::Listing;
 
