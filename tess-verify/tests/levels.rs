@@ -43,7 +43,7 @@ fn cases_are_the_recorded_ones() {
         ("level 1", one, "7dab21d1639f11fd"),
         ("level 2", two, "e5adfad2b7edb5ca"),
         ("level 3", some(GenLevel::Three, 7), "32301befa6bbcd9e"),
-        ("rules", some(GenLevel::Rules, 7), "6750be964bba1536"),
+        ("rules", some(GenLevel::Rules, 7), "9a79719fc3860d00"),
         (
             "triangles of level 3",
             Selection { domain, ..some(GenLevel::Three, 7) },
@@ -252,7 +252,7 @@ fn levels_have_the_documented_sizes() {
     assert_eq!((sizes, thresholds().len()), (expected, 1070));
     let one: HashSet<Case> = level(GenLevel::One).into_iter().collect();
     let beyond = level(GenLevel::Two).into_iter().filter(|case| !one.contains(case)).count();
-    assert_eq!(beyond, 132_062, "the row level-2 of `tess verify`");
+    assert_eq!(beyond, 132_060, "the row level-2 of `tess verify`");
 }
 
 #[test]
