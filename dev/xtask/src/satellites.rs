@@ -27,7 +27,14 @@ struct Satellite {
 const SATELLITES: &[Satellite] = &[
     Satellite {
         name: "python",
-        uses: &["bindings/python", "rtl/dv/cocotb", "tess-core", "tess-simd", "tess-verify"],
+        uses: &[
+            "bindings/python",
+            "rtl/dv/cocotb",
+            "tess-core",
+            "tess-level",
+            "tess-simd",
+            "tess-verify",
+        ],
         test: python::run,
         is_long: false,
     },
@@ -37,6 +44,7 @@ const SATELLITES: &[Satellite] = &[
             "tools/explorer",
             "bindings/webgpu",
             "tess-core",
+            "tess-level",
             "tess-simd",
             "tess-gpu",
             "tess-surface",
@@ -64,6 +72,7 @@ const SATELLITES: &[Satellite] = &[
         uses: &[
             "integrations/bevy",
             "tess-core",
+            "tess-level",
             "tess-simd",
             "tess-gpu",
             "tess-surface",
@@ -74,7 +83,7 @@ const SATELLITES: &[Satellite] = &[
     },
     Satellite {
         name: "mesa",
-        uses: &["integrations/mesa", "bindings/c", "tess-core", "tess-simd"],
+        uses: &["integrations/mesa", "bindings/c", "tess-core", "tess-level", "tess-simd"],
         test: || mesa::run(&["compare"]),
         is_long: true,
     },
