@@ -65,7 +65,7 @@ usage: cargo xtask [--yes | --no-install] <command>
   ci all  the same with every satellite
   satellites [NAME...]
           test the satellites that have changed since they last passed, or that use a part of the product that has,
-          or these: python, explorer, rtl, bevy, mesa (only if it is named); records those that pass in
+          or these: python, explorer, rtl, and only if they are named bevy and mesa; records those that pass in
           dev/satellites.tsv
   setup   only set up: drivers for Vulkan and OpenGL, C, C++ and shader compilers, Verilator,
           Icarus Verilog, Python

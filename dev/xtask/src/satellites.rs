@@ -79,7 +79,7 @@ const SATELLITES: &[Satellite] = &[
             "tess-wgpu",
         ],
         test: integrations::run,
-        is_long: false,
+        is_long: true,
     },
     Satellite {
         name: "mesa",
