@@ -68,7 +68,7 @@ fn classes(level: f32) -> Vec<String> {
     if !(1.0..64.0).contains(&value) {
         return found;
     }
-    let binade = value.log2().floor();
+    let binade = (level.to_bits() >> 23) - 127;
     let units = value * 65536.0;
     let (above, part) = (value.fract(), units.fract());
     for (is, name) in [

@@ -272,7 +272,7 @@ mod tests {
         let parts = source.split(", ").filter_map(|part| {
             let number = part.split(' ').next()?;
             let is_number = number.starts_with(|first: char| first.is_ascii_digit());
-            (is_number || number == "rule").then(|| if is_number { number } else { part })
+            (is_number || number == "rule").then_some(if is_number { number } else { part })
         });
         parts.collect::<Vec<_>>().join(", ")
     }
