@@ -8,6 +8,7 @@
 
 mod edges;
 mod harm;
+mod heights;
 mod output;
 mod polygons;
 mod slivers;
