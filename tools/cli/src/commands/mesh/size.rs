@@ -86,7 +86,9 @@ fn free_bytes(output: &Path) -> Option<u64> {
     }
     let folder = output.parent().filter(|parent| !parent.as_os_str().is_empty());
     let found = rustix::fs::statvfs(folder.unwrap_or(Path::new("."))).ok()?;
-    found.f_bavail.checked_mul(found.f_frsize)
+    // A file system without blocks, such as `/proc`, does not count its room.
+    let is_counted = found.f_blocks > 0;
+    found.f_bavail.checked_mul(found.f_frsize).filter(|_| is_counted)
 }
 
 #[cfg(not(unix))]
