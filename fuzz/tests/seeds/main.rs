@@ -5,11 +5,11 @@
 #[path = "../../../tess-mesh/tests/naive/mutations.rs"]
 mod mutations;
 
+use std::io::Cursor;
 use std::path::Path;
 use tess_fuzz::mesh;
 use tess_fuzz::mesh::seeds::chunk;
 use tess_fuzz::{capi, device, plant_fault, prepare, random_access, seeds, simd, vectors};
-use std::io::Cursor;
 use tess_mesh::{LoadError, LoadOptions, height, raw};
 
 type Oracle = fn(&[u8]) -> Result<(), String>;
@@ -50,8 +50,7 @@ fn files_with_faults_pass(target: &str, oracle: Oracle) {
     for (name, bytes) in seeds::of(target, Path::new("")).expect("seeds") {
         assert_eq!(is_read(target, &bytes), Ok(()), "seed {name} of {target} is right");
         for variant in mutations::of(target, &bytes) {
-            let variant =
-                if target == "height_png" { with_checksums(&variant) } else { variant };
+            let variant = if target == "height_png" { with_checksums(&variant) } else { variant };
             let mut result = Ok(());
             let memory = allocation_counter::measure(|| result = oracle(&variant));
             let shown = String::from_utf8_lossy(&variant);
