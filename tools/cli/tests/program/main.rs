@@ -7,8 +7,6 @@ mod campaigns;
 mod captures;
 mod check;
 #[cfg(unix)]
-mod commit;
-#[cfg(unix)]
 mod coverage;
 mod crossed;
 #[cfg(unix)]
