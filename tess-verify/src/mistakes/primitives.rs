@@ -163,7 +163,8 @@ fn joined() -> Vec<Family> {
                 // Two on the outline and two inside, so that neighbours stay joined.
                 on == 2
             });
-        });
+        })
+        .vulkan_allows("", free);
     let across = Family::new("triangles join vertices of the outline that are not neighbours")
         .answers("three", move |case, output| {
             let domain = case.domain();
