@@ -1,7 +1,7 @@
 ; Points inside a triangle patch (specification, section 6) are in the triangle, for all locations.
 ;
-; r is the location of a ring, a that of a point along one of its edges, both 16.16. The test
-; `tess-core/tests/composition.rs` finds that all contexts keep the premises. `z3` answers unsat: no
+; r is the location of a ring, a that of a point along one of its edges, both 16.16.
+; Not all contexts keep the premises (docs/proof.md). `z3` answers unsat: no
 ; such locations give a coordinate below 0, or a product that does not fit 32 bits.
 (set-logic QF_BV)
 (declare-const r (_ BitVec 64))
