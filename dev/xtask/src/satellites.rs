@@ -3,7 +3,7 @@
 //! A satellite is tested where it, or what it uses of the product, has changed since it last
 //! passed. `dev/satellites.tsv` has a digest of all that for each; who changes one of them runs
 //! `cargo xtask satellites`, which tests those whose digest is another and records those that pass.
-//! Continuous integration runs what is stale, so nothing lands untested.
+//! Continuous integration tests what is stale, except for the long ones, of which it says so.
 
 use crate::command::{self, in_file, workspace};
 use crate::{dist, explorer, integrations, mesa, python, rtl};
