@@ -68,6 +68,13 @@ pub(crate) fn cargo(arguments: &str) -> Command {
     command
 }
 
+/// `cargo xtask` with these words, in a process that has the feature `kit`.
+pub(crate) fn with_kit(words: &[&str]) -> Command {
+    let mut command = cargo("run --quiet --package xtask --features kit --");
+    command.args(words);
+    command
+}
+
 /// Gives a separate workspace the versions of the lock file at `root`. Cargo adds missing entries
 /// to its copy, and removes superfluous ones.
 ///

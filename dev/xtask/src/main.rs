@@ -7,7 +7,7 @@
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! scripts in Python          script (checks of texts; records of measurements, tables and charts)
 //! for users                  install (header, libraries, tess.pc), dist (a release's archives), examples (of tess-wgpu)
-//! the circuit                rtl (ports, tests of bindings/c, proofs, costs; with the kit long comparisons)
+//! the circuit                rtl (ports, tests of bindings/c, proofs, costs; with the feature `kit` long comparisons)
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
 //! ```
 //!
@@ -24,6 +24,7 @@ mod explorer;
 mod features;
 mod fuzz;
 mod install;
+#[cfg(feature = "kit")]
 mod integrations;
 mod levels;
 mod mesa;
@@ -191,7 +192,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["explorer"] => explorer::build(),
         ["explorer", "--serve"] => explorer::serve(),
         ["explorer", "--test"] => explorer::test(),
-        ["integrations"] => after_setup(&integrations::run),
+        ["integrations"] => return with_kit(words),
         ["rtl", "--plant", folder] => mutants::plant_in_circuit(folder, None),
         ["rtl", "--plant", folder, number] => mutants::plant_in_circuit(folder, Some(number)),
         ["rtl", "--long"] => return with_kit(words),
@@ -215,10 +216,13 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
     })
 }
 
-/// Runs a command that needs the kit, in a process that includes it.
+/// Runs a command that needs the feature `kit`, in a process that has it.
 fn with_kit(words: &[&str]) -> Option<Result<(), String>> {
     #[cfg(feature = "kit")]
-    return rtl::run(words);
+    return match *words {
+        ["integrations"] => Some(setup::run().and_then(|()| integrations::run())),
+        _ => rtl::run(words),
+    };
     #[cfg(not(feature = "kit"))]
-    Some(command::run(command::cargo("run --quiet --package xtask --features kit --").args(words)))
+    Some(command::run(&mut command::with_kit(words)))
 }

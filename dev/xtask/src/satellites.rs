@@ -6,7 +6,7 @@
 //! Continuous integration tests what is stale, except for the long ones, of which it says so.
 
 use crate::command::{self, in_file, workspace};
-use crate::{dist, explorer, integrations, mesa, python, rtl};
+use crate::{dist, explorer, mesa, python, rtl};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
@@ -78,7 +78,7 @@ const SATELLITES: &[Satellite] = &[
             "tess-surface",
             "tess-wgpu",
         ],
-        test: integrations::run,
+        test: || command::run(&mut command::with_kit(&["integrations"])),
         is_long: true,
     },
     Satellite {
