@@ -217,6 +217,16 @@ def of_surface(outputs):
     return [{"surface": name, "level": level, "ns a vertex": f"{time:.1f}", "fills": f"{time / fill:.0f}"} for (name, level), time in rows]
 
 
+def of_first(outputs):
+    """Criterion's middle estimate of the time, a column for each level."""
+    found = re.findall(r"^first/(.+?)/(\w+)\s+time: +\[\S+ \S+ (\S+) (\S+) ", outputs[0], re.MULTILINE)
+    scale = {"ns": 1, "µs": 1e3}
+    rows = {}
+    for what, level, time, unit in found:
+        rows.setdefault(what, {})[level] = f"{float(time) * scale[unit]:.0f}"
+    return [{"nanoseconds of": what, **times} for what, times in rows.items()]
+
+
 def lines_of(outputs):
     """The rows of a program that prints a JSON object a line."""
     return [json.loads(line) for line in outputs[0].splitlines()]
@@ -257,6 +267,7 @@ MEASUREMENTS = {
         of_threads,
         ["workload", *map(str, THREADS)],
     ),
+    "first": Measurement("cpu", CPU, [["first", "--bench"]], of_first, ["nanoseconds of", "baseline", "avx2", "avx512"]),
     "surface": Measurement("cpu", Code(["tess-surface"], []), [["surface", "--bench"]], of_surface, ["surface", "level", "ns a vertex", "fills"]),
     "gpu": gpu(workloads=ALL),
     "gpu-u16": gpu("--index-type", "u16", workloads=["uniform-1", "uniform-16", "uniform-64"]),
@@ -311,7 +322,7 @@ MEASUREMENTS = {
 
 # The arguments of cargo that build the programs of a set.
 BUILDS = {
-    "cpu": ["build --release -p tess-program", "bench --no-run -p tess-benches --bench surface"],
+    "cpu": ["build --release -p tess-program", "bench --no-run -p tess-benches --bench first --bench surface"],
     "gpu": [
         "build --release -p tess-program",
         "build --release -p tess-benches --features gpu --bin gpu",
@@ -394,13 +405,14 @@ def command_of(measurement):
         "tess": "cargo run --release --",
         "gpu": "cargo run --release -p tess-benches --features gpu --bin gpu --",
         "tess-examples": "cargo example --release",
+        "first": "cargo bench -p tess-benches --bench first",
         "surface": "cargo bench -p tess-benches --bench surface",
         "study": "cargo run --release -p tess-benches --bin study --",
     }
     command, *words = measurement.commands[0]
     if len(measurement.commands) > 1:
         words = ["BACKEND" if word == "core" else "N" if word == str(THREADS[0]) else word for word in words]
-    return f"{in_workspace[command]} {' '.join(word for word in words if command != 'surface')}".strip().removesuffix(" --")
+    return f"{in_workspace[command]} {' '.join(word for word in words if command not in ('first', 'surface'))}".strip().removesuffix(" --")
 
 
 def record_of(name, measured, commit):
@@ -445,7 +457,7 @@ def main(words):
     for one in (whole, running):
         one.add_argument("set", choices=sorted(BUILDS))
     running.add_argument("folder", help="folder to write NAME.json and NAME.txt to")
-    running.add_argument("--programs", default=TARGET / "release", help="folder of tess, gpu, tess-examples, surface, study")
+    running.add_argument("--programs", default=TARGET / "release", help="folder of tess, gpu, tess-examples, first, surface, study")
     running.add_argument("--only", nargs="+", choices=sorted(MEASUREMENTS), help="run only these measurements of the set")
     taking = commands.add_parser("take", help="make records of the rows that `run` wrote")
     taking.add_argument("folders", nargs="+", metavar="folder", help="of one run, or of several: each row is then the fastest")

@@ -2,7 +2,7 @@
 
 import study
 from fresh import code_in, code_of_file
-from measure import MEASUREMENTS, fastest, of_ablation, of_crossover, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
+from measure import MEASUREMENTS, fastest, of_ablation, of_crossover, of_first, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
 from records import bench_table, digits, svg, table, with_tables
 
 
@@ -69,6 +69,8 @@ def test_rows_of_each_program():
     assert crossover[0] == {"patches": 1, "uniform-1": "0.3 / 13 / 102"} and len(crossover) == 6, crossover
     stage = of_stage(["head\npoints  triangles  prepare us  draw us  G\nstored     994756         118      802    1.081\n"])
     assert stage == [{"points": "stored", "triangles": 994756, "prepare_us": 118, "draw_us": 802, "G_triangles/s": 1.081}], stage
+    criterion = "first/a tessellator/avx2  time:   [1.0 ns 70.4 ns 80 ns]\n                        change: [-1%]\nfirst/a tessellator/avx512\n                        time:   [1 µs 1.5 µs 2 µs]\n"
+    assert of_first([criterion]) == [{"nanoseconds of": "a tessellator", "avx2": "70", "avx512": "1500"}], of_first([criterion])
     criterion = "surface/fill            time:   [1 ns 2 ns 3 ns]\n                        thrpt:  [1.0 Gelem/s 2.0000 Gelem/s 3.0 Gelem/s]\n"
     criterion += "surface/PN triangle/avx2\n                        time:   [1 us 2 us 3 us]\n                        thrpt:  [1.0 Melem/s 50.0 Melem/s 60.0 Melem/s]\n"
     assert of_surface([criterion]) == [{"surface": "PN triangle", "level": "avx2", "ns a vertex": "20.0", "fills": "40"}], of_surface([criterion])
