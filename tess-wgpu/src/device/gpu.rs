@@ -22,11 +22,12 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the first adapter with WebGPU's default limits. OpenGL, in builds that have it (the
-    /// feature `gles`), is used only if nothing else gives a device.
+    /// Opens the first adapter with WebGPU's default limits.
     ///
-    /// As in other programs that use wgpu, the environment variable `WGPU_BACKEND` restricts the
-    /// choice: to `vulkan`, `metal`, `dx12`, `gl`, or several separated by commas.
+    /// As in other programs that use wgpu, the environment variable `WGPU_BACKEND` decides the
+    /// choice: `vulkan`, `metal`, `dx12`, `gl`, or several separated by commas. OpenGL, in builds
+    /// that have it (the feature `gles`), is used only if the variable or [`Self::open_on`] asks
+    /// for it, and after all others.
     ///
     /// # Errors
     /// [`Error::NoDevice`] if no adapter gives a device.
@@ -40,7 +41,20 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoDevice`] if no adapter gives a device.
     pub async fn open_with(wanted: DeviceLimits, optional: wgpu::Features) -> Result<Self, Error> {
-        open::first(wanted, optional).await
+        open::first(None, wanted, optional).await
+    }
+
+    /// Opens the first adapter of these backends, whatever the environment says. If OpenGL is among
+    /// them, it is used only if no other gives a device: `wgpu::Backends::all()` falls back to it.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`] if no adapter gives a device.
+    pub async fn open_on(
+        backends: wgpu::Backends,
+        wanted: DeviceLimits,
+        optional: wgpu::Features,
+    ) -> Result<Self, Error> {
+        open::first(Some(backends), wanted, optional).await
     }
 
     /// The name and driver of the adapter, for messages.

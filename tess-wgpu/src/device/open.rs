@@ -13,11 +13,17 @@ pub enum DeviceLimits {
     Highest,
 }
 
-/// Opens the first adapter that gives a device. OpenGL is tried last, because wgpu would prefer an
-/// old GPU with an insufficient OpenGL to a Vulkan driver in software.
-pub(crate) async fn first(wanted: DeviceLimits, optional: wgpu::Features) -> Result<Gpu, Error> {
-    let asked = Backends::from_env();
-    let backends = asked.unwrap_or_else(wgpu::Instance::enabled_backend_features);
+/// Opens the first adapter of the backends that are `asked` for, or else of the environment's, or
+/// else of any except OpenGL, unless this program has no other. OpenGL is tried last, because wgpu
+/// would prefer an old GPU with an insufficient OpenGL to a Vulkan driver in software.
+pub(crate) async fn first(
+    asked: Option<Backends>,
+    wanted: DeviceLimits,
+    optional: wgpu::Features,
+) -> Result<Gpu, Error> {
+    let from_env = if asked.is_none() { Backends::from_env() } else { None };
+    let built_in = wgpu::Instance::enabled_backend_features();
+    let backends = asked.or(from_env).map_or_else(|| without_gl(built_in), |all| all & built_in);
     let mut reasons = Vec::new();
     for some in [backends - Backends::GL, backends & Backends::GL] {
         if some.is_empty() {
@@ -28,15 +34,25 @@ pub(crate) async fn first(wanted: DeviceLimits, optional: wgpu::Features) -> Res
             Err(reason) => reasons.push(reason),
         }
     }
-    match (asked, reasons.is_empty()) {
+    let more = match (from_env, reasons.is_empty()) {
         (Some(_), true) => {
-            reasons.push("WGPU_BACKEND is none of vulkan, metal, dx12, gl".to_owned());
+            "WGPU_BACKEND names none of vulkan, metal, dx12, gl that this program has"
         }
-        (Some(_), false) => reasons.push("WGPU_BACKEND allows no other".to_owned()),
-        (None, true) => reasons.push("this program has no backend of wgpu built in".to_owned()),
-        (None, false) => {}
-    }
+        (Some(_), false) => "WGPU_BACKEND allows no other",
+        (None, true) => "this program has none of these backends of wgpu built in",
+        (None, false) if asked.is_none() && backends != built_in => {
+            "OpenGL is used only if WGPU_BACKEND=gl or Gpu::open_on asks for it"
+        }
+        (None, false) => "",
+    };
+    reasons.extend((!more.is_empty()).then(|| more.to_owned()));
     Err(Error::NoDevice { reason: reasons.join("; ") })
+}
+
+/// These backends without OpenGL, unless there is no other.
+fn without_gl(backends: Backends) -> Backends {
+    let others = backends - Backends::GL;
+    if others.is_empty() { backends } else { others }
 }
 
 /// Opens the first adapter of these backends, or returns the reason why it cannot be used.

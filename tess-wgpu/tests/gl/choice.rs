@@ -2,7 +2,7 @@
 //! own, whose environment hides some of the drivers.
 
 use std::process::Command;
-use tess_wgpu::Gpu;
+use tess_wgpu::{DeviceLimits, Gpu};
 
 /// The argument that asks for [`answer`].
 const QUESTION: &str = "which-adapter";
@@ -15,7 +15,14 @@ pub(crate) fn is_asked() -> bool {
 /// Prints the adapter, or the reason why there is none.
 #[expect(clippy::print_stdout, reason = "another process reads it")]
 pub(crate) fn answer() {
-    match pollster::block_on(Gpu::open()) {
+    let opened = match std::env::args().nth(2) {
+        None => pollster::block_on(Gpu::open()),
+        Some(_) => {
+            let (limits, features) = (DeviceLimits::Default, wgpu::Features::empty());
+            pollster::block_on(Gpu::open_on(wgpu::Backends::all(), limits, features))
+        }
+    };
+    match opened {
         Ok(gpu) => print!("{}", gpu.name()),
         Err(error) => print!("{error}"),
     }
@@ -59,19 +66,25 @@ pub(crate) fn opengl_is_last() {
     };
     is(&[], " (vulkan, ");
     is(&OLD, " (vulkan, ");
-    is(&NO_VULKAN, " (gl, ");
+    let none = adapter(&NO_VULKAN);
+    assert!(none.contains("no graphics adapter") && none.contains("Gpu::open_on asks"), "{none}");
+    let fallback = say(&[QUESTION, "on-all"], &NO_VULKAN);
+    assert!(fallback.contains(" (gl, "), "{fallback}, which was asked for");
+    is(&[("WGPU_BACKEND", "vulkan,gl"), NO_VULKAN[0], NO_VULKAN[1]], " (gl, ");
     is(&[("WGPU_BACKEND", "gl")], " (gl, ");
     is(&[("WGPU_BACKEND", "gl,vulkan")], " (vulkan, ");
 }
 
 pub(crate) fn what_is_lacking_is_said() {
-    let old = adapter(&[&NO_VULKAN[..], &OLD].concat());
+    let fallback = [("WGPU_BACKEND", "vulkan,gl")];
+    let old = adapter(&[&NO_VULKAN[..], &OLD, &fallback].concat());
     assert!(old.contains("lacks compute shaders, which need OpenGL 4.3"), "{old}");
     assert!(old.contains("install a driver of Vulkan"), "what to do: {old}");
     let metal = adapter(&[("WGPU_BACKEND", "metal")]);
-    assert!(metal.contains("WGPU_BACKEND allows no other"), "{metal}");
+    assert!(metal.contains("that this program has"), "{metal}");
+    assert!(old.contains("WGPU_BACKEND allows no other"), "{old}");
     let none = adapter(&[("WGPU_BACKEND", "glide")]);
-    assert!(none.contains("WGPU_BACKEND is none of vulkan, metal, dx12, gl"), "{none}");
+    assert!(none.contains("WGPU_BACKEND names none of vulkan, metal, dx12, gl"), "{none}");
 }
 
 /// Runs the tests of OpenGL on OpenGL ES.
