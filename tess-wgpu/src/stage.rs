@@ -1,4 +1,5 @@
-//! The tessellation stage, which draws patches with a hull and a domain function in WGSL.
+//! The tessellation stage: it prepares frames of patches with a hull and a domain function in WGSL,
+//! and materials draw them.
 
 mod build;
 mod builder;
@@ -7,15 +8,19 @@ mod evaluation;
 mod factor_pass;
 mod feedback;
 mod fit;
+mod frame;
 mod frames;
 mod gl;
+mod material;
 mod mistakes;
 mod modules;
 mod output;
 mod own_group;
 mod passes;
+mod program;
 mod room;
 pub(crate) mod source;
+mod user_groups;
 mod vertex;
 mod wgsl;
 
@@ -23,6 +28,8 @@ pub use crate::error::StageError;
 pub use builder::StageBuilder;
 pub use choices::{Factors, Overflow, PatchCount, Points, Room};
 pub use feedback::Feedback;
+pub use frame::Frame;
+pub use material::{Material, MaterialBuilder};
 pub use vertex::VertexLayout;
 
 use crate::Tessellator;
@@ -33,15 +40,18 @@ use evaluation::Evaluation;
 use factor_pass::FactorPass;
 use feedback::Feedbacks;
 use fit::Fit;
+use frame::FrameCount;
 use output::StageOutput;
 use room::{Form, Lull};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tess_core::{Config, Domain, PatchFactors};
 use tess_gpu::Capacity;
 use tess_gpu::layout::factor_words;
+use user_groups::UserGroups;
 use wgpu::BufferUsages as Usage;
 
-/// A tessellation stage for a render pass.
+/// A tessellation stage: the compute passes of each frame, and the room for their output. A
+/// [`Material`] draws the frames that it prepares.
 ///
 /// The user's WGSL declares `struct Vertex`, with `@builtin(position)` and the interpolated
 /// members, and two functions, whose parameters may have any names:
@@ -64,48 +74,47 @@ use wgpu::BufferUsages as Usage;
 /// built-in name of WGSL that the stage's functions use, such as `distance`.
 #[derive(Debug)]
 pub struct TessellationStage {
-    device: wgpu::Device,
     tessellator: Tessellator,
     form: Form,
+    /// The vertex buffer of draws.
+    vertices: VertexLayout,
+    bind_groups: UserGroups,
+    passes: Passes,
     room: Room,
     lull: Lull,
+    /// The first patch of each group. If their number is not that of `output`, the next frame makes
+    /// another output.
     groups: Vec<u32>,
-    /// The first patches of new groups, which each frame copies over those in the batch.
+    /// The groups, which each frame copies over those in the batch if they have changed.
     begins: Option<wgpu::Buffer>,
-    bind_groups: Vec<UserGroup>,
+    /// The number of instances, once [`Self::set_instances`] has set it.
+    instances: Option<wgpu::Buffer>,
+    output: StageOutput,
+    feedback: Mutex<Feedbacks>,
+    frames: FrameCount,
+    /// Held by the materials without and with a function of `project`.
+    kinds: [Arc<()>; 2],
+}
+
+/// The compute passes before and after the batch.
+#[derive(Debug)]
+struct Passes {
     /// The frame's raw factors, as the batch reads them.
     factors: wgpu::Buffer,
     /// The number of patches of the frame.
     count: wgpu::Buffer,
-    /// `None` if the stage draws the output of another.
-    factor_pass: Option<FactorPass>,
+    write: FactorPass,
+    /// `None` with [`Overflow::DrawNothing`].
     fit: Option<Fit>,
+    /// `None` unless points are evaluated.
     evaluation: Option<Evaluation>,
-    /// The vertex buffer of draws.
-    vertices: VertexLayout,
-    /// Whether draws read the factors.
-    has_factors: bool,
-    /// The number of instances, once [`Self::set_instances`] has set it.
-    instances: Option<wgpu::Buffer>,
-    /// `None` if the caller draws with its own pipeline.
-    pipeline: Option<Arc<wgpu::RenderPipeline>>,
-    /// Shared by the stages that draw it.
-    output: Arc<Mutex<StageOutput>>,
-    /// New groups and their output, which take effect in the next frame.
-    next: Option<(Vec<u32>, StageOutput)>,
-    feedback: Arc<Mutex<Feedbacks>>,
-    frame: u64,
 }
-
-/// A bind group of the user, and its dynamic offsets.
-type UserGroup = (wgpu::BindGroup, Vec<wgpu::DynamicOffset>);
 
 impl TessellationStage {
     /// Bytes of a group's arguments in [`Self::group_indirect`].
     pub const GROUP_BYTES: u64 = size_of::<tess_gpu::layout::DrawIndexed>() as u64;
 
-    /// Returns a builder for a stage that draws up to `patches` patches of one domain with the
-    /// user's WGSL.
+    /// Returns a builder for a stage of up to `patches` patches of one domain with the user's WGSL.
     pub const fn builder(
         source: &str,
         domain: Domain,
@@ -113,46 +122,6 @@ impl TessellationStage {
         patches: u32,
     ) -> StageBuilder<'_> {
         StageBuilder::new(source, domain, config, patches)
-    }
-
-    /// Draws all patches of the last prepared frame. If the stage was made without a pipeline, set
-    /// the pass's pipeline and bind groups first.
-    ///
-    /// No method draws in a render bundle, because a bundle would keep buffers that
-    /// [`Self::prepare`] may replace. You can record one yourself from [`Self::vertices`],
-    /// [`Self::indices`] and [`Self::indirect`]. Record it again whenever [`Self::capacity`]
-    /// changes, and in the frame after [`Self::set_groups`].
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        self.draw_as(pass, None);
-    }
-
-    /// Draws one group of patches. To give the group its own material, call
-    /// [`Self::set_bind_group`] first.
-    ///
-    /// # Errors
-    /// [`StageError::NoSuchGroup`].
-    pub fn draw_group(&self, pass: &mut wgpu::RenderPass<'_>, group: u32) -> Result<(), Error> {
-        let groups = self.output().batch.plan().groups();
-        if group >= groups {
-            return Err(StageError::NoSuchGroup { group, groups: groups as usize }.into());
-        }
-        self.draw_as(pass, Some(group));
-        Ok(())
-    }
-
-    fn draw_as(&self, pass: &mut wgpu::RenderPass<'_>, group: Option<u32>) {
-        let mut number = 0;
-        let output = self.output();
-        let mut own = None;
-        if let Some(pipeline) = &self.pipeline {
-            pass.set_pipeline(pipeline);
-            for (group, offsets) in &self.bind_groups {
-                pass.set_bind_group(number, group, offsets);
-                number += 1;
-            }
-            own = output.own.of(self.has_factors).map(|group| (number, group));
-        }
-        output.draw(pass, own, group);
     }
 
     /// The vertex buffer of the last prepared frame, or `None` if the vertex shader computes the
@@ -176,7 +145,7 @@ impl TessellationStage {
     /// shows, so fetch them in each frame.
     #[must_use]
     pub fn vertices(&self) -> Option<wgpu::Buffer> {
-        self.output().stored.loaded().cloned()
+        self.output.stored.loaded().cloned()
     }
 
     /// The index buffer, with 32-bit indices, or `None` with [`Points::PullWithoutIndices`]. An
@@ -185,7 +154,7 @@ impl TessellationStage {
     /// [`Self::vertices`] except `VERTEX`.
     #[must_use]
     pub fn indices(&self) -> Option<wgpu::Buffer> {
-        self.output().stored.indices
+        self.output.stored.indices.clone()
     }
 
     /// The arguments of `draw_indexed_indirect` for all patches, at offset 0, with the usages
@@ -193,13 +162,13 @@ impl TessellationStage {
     /// no index buffer, the first four words are the arguments of `draw_indirect`.
     #[must_use]
     pub fn indirect(&self) -> wgpu::Buffer {
-        self.output().batch.draw_arguments().clone()
+        self.output.batch.draw_arguments().clone()
     }
 
     /// The arguments of each group's draw, as in [`Self::indirect`], [`Self::GROUP_BYTES`] apart.
     #[must_use]
     pub fn group_indirect(&self) -> wgpu::Buffer {
-        self.output().batch.group_arguments().clone()
+        self.output.batch.group_arguments().clone()
     }
 
     /// The buffer of a [`Status`](tess_gpu::layout::Status), which holds the numbers of points and
@@ -207,7 +176,7 @@ impl TessellationStage {
     /// `COPY_SRC`.
     #[must_use]
     pub fn status(&self) -> wgpu::Buffer {
-        self.output().batch.status().clone()
+        self.output.batch.status().clone()
     }
 
     /// The layout of [`Self::vertices`].
@@ -221,44 +190,33 @@ impl TessellationStage {
     /// that is drawn.
     ///
     /// # Errors
-    /// [`StageError::DrawsAnother`] for a stage that draws another's output;
     /// [`Error::OutOfMemory`].
     pub fn set_instances(&mut self, instances: u32) -> Result<(), Error> {
-        if self.factor_pass.is_none() {
-            return Err(StageError::DrawsAnother.into());
-        }
         let bytes = instances.to_le_bytes();
-        self.instances = Some(gpu::filled(&self.device, "instances", &bytes, Usage::COPY_SRC)?);
+        self.instances = Some(gpu::filled(self.device(), "instances", &bytes, Usage::COPY_SRC)?);
         Ok(())
     }
 
     /// Replaces the groups that [`StageBuilder::groups`] set. The change takes effect in the next
-    /// call of [`Self::prepare`]; until then, draws use the groups of the prepared frame. Nothing
-    /// is compiled. If the number of groups stays the same, their first patches are copied and no
-    /// buffer is replaced.
+    /// call of [`Self::prepare`]; the prepared frame keeps its groups. Nothing is compiled. If the
+    /// number of groups stays the same, their first patches are copied and no buffer is replaced.
     ///
     /// # Errors
-    /// [`Error::MisplacedGroup`]; [`StageError::DrawsAnother`] for a stage that draws another's
-    /// output; [`Error::OutOfMemory`]. On an error the groups stay as they were.
+    /// [`Error::MisplacedGroup`], [`Error::TooManyGroups`], [`Error::OutOfMemory`]. On an error the
+    /// groups stay as they were.
     pub fn set_groups(&mut self, first_patches: &[u32]) -> Result<(), Error> {
-        if self.factor_pass.is_none() {
-            return Err(StageError::DrawsAnother.into());
-        }
-        if self.next.is_none() && first_patches.len() == self.groups.len() {
-            check_groups(self.form.patches, first_patches)?;
-            let bytes = bytemuck::cast_slice(first_patches);
-            self.begins = Some(gpu::filled(&self.device, "new groups", bytes, Usage::COPY_SRC)?);
-            self.groups = first_patches.to_vec();
-            return Ok(());
-        }
-        let StageOutput { room, stored, .. } = self.output();
-        let output = self.new_output(room, first_patches, stored)?;
-        self.next = Some((first_patches.to_vec(), output));
+        let count = check_groups(self.form.patches, first_patches)?;
+        let bytes = bytemuck::cast_slice(first_patches);
+        let begins = (count == self.output.groups() && count > 0)
+            .then(|| gpu::filled(self.device(), "new groups", bytes, Usage::COPY_SRC))
+            .transpose()?;
+        self.begins = begins;
+        self.groups = first_patches.to_vec();
         Ok(())
     }
 
-    /// Replaces one of the user's bind groups, by its number. The next call of `prepare` or `draw`
-    /// uses it.
+    /// Replaces one of the user's bind groups, by its number. The next call of [`Self::prepare`]
+    /// uses it; materials have their own.
     ///
     /// If the group's layout differs from the one that the builder got, wgpu reports an error when
     /// the frame's encoder is finished. The error names the group's number and the binding.
@@ -266,25 +224,17 @@ impl TessellationStage {
     /// # Errors
     /// [`StageError::NoSuchBindGroup`]. On an error the bind groups stay as they were.
     pub fn set_bind_group(&mut self, number: u32, group: &wgpu::BindGroup) -> Result<(), Error> {
-        self.user_group(number)?.0.clone_from(group);
-        Ok(())
+        Ok(self.bind_groups.set(number, group)?)
     }
 
     /// Sets the dynamic offsets of one of the user's bind groups, in bytes and in the order of its
-    /// bindings. The next call of `prepare` or `draw` uses them; at first there are none. If there
-    /// are too many or too few, wgpu reports an error when the frame's encoder is finished.
+    /// bindings. The next call of [`Self::prepare`] uses them; at first there are none. If there are
+    /// too many or too few, wgpu reports an error when the frame's encoder is finished.
     ///
     /// # Errors
     /// [`StageError::NoSuchBindGroup`]. On an error the offsets stay as they were.
     pub fn set_dynamic_offsets(&mut self, number: u32, offsets: &[u32]) -> Result<(), Error> {
-        self.user_group(number)?.1 = offsets.to_vec();
-        Ok(())
-    }
-
-    fn user_group(&mut self, number: u32) -> Result<&mut UserGroup, Error> {
-        let groups = self.bind_groups.len();
-        let own = self.bind_groups.get_mut(number as usize);
-        Ok(own.ok_or(StageError::NoSuchBindGroup { number, groups })?)
+        Ok(self.bind_groups.set_offsets(number, offsets)?)
     }
 
     /// Records a copy of new factors from the host to the first `patches.len()` patches. Patches
@@ -298,8 +248,7 @@ impl TessellationStage {
         encoder: &mut wgpu::CommandEncoder,
         patches: &[PatchFactors],
     ) -> Result<(), Error> {
-        let host = self.factor_pass.as_ref().and_then(|pass| pass.host.as_ref());
-        let host = host.ok_or(StageError::NotHostFactors)?;
+        let host = self.passes.write.host.as_ref().ok_or(StageError::NotHostFactors)?;
         let (got, most) = (u32::try_from(patches.len()).unwrap_or(u32::MAX), self.form.patches);
         if got > most {
             return Err(StageError::TooManyPatches { got, most }.into());
@@ -310,8 +259,8 @@ impl TessellationStage {
         if bytes.is_empty() {
             return Ok(());
         }
-        let staging = gpu::filled(&self.device, "new factors", bytes, Usage::COPY_SRC)?;
-        gpu::recorded(&self.device, || {
+        let staging = gpu::filled(self.device(), "new factors", bytes, Usage::COPY_SRC)?;
+        gpu::recorded(self.device(), || {
             encoder.copy_buffer_to_buffer(&staging, 0, host, 0, bytes.len() as u64);
         })
     }
@@ -323,7 +272,7 @@ impl TessellationStage {
     pub fn feedback(&self) -> Option<Feedback> {
         let mut feedback = locked(&self.feedback);
         // A lost device has nothing new; `prepare` reports it.
-        let _ = feedback.take(&self.device, self.frame);
+        let _ = feedback.take(self.device(), self.frames.get());
         feedback.last()
     }
 
@@ -332,24 +281,24 @@ impl TessellationStage {
     /// are the scaled factors. Patches past the frame's number have factors of 0.
     #[must_use]
     pub const fn factors(&self) -> &wgpu::Buffer {
-        &self.factors
+        &self.passes.factors
     }
 
     /// The room for points and primitives that the stage has now.
     #[must_use]
     pub fn capacity(&self) -> Capacity {
-        self.output().room
+        self.output.room
     }
 
-    fn output(&self) -> StageOutput {
-        locked(&self.output).clone()
+    const fn device(&self) -> &wgpu::Device {
+        self.tessellator.device()
     }
 
     /// The batch that the frames run, and the buffers of its points and indices, if it has them.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn inside(&self) -> (Arc<crate::Batch>, [Option<wgpu::Buffer>; 2]) {
-        let StageOutput { batch, stored, .. } = self.output();
+        let StageOutput { batch, stored, .. } = self.output.clone();
         (batch, [stored.points, stored.indices])
     }
 

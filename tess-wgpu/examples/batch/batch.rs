@@ -62,8 +62,9 @@ impl Show for Batch {
         Ok(())
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error> {
         self.drawn.draw(pass);
+        Ok(())
     }
 
     fn check(&self, gpu: &Gpu) -> Result<(), Box<dyn Error>> {

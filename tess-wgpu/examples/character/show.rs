@@ -8,12 +8,16 @@ use glam::Vec3;
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::surfaces;
+use tess_wgpu::stage::{self, Material};
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
 /// The animal.
 pub(crate) struct Character {
     stage: TessellationStage,
+    material: Material,
+    /// The frame to draw.
+    shown: Option<stage::Frame>,
     frame: wgpu::Buffer,
     triangles: u32,
 }
@@ -42,10 +46,14 @@ impl Show for Character {
         let triangles = u32::try_from(mesh.triangles.len())?;
         let stage = TessellationStage::builder(&wgsl, Domain::Triangle, config, triangles)
             .bind_group(&layout, &group)
+            .build(&gpu.device)?;
+        let material = stage
+            .material(&wgsl)
+            .bind_group(&layout, &group)
             .target(format)
             .depth(app::depth())
-            .build(&gpu.device)?;
-        Ok(Self { stage, frame, triangles })
+            .build()?;
+        Ok(Self { stage, material, shown: None, frame, triangles })
     }
 
     fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
@@ -57,11 +65,12 @@ impl Show for Character {
         let mut words = camera.clip_from_world(width / height).to_cols_array().to_vec();
         words.extend(eye.extend(0.5 * height * camera.zoom).to_array());
         frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        Ok(self.stage.prepare(frame.encoder, self.triangles)?)
+        self.shown = Some(self.stage.prepare(frame.encoder, self.triangles)?);
+        Ok(())
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        self.stage.draw(pass);
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error> {
+        self.shown.as_ref().map_or(Ok(()), |frame| self.material.draw(pass, frame))
     }
 
     fn title(&self) -> String {

@@ -67,8 +67,9 @@ impl Show for Meshes {
         Ok(())
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error> {
         self.0.draw(pass);
+        Ok(())
     }
 
     fn check(&self, gpu: &Gpu) -> Result<(), Box<dyn Error>> {

@@ -7,7 +7,7 @@ use crate::terrain;
 use glam::{Mat4, Vec3};
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_wgpu::stage::StageBuilder;
+use tess_wgpu::stage::{self, Material, MaterialBuilder};
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::{BufferUsages as Usage, CompareFunction as Compare};
 
@@ -37,11 +37,13 @@ fn sun() -> Mat4 {
     Mat4::from_rows(rows[0], rows[1], rows[2], glam::Vec4::W)
 }
 
-/// The stages: the first is prepared, and the others draw its output.
+/// The stage, and the materials that draw its frames.
 pub(crate) struct Passes {
-    into_shadows: TessellationStage,
+    stage: TessellationStage,
+    shown: Option<stage::Frame>,
+    into_shadows: Material,
     /// For the left and the right camera: first only depth, unless `--prepass off`, then colour.
-    cameras: [Vec<TessellationStage>; 2],
+    cameras: [Vec<Material>; 2],
     frame: wgpu::Buffer,
     shadows: wgpu::TextureView,
     size: [u32; 2],
@@ -61,15 +63,15 @@ impl Show for Passes {
         let (of_shadows, lit) = bind(gpu, &[Bound::Depth(&shadows), Bound::Comparison(&sampler)]);
         let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
         let wgsl = include_str!("hills.wgsl");
+        let stage = TessellationStage::builder(wgsl, Domain::Quad, config, PATCHES)
+            .bind_group(&layout, &group)
+            .points(terrain::points(args.text("points").unwrap_or("evaluated"))?)
+            .build(&gpu.device)?;
         let pass = |camera, compare| {
-            TessellationStage::builder(wgsl, Domain::Quad, config, PATCHES)
-                .bind_group(&layout, &group)
-                .project(camera)
-                .depth(depth(compare))
+            let pass = stage.material(wgsl).bind_group(&layout, &group);
+            pass.project(camera).depth(depth(compare))
         };
-        let points = terrain::points(args.text("points").unwrap_or("evaluated"))?;
-        let into_shadows = pass("sun", Compare::Less).points(points).build(&gpu.device)?;
-        let other = |builder: StageBuilder<'_>| builder.output_of(&into_shadows).build(&gpu.device);
+        let into_shadows = pass("sun", Compare::Less).build()?;
         let has_prepass = args.text("prepass") != Some("off");
         let cameras = ["left", "right"].map(|camera| {
             let nothing =
@@ -79,11 +81,13 @@ impl Show for Passes {
             let colour = pass(camera, compare).bind_group(&of_shadows, &lit);
             let colour = colour.target(format).fragment("shade");
             let prepass = has_prepass.then_some(prepass);
-            prepass.into_iter().chain([colour]).map(other).collect::<Result<Vec<_>, _>>()
+            let passes = prepass.into_iter().chain([colour]);
+            passes.map(MaterialBuilder::build).collect::<Result<Vec<_>, _>>()
         });
         let [left, right] = cameras;
         let cameras = [left?, right?];
-        Ok(Self { into_shadows, cameras, frame, shadows, size: [1; 2] })
+        let (shown, size) = (None, [1; 2]);
+        Ok(Self { stage, shown, into_shadows, cameras, frame, shadows, size })
     }
 
     fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
@@ -94,7 +98,7 @@ impl Show for Passes {
         words.extend(toward_sun().extend(0.0).to_array());
         frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
         // Once for all later passes.
-        self.into_shadows.prepare(frame.encoder, PATCHES)?;
+        let shown = self.shown.insert(self.stage.prepare(frame.encoder, PATCHES)?);
         let depth_ops =
             wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store };
         let mut pass = frame.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -105,16 +109,17 @@ impl Show for Passes {
             }),
             ..Default::default()
         });
-        self.into_shadows.draw(&mut pass);
-        Ok(())
+        Ok(self.into_shadows.draw(&mut pass, shown)?)
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error> {
         let [width, height] = [self.size[0] / 2, self.size[1]].map(|size| size as f32);
-        for (x, stages) in [0.0, width].into_iter().zip(&self.cameras) {
+        let Some(shown) = &self.shown else { return Ok(()) };
+        for (x, materials) in [0.0, width].into_iter().zip(&self.cameras) {
             pass.set_viewport(x, 0.0, width, height, 0.0, 1.0);
-            stages.iter().for_each(|stage| stage.draw(pass));
+            materials.iter().try_for_each(|material| material.draw(pass, shown))?;
         }
+        Ok(())
     }
 
     fn title(&self) -> String {

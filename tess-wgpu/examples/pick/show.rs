@@ -6,7 +6,7 @@ use crate::camera::Camera;
 use glam::{Mat4, Vec2, Vec3};
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_wgpu::stage::Points;
+use tess_wgpu::stage::{self, Material, Points};
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
@@ -55,6 +55,9 @@ pub(crate) fn direction(camera: &Camera, at: Vec2, aspect: f32) -> Vec3 {
 /// The stage, and the passes that find the triangle.
 pub(crate) struct Pick {
     stage: TessellationStage,
+    material: Material,
+    /// The frame to draw.
+    shown: Option<stage::Frame>,
     frame: wgpu::Buffer,
     picked: wgpu::Buffer,
     passes: [wgpu::ComputePipeline; 3],
@@ -72,14 +75,18 @@ impl Show for Pick {
         let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
         let stage = TessellationStage::builder(WGSL, Domain::Quad, config, PATCHES)
             .bind_group(&layout, &group)
-            .bind_group(&of_picked, &shown)
             .points(Points::Evaluated)
+            .build(&gpu.device)?;
+        let material = stage
+            .material(WGSL)
+            .bind_group(&layout, &group)
+            .bind_group(&of_picked, &shown)
             .project("seen")
             .target(format)
             .depth(app::depth())
-            .build(&gpu.device)?;
+            .build()?;
         let at = Vec2::new(args.number("x", 0.36)?, args.number("y", 0.55)?);
-        Ok(Self { stage, frame, picked, passes: passes(gpu), at })
+        Ok(Self { stage, material, shown: None, frame, picked, passes: passes(gpu), at })
     }
 
     fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
@@ -91,12 +98,12 @@ impl Show for Pick {
         frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
         // Nothing has been hit yet.
         frame.gpu.queue.write_buffer(&self.picked, 0, &[0xff; 8]);
-        self.stage.prepare(frame.encoder, PATCHES)?;
+        self.shown = Some(self.stage.prepare(frame.encoder, PATCHES)?);
         self.find(frame.gpu, frame.encoder)
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        self.stage.draw(pass);
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error> {
+        self.shown.as_ref().map_or(Ok(()), |frame| self.material.draw(pass, frame))
     }
 
     fn check(&self, gpu: &Gpu) -> Result<(), Box<dyn Error>> {

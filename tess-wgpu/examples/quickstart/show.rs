@@ -6,6 +6,7 @@ use crate::camera::Camera;
 use glam::Vec3;
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+use tess_wgpu::stage::{self, Material};
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
@@ -14,6 +15,9 @@ const PATCHES: u32 = 16 * 16;
 /// The sea.
 pub(crate) struct Quickstart {
     stage: TessellationStage,
+    material: Material,
+    /// The frame to draw.
+    shown: Option<stage::Frame>,
     frame: wgpu::Buffer,
 }
 
@@ -25,10 +29,14 @@ impl Show for Quickstart {
         let wgsl = include_str!("sea.wgsl");
         let stage = TessellationStage::builder(wgsl, Domain::Quad, config, PATCHES)
             .bind_group(&layout, &group)
+            .build(&gpu.device)?;
+        let material = stage
+            .material(wgsl)
+            .bind_group(&layout, &group)
             .target(format)
             .depth(app::depth())
-            .build(&gpu.device)?;
-        Ok(Self { stage, frame })
+            .build()?;
+        Ok(Self { stage, material, shown: None, frame })
     }
 
     fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
@@ -39,11 +47,12 @@ impl Show for Quickstart {
         words.extend(eye.extend(frame.seconds).to_array());
         words.extend([0.5 * height * camera.zoom, 0.0, 0.0, 0.0]);
         frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        Ok(self.stage.prepare(frame.encoder, PATCHES)?)
+        self.shown = Some(self.stage.prepare(frame.encoder, PATCHES)?);
+        Ok(())
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        self.stage.draw(pass);
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error> {
+        self.shown.as_ref().map_or(Ok(()), |frame| self.material.draw(pass, frame))
     }
 
     fn title(&self) -> String {

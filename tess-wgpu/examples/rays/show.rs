@@ -7,7 +7,7 @@ use crate::passes;
 use glam::{Mat4, Vec3};
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_wgpu::stage::Points;
+use tess_wgpu::stage::{self, Material, Points};
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::{BindingResource, BindingType, BufferUsages as Usage, ShaderStages};
 
@@ -63,9 +63,12 @@ fn experimental() -> wgpu::ExperimentalFeatures {
     unsafe { wgpu::ExperimentalFeatures::enabled() }
 }
 
-/// The stage, the acceleration structure, and the pipeline of primary rays.
+/// The stage with its frame, the acceleration structure, and the pipeline of primary rays.
 pub(crate) struct Rays {
-    stage: TessellationStage,
+    _stage: TessellationStage,
+    material: Material,
+    /// The hills do not move, so this is the only frame.
+    shown: stage::Frame,
     frame: wgpu::Buffer,
     bound: wgpu::BindGroup,
     traced: wgpu::BindGroup,
@@ -93,13 +96,17 @@ impl Show for Rays {
         let wgsl = SHADING.to_owned() + include_str!("hills.wgsl");
         let mut stage = TessellationStage::builder(&wgsl, Domain::Quad, config, PATCHES)
             .bind_group(&of_frame, &bound)
-            .bind_group(&of_scene, &scene)
             .points(Points::Evaluated)
+            .build(device)?;
+        let material = stage
+            .material(&wgsl)
+            .bind_group(&of_frame, &bound)
+            .bind_group(&of_scene, &scene)
             .project("seen")
             .target(format)
             .depth(app::depth())
-            .build(device)?;
-        let structures = build(gpu, &mut stage, tlas)?;
+            .build()?;
+        let (shown, structures) = build(gpu, &mut stage, tlas)?;
         let storage = BindingType::Buffer {
             ty: wgpu::BufferBindingType::Storage { read_only: true },
             has_dynamic_offset: false,
@@ -115,7 +122,8 @@ impl Show for Rays {
         let traced = group(device, &of_traced, traced);
         let by_rays = args.text("primary") == Some("rays");
         let primary = by_rays.then(|| primary(device, format, [&of_frame, &of_traced]));
-        Ok(Self { stage, frame, bound, traced, primary, _structures: structures })
+        let (_stage, _structures) = (stage, structures);
+        Ok(Self { _stage, material, shown, frame, bound, traced, primary, _structures })
     }
 
     fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
@@ -135,9 +143,9 @@ impl Show for Rays {
         Ok(())
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error> {
         match &self.primary {
-            None => self.stage.draw(pass),
+            None => self.material.draw(pass, &self.shown)?,
             Some(primary) => {
                 pass.set_pipeline(primary);
                 pass.set_bind_group(0, &self.bound, &[]);
@@ -145,6 +153,7 @@ impl Show for Rays {
                 pass.draw(0..3, 0..1);
             }
         }
+        Ok(())
     }
 
     fn title(&self) -> String {
@@ -157,15 +166,11 @@ fn build(
     gpu: &Gpu,
     stage: &mut TessellationStage,
     mut tlas: wgpu::Tlas,
-) -> Result<(wgpu::Blas, wgpu::Tlas), Box<dyn Error>> {
-    // The stage's passes bind the scene too, so an empty structure is built first.
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    encoder.build_acceleration_structures([], [&tlas]);
-    gpu.run(encoder)?;
+) -> Result<(stage::Frame, (wgpu::Blas, wgpu::Tlas)), Box<dyn Error>> {
     // A structure is made for known numbers of vertices and indices.
     let counts = stage.make_room(&gpu.queue, PATCHES)?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    stage.prepare(&mut encoder, PATCHES)?;
+    let shown = stage.prepare(&mut encoder, PATCHES)?;
     let size = wgpu::BlasTriangleGeometrySizeDescriptor {
         vertex_format: wgpu::VertexFormat::Float32x3,
         vertex_count: u32::try_from(counts.points)?,
@@ -201,7 +206,7 @@ fn build(
     };
     encoder.build_acceleration_structures([&entry], [&tlas]);
     gpu.run(encoder)?;
-    Ok((blas, tlas))
+    Ok((shown, (blas, tlas)))
 }
 
 /// The pipeline that traces a ray for each pixel.

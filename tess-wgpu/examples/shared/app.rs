@@ -19,7 +19,7 @@ pub(crate) trait Show: Sized {
     fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>>;
 
     /// Draws the frame.
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>);
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error>;
 
     /// Whether a drawn frame is complete. It may wait for the device.
     fn check(&self, _gpu: &Gpu) -> Result<(), Box<dyn Error>> {
@@ -52,6 +52,8 @@ pub(crate) struct Args(Vec<(String, String)>);
 impl Args {
     pub(crate) fn new(mut all: impl Iterator<Item = String>) -> Result<Self, String> {
         let mut pairs = Vec::new();
+        // `cargo example NAME -- --screenshot FILE`: cargo has taken its own `--` already.
+        let mut all = all.by_ref().skip_while(|word| word == "--");
         while let Some(name) = all.next() {
             let name = name.strip_prefix("--").ok_or_else(|| {
                 format!("{name} is no option; there is --screenshot FILE and --frames COUNT")
@@ -104,7 +106,7 @@ pub(crate) fn picture<S: Show>(
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let seconds = args.number("seconds", 0.0)?;
         show.prepare(Frame { gpu, encoder: &mut encoder, seconds, size })?;
-        draw(&show, &mut encoder, [&color, &depth].map(view_of));
+        draw(&show, &mut encoder, [&color, &depth].map(view_of))?;
         copy_pixels(&mut encoder, &color, &pixels);
         gpu.run(encoder)?;
         show.check(gpu)?;
@@ -120,7 +122,7 @@ pub(crate) fn draw<S: Show>(
     show: &S,
     encoder: &mut wgpu::CommandEncoder,
     [color, depth]: [wgpu::TextureView; 2],
-) {
+) -> Result<(), tess_wgpu::Error> {
     let mut pass = target::begin_pass(encoder, [&color, &depth], S::BACKGROUND);
-    show.draw(&mut pass);
+    show.draw(&mut pass)
 }

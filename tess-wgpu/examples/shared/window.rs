@@ -149,7 +149,7 @@ impl<S: Show> Open<S> {
         let seconds = self.begin.elapsed().as_secs_f32();
         let size = [self.config.width, self.config.height];
         self.show.prepare(Frame { gpu: &self.gpu, encoder: &mut encoder, seconds, size })?;
-        draw(&self.show, &mut encoder, [view_of(&target.texture), self.depth.clone()]);
+        draw(&self.show, &mut encoder, [view_of(&target.texture), self.depth.clone()])?;
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
         self.gpu.queue.present(target);

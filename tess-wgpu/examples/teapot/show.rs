@@ -5,6 +5,7 @@ use crate::bindings::{Bound, bind};
 use crate::teapot;
 use std::error::Error;
 use tess_gpu::surfaces;
+use tess_wgpu::stage::{self, Material};
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
@@ -16,7 +17,12 @@ fn wgsl() -> String {
 }
 
 /// The teapot.
-pub(crate) struct Teapot(TessellationStage);
+pub(crate) struct Teapot {
+    stage: TessellationStage,
+    material: Material,
+    /// The frame to draw.
+    shown: Option<stage::Frame>,
+}
 
 impl Show for Teapot {
     fn new(gpu: &Gpu, format: wgpu::TextureFormat, _: &Args) -> Result<Self, Box<dyn Error>> {
@@ -27,25 +33,28 @@ impl Show for Teapot {
         let wgsl = wgsl();
         let builder =
             TessellationStage::builder(&wgsl, setup.domain, setup.config, teapot::PATCHES);
-        let stage = builder
+        let stage = builder.bind_group(&layout, &group).build(&gpu.device)?;
+        let material = stage
+            .material(&wgsl)
             .bind_group(&layout, &group)
             .target(format)
             .fragment("shade")
             .depth(app::depth())
-            .build(&gpu.device)?;
-        Ok(Self(stage))
+            .build()?;
+        Ok(Self { stage, material, shown: None })
     }
 
     fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
-        Ok(self.0.prepare(frame.encoder, teapot::PATCHES)?)
+        self.shown = Some(self.stage.prepare(frame.encoder, teapot::PATCHES)?);
+        Ok(())
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        self.0.draw(pass);
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error> {
+        self.shown.as_ref().map_or(Ok(()), |frame| self.material.draw(pass, frame))
     }
 
     fn title(&self) -> String {
-        let drawn = self.0.feedback().map_or(0, |feedback| feedback.drawn);
+        let drawn = self.stage.feedback().map_or(0, |feedback| feedback.drawn);
         format!("teapot: {drawn} triangles")
     }
 }

@@ -97,7 +97,11 @@ impl<'a> Bench<'a> {
         })?;
         outcome?;
         let targets = [color.clone(), depth.clone()];
-        let draw = timed(gpu, *watch, |encoder| app::draw(&*terrain, encoder, targets))?;
+        let mut outcome = Ok(());
+        let draw = timed(gpu, *watch, |encoder| {
+            outcome = app::draw(&*terrain, encoder, targets);
+        })?;
+        outcome?;
         Ok([prepare, draw])
     }
 }

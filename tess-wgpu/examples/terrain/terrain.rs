@@ -9,7 +9,7 @@ use crate::camera::Camera;
 use glam::Vec3;
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_wgpu::stage::{Points, Room};
+use tess_wgpu::stage::{self, Material, Points, Room};
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
@@ -17,6 +17,9 @@ use wgpu::BufferUsages as Usage;
 /// source of points.
 pub(crate) struct Terrain {
     stage: TessellationStage,
+    material: Material,
+    /// The frame to draw.
+    shown: Option<stage::Frame>,
     frame: wgpu::Buffer,
     bound: (wgpu::BindGroupLayout, wgpu::BindGroup),
     format: wgpu::TextureFormat,
@@ -42,10 +45,22 @@ impl Show for Terrain {
         let grid = args.number("grid", 64)?;
         let most_bytes = args.number("bytes", 256 << 20)?;
         let points = points(args.text("points").unwrap_or("stored"))?;
-        let stage = stage(gpu, format, &bound, grid, [points_of(points, most_bytes)], false)?;
+        let points_of = [points_of(points, most_bytes)];
+        let (stage, material) = stage(gpu, format, &bound, grid, points_of, false)?;
         let segment = args.number("segment", 8.0)?;
-        let wireframe = false;
-        Ok(Self { stage, frame, bound, format, grid, most_bytes, points, wireframe, segment })
+        Ok(Self {
+            stage,
+            material,
+            shown: None,
+            frame,
+            bound,
+            format,
+            grid,
+            most_bytes,
+            points,
+            wireframe: false,
+            segment,
+        })
     }
 
     fn prepare(&mut self, frame: Frame<'_>) -> Result<(), Box<dyn Error>> {
@@ -55,11 +70,12 @@ impl Show for Terrain {
         words.extend(camera.eye.extend(0.5 * height * camera.zoom).to_array());
         words.extend([self.segment, f32::from_bits(self.grid), 0.0, 0.0]);
         frame.gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
-        Ok(self.stage.prepare(frame.encoder, self.grid * self.grid)?)
+        self.shown = Some(self.stage.prepare(frame.encoder, self.grid * self.grid)?);
+        Ok(())
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        self.stage.draw(pass);
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) -> Result<(), tess_wgpu::Error> {
+        self.shown.as_ref().map_or(Ok(()), |frame| self.material.draw(pass, frame))
     }
 
     fn press(&mut self, gpu: &Gpu, key: &str) -> Result<(), Box<dyn Error>> {
@@ -95,7 +111,8 @@ impl Terrain {
 
     fn remake(&mut self, gpu: &Gpu) -> Result<(), Box<dyn Error>> {
         let points = [points_of(self.points, self.most_bytes)];
-        self.stage = stage(gpu, self.format, &self.bound, self.grid, points, self.wireframe)?;
+        let made = stage(gpu, self.format, &self.bound, self.grid, points, self.wireframe)?;
+        (self.stage, self.material, self.shown) = (made.0, made.1, None);
         Ok(())
     }
 }
@@ -126,17 +143,23 @@ fn stage(
     grid: u32,
     [(points, room)]: [(Points, Room); 1],
     wireframe: bool,
-) -> Result<TessellationStage, tess_wgpu::Error> {
+) -> Result<(TessellationStage, Material), tess_wgpu::Error> {
     let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
     let polygon_mode = if wireframe { wgpu::PolygonMode::Line } else { wgpu::PolygonMode::Fill };
-    TessellationStage::builder(include_str!("terrain.wgsl"), Domain::Quad, config, grid * grid)
+    let wgsl = include_str!("terrain.wgsl");
+    let stage = TessellationStage::builder(wgsl, Domain::Quad, config, grid * grid)
         .bind_group(layout, group)
         .points(points)
         .room(room)
+        .build(&gpu.device)?;
+    let material = stage
+        .material(wgsl)
+        .bind_group(layout, group)
         .target(format)
         .depth(app::depth())
         .primitive(wgpu::PrimitiveState { polygon_mode, ..Default::default() })
-        .build(&gpu.device)
+        .build()?;
+    Ok((stage, material))
 }
 
 /// The camera's place after a number of seconds, on a circle over the terrain.

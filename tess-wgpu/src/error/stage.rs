@@ -35,6 +35,24 @@ pub enum StageError {
         /// The most that the user can have.
         most: u32,
     },
+    /// A shader binds more storage buffers than the device allows, with the stage's own. Put several
+    /// arrays into one buffer, give them the visibility of the shader stages that read them, or
+    /// open the device with higher limits ([`crate::DeviceLimits::Highest`]).
+    #[error(
+        "{got} storage buffers are too many for `{function}`: the device allows {most} besides the \
+         stage's {own}; put several arrays into one buffer, or open the device with a higher \
+         max_storage_buffers_per_shader_stage"
+    )]
+    TooManyStorageBuffers {
+        /// The user's function.
+        function: &'static str,
+        /// Storage buffers of the user.
+        got: u32,
+        /// The most that the user can have.
+        most: u32,
+        /// Storage buffers of the stage.
+        own: u32,
+    },
     /// The user's WGSL is not valid.
     #[error("{}", invalid(*line, message))]
     Wgsl {
@@ -46,7 +64,7 @@ pub enum StageError {
     },
     /// The user's WGSL has no fragment shader, or lacks the one that was asked for, or has several
     /// of which none was chosen with
-    /// [`StageBuilder::fragment`](crate::stage::StageBuilder::fragment).
+    /// [`MaterialBuilder::fragment`](crate::stage::MaterialBuilder::fragment).
     #[error("{}", unclear(asked.as_deref(), found))]
     UnclearFragment {
         /// The name that was asked for.
@@ -118,29 +136,56 @@ pub enum StageError {
     #[error("the factors of this stage do not come from the host; make it with Factors::Host")]
     NotHostFactors,
     /// The user's WGSL has no function of the name that was passed to
-    /// [`StageBuilder::project`](crate::stage::StageBuilder::project).
+    /// [`MaterialBuilder::project`](crate::stage::MaterialBuilder::project).
     #[error("your WGSL has no function `{name}`; write `fn {name}(vertex: Vertex) -> Vertex`")]
     NoSuchFunction {
         /// The name.
         name: String,
     },
-    /// A stage that was made with
-    /// [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) has a different domain or
-    /// configuration from the other stage or, if points are evaluated, a different `struct Vertex`.
+    /// Points are evaluated, and the material's `struct Vertex` differs from the stage's. Names may
+    /// differ.
     #[error(
-        "a stage can draw another's output only if both have the same domain and configuration and, \
-         if points are evaluated, a `struct Vertex` with the same types and locations"
+        "the material's `struct Vertex` has other members than the stage's, whose vertices it draws; \
+         give it members of the same types and locations, in the same order"
     )]
-    OtherOutput,
-    /// A stage that was made with
-    /// [`StageBuilder::output_of`](crate::stage::StageBuilder::output_of) cannot be prepared or
-    /// changed. Prepare the other stage, once for all stages that draw its output.
-    #[error("this stage draws the output of another; prepare and change that one")]
-    DrawsAnother,
-    /// Drawing without the stage's pipeline needs stored points and indices. Leave out `points`, or
-    /// choose `Points::Evaluated`.
+    OtherVertex,
+    /// Materials of one stage differ in whether they call a function of
+    /// [`MaterialBuilder::project`](crate::stage::MaterialBuilder::project), and those without did
+    /// not ask for it with
+    /// [`MaterialBuilder::unprojected`](crate::stage::MaterialBuilder::unprojected).
+    #[error("{}", forgotten(function.as_deref()))]
+    ProjectForgotten {
+        /// The function of this material; `None` if others have one and this has none.
+        function: Option<String>,
+    },
+    /// The frame was prepared by another stage than the material was made from.
     #[error(
-        "to draw without the stage's pipeline, points and indices have to be stored; leave out `points`"
+        "the material was made from another stage than the frame; after a stage is replaced, make \
+         its materials again with `stage.material`"
+    )]
+    OtherStage,
+    /// The stage has prepared another frame since.
+    #[error(
+        "frame {frame} cannot be drawn any more, because its stage has prepared frame {last}; draw \
+         the frame that the last `prepare` returned"
+    )]
+    OldFrame {
+        /// Number of the frame.
+        frame: u64,
+        /// Number of the last frame.
+        last: u64,
+    },
+    /// The stage of the frame or of the material was dropped.
+    #[error(
+        "the stage of the frame or of the material is gone; prepare the stage that replaces it, and \
+         make its materials again with `stage.material`"
+    )]
+    StageGone,
+    /// An engine's vertex shader can read only stored points. Leave out `points`, or choose
+    /// [`Points::Evaluated`](crate::stage::Points).
+    #[error(
+        "a vertex shader of your own pipeline reads stored points; leave out `points`, or choose \
+         `Points::Evaluated`"
     )]
     NothingStored,
 }
@@ -164,6 +209,21 @@ fn invalid(line: Option<u32>, message: &str) -> String {
 
 fn or_none(names: &[String]) -> String {
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+/// The message about materials of which one calls a function of `project` and another does not.
+fn forgotten(function: Option<&str>) -> String {
+    let remedy = "or `.unprojected()` if `domain` returns positions in clip space";
+    match function {
+        None => format!(
+            "other materials of this stage have `.project(...)`, and this one does not; add \
+             `.project(...)`, {remedy}"
+        ),
+        Some(name) => format!(
+            "this material has `.project(\"{name}\")`, and an earlier one of its stage does not; \
+             add `.project(...)` to that one, {remedy}"
+        ),
+    }
 }
 
 /// The message about a missing or unclear fragment shader, with those that exist.

@@ -20,9 +20,9 @@
 
 use super::builder::StageBuilder;
 use super::choices::Points;
+use super::user_groups::UserGroups;
 use super::vertex::VertexLayout;
-use super::{UserGroup, mistakes, modules, passes, source, wgsl};
-use crate::device::pipelines::PipelineKey;
+use super::{mistakes, modules, passes, source, wgsl};
 use crate::device::{gpu, pipeline};
 use crate::error::Error;
 use crate::{Batch, Tessellator};
@@ -62,8 +62,9 @@ impl Evaluation {
         if builder.points != Points::Evaluated {
             return Ok(None);
         }
-        let (user, own_group) = (builder.source, builder.own_group());
-        let has_factors = source::uses(user, "tess_factors");
+        let program = &builder.program;
+        let (user, own_group, has_factors) =
+            (program.source, program.own_group(), program.has_factors());
         let mut accesses = vec![(0, Access::Read), (1, Access::ReadWrite)];
         accesses.extend([(2, Access::Read), (3, Access::Read)]);
         accesses.extend(has_factors.then_some((source::FACTORS_BINDING, Access::Read)));
@@ -71,13 +72,8 @@ impl Evaluation {
         let declared = wgsl::declarations(user);
         let reached = wgsl::reached(&declared, &["domain"]).into_iter().map(|one| one.text);
         let text = |user: &str| source::of_evaluation(user, builder.setup().domain, own_group);
-        let mut key = PipelineKey {
-            text: text(&reached.collect::<String>()),
-            entry_point: "tess_evaluate",
-            layouts: builder.layouts.clone(),
-            constants: builder.constants_of(&declared),
-        };
-        key.layouts.push(layout.clone());
+        let text_of_it = text(&reached.collect::<String>());
+        let key = program.key(text_of_it, "tess_evaluate", Some(&layout));
         let found = tessellator.pipelines().passes.find(&key);
         let pipeline = match found {
             Some(pipeline) => pipeline,
@@ -85,6 +81,7 @@ impl Evaluation {
                 let device = tessellator.device();
                 let module = modules::user_module(device, "domain", user, text(user)).await?;
                 passes::pipeline(tessellator, key, || Ok(module))
+                    .map_err(|error| mistakes::counted(error, "domain", 4 + u32::from(has_factors)))
                     .map_err(|error| mistakes::explained(error, user, "COMPUTE"))?
             }
         };
@@ -138,7 +135,7 @@ impl Evaluation {
     pub(super) fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        user: &[UserGroup],
+        user: &UserGroups,
         windows: &[Window],
     ) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -146,7 +143,7 @@ impl Evaluation {
             timestamp_writes: None,
         });
         pass.set_pipeline(&self.pipeline);
-        for (number, (group, offsets)) in (0..self.own_group).zip(user) {
+        for (number, group, offsets) in user.iter().take(self.own_group as usize) {
             pass.set_bind_group(number, group, offsets);
         }
         for Window { group, workgroups } in windows {

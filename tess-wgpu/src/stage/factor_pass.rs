@@ -5,7 +5,8 @@ use super::builder::StageBuilder;
 use super::choices::Factors;
 use super::passes;
 use super::room::Form;
-use super::{UserGroup, mistakes, modules, source, wgsl};
+use super::user_groups::UserGroups;
+use super::{mistakes, modules, source, wgsl};
 use crate::Tessellator;
 use crate::device::pipelines::PipelineKey;
 use crate::device::{gpu, pipeline};
@@ -52,7 +53,7 @@ impl FactorPass {
             Factors::Hull => {
                 let (layout, own) = passes::bind(tessellator, "hull", &own)?;
                 let pipeline = hull(builder, setup, tessellator, layout).await?;
-                let own_group = builder.own_group();
+                let own_group = builder.program.own_group();
                 return Ok(Self { pipeline, own, own_group, workgroups, host: None });
             }
             Factors::Host => {
@@ -76,13 +77,13 @@ impl FactorPass {
     }
 
     /// Records the pass; `user` are the user's bind groups.
-    pub(super) fn encode(&self, encoder: &mut wgpu::CommandEncoder, user: &[UserGroup]) {
+    pub(super) fn encode(&self, encoder: &mut wgpu::CommandEncoder, user: &UserGroups) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("factors"),
             timestamp_writes: None,
         });
         pass.set_pipeline(&self.pipeline);
-        for (number, (group, offsets)) in (0..self.own_group).zip(user) {
+        for (number, group, offsets) in user.iter().take(self.own_group as usize) {
             pass.set_bind_group(number, group, offsets);
         }
         pass.set_bind_group(self.own_group, &self.own, &[]);
@@ -98,21 +99,17 @@ async fn hull(
     tessellator: &Tessellator,
     layout: wgpu::BindGroupLayout,
 ) -> Result<Arc<wgpu::ComputePipeline>, Error> {
-    let (user, own_group) = (builder.source, builder.own_group());
+    let program = &builder.program;
+    let (user, own_group) = (program.source, program.own_group());
     let declared = wgsl::declarations(user);
     let reached = wgsl::reached(&declared, &["hull"]).into_iter().map(|one| one.text);
-    let mut key = PipelineKey {
-        text: source::of_hull(&reached.collect::<String>(), setup.domain, own_group),
-        entry_point: "tess_hull",
-        layouts: builder.layouts.clone(),
-        constants: builder.constants_of(&declared),
-    };
-    key.layouts.push(layout);
+    let text = |user: &str| source::of_hull(user, setup.domain, own_group);
+    let key = program.key(text(&reached.collect::<String>()), "tess_hull", Some(&layout));
     if let Some(pipeline) = tessellator.pipelines().passes.find(&key) {
         return Ok(pipeline);
     }
-    let joined = source::of_hull(user, setup.domain, own_group);
-    let module = modules::user_module(tessellator.device(), "hull", user, joined).await?;
+    let module = modules::user_module(tessellator.device(), "hull", user, text(user)).await?;
     passes::pipeline(tessellator, key, || Ok(module))
+        .map_err(|error| mistakes::counted(error, "hull", 2))
         .map_err(|error| mistakes::explained(error, user, "COMPUTE"))
 }

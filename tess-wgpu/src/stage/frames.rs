@@ -2,7 +2,7 @@
 
 use super::feedback::{self, Feedback};
 use super::output::{StageOutput, Stored};
-use super::{PatchCount, Room, StageError, TessellationStage, fit, locked};
+use super::{Frame, PatchCount, Room, StageError, TessellationStage, fit, locked};
 use crate::Gpu;
 use crate::device::gpu;
 use crate::error::Error;
@@ -14,10 +14,10 @@ const INSTANCES_AT: u64 = 4;
 
 impl TessellationStage {
     /// Records the compute passes of a frame: factors, tessellation and, with
-    /// [`Points::Evaluated`](super::Points), the vertices. Call it before the render pass that
-    /// draws the stage, with the same encoder or with one that is submitted earlier. The passes'
-    /// time depends on what is drawn and, a little, on the most patches that the stage was made
-    /// for.
+    /// [`Points::Evaluated`](super::Points), the vertices. Returns the frame for
+    /// [`Material::draw`](super::Material::draw). Call it before the render passes that draw the
+    /// frame, with the same encoder or with one that is submitted earlier. The passes' time depends
+    /// on what is drawn and, a little, on the most patches that the stage was made for.
     ///
     /// The encoder may be dropped instead of submitted; later frames do not depend on it. It must
     /// belong to the stage's device. An encoder of another device is refused here if it also
@@ -25,15 +25,14 @@ impl TessellationStage {
     ///
     /// # Errors
     /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
-    /// [`StageError::OtherDevice`]; [`StageError::DrawsAnother`] for a stage that draws another's
-    /// output; [`Error::OutOfMemory`] or [`Error::DeviceLost`]. On an error nothing is recorded,
-    /// and the last prepared frame can still be drawn.
+    /// [`StageError::OtherDevice`]; [`Error::OutOfMemory`] or [`Error::DeviceLost`]. On an error
+    /// nothing is recorded, and the last prepared frame can still be drawn.
     pub fn prepare<'a>(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         patches: impl Into<PatchCount<'a>>,
-    ) -> Result<(), Error> {
-        locked(&self.feedback).take(&self.device, self.frame)?;
+    ) -> Result<Frame, Error> {
+        locked(&self.feedback).take(self.device(), self.frames.get())?;
         self.record(encoder, patches.into())
     }
 
@@ -41,35 +40,35 @@ impl TessellationStage {
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         patches: PatchCount<'_>,
-    ) -> Result<(), Error> {
-        if self.factor_pass.is_none() {
-            return Err(StageError::DrawsAnother.into());
-        }
+    ) -> Result<Frame, Error> {
         let (count, offset) = self.count_words(patches)?;
-        locked(&self.feedback).reserve(&self.device)?;
-        if let Some((groups, output)) = self.next.take() {
-            self.groups = groups;
-            *locked(&self.output) = output;
-            self.begins = None;
-        }
+        locked(&self.feedback).reserve(self.device())?;
         self.adapt()?;
-        gpu::recorded(&self.device, || {
-            encoder.copy_buffer_to_buffer(&count, offset, &self.count, 0, 4);
+        self.regroup()?;
+        gpu::recorded(self.device(), || {
+            encoder.copy_buffer_to_buffer(&count, offset, &self.passes.count, 0, 4);
             self.encode(encoder);
         })?;
-        self.frame += 1;
-        Ok(())
+        let (number, stage) = (self.frames.next(), self.frames.downgrade());
+        Ok(Frame { number, output: self.output.clone(), stage })
     }
 
-    /// Records a frame's passes, for the number of patches in `self.count`.
+    /// Makes what a device's first frame would wait for: the memory that feedback is read from, and
+    /// whatever wgpu and the driver make when commands are first recorded. The commands are dropped.
+    pub(super) fn warm_up(&self) -> Result<(), Error> {
+        locked(&self.feedback).reserve(self.device())?;
+        let mut encoder = self.device().create_command_encoder(&Default::default());
+        gpu::recorded(self.device(), || self.encode(&mut encoder))
+    }
+
+    /// Records a frame's passes, for the number of patches in `count`.
     fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        if let Some(pass) = &self.factor_pass {
-            pass.encode(encoder, &self.bind_groups);
-        }
-        if let Some(fit) = &self.fit {
+        let passes = &self.passes;
+        passes.write.encode(encoder, &self.bind_groups);
+        if let Some(fit) = &passes.fit {
             fit.encode(encoder);
         }
-        let StageOutput { batch, windows, .. } = self.output();
+        let StageOutput { batch, windows, .. } = &self.output;
         if let Some(begins) = &self.begins {
             let groups = batch.buffers().of(Resource::Groups);
             encoder.copy_buffer_to_buffer(begins, 0, groups, 0, begins.size());
@@ -77,17 +76,17 @@ impl TessellationStage {
         batch.encode(encoder);
         if let Some(instances) = &self.instances {
             let all = (batch.draw_arguments(), 0);
-            let groups = 0..u64::from(batch.plan().groups());
+            let groups = 0..u64::from(self.output.groups());
             let groups = groups.map(|group| (batch.group_arguments(), Self::GROUP_BYTES * group));
             for (arguments, at) in [all].into_iter().chain(groups) {
                 encoder.copy_buffer_to_buffer(instances, 0, arguments, at + INSTANCES_AT, 4);
             }
         }
-        if let Some(evaluation) = &self.evaluation {
-            evaluation.encode(encoder, &self.bind_groups, &windows);
+        if let Some(evaluation) = &passes.evaluation {
+            evaluation.encode(encoder, &self.bind_groups, windows);
         }
-        let of = (&*batch, self.fit.as_ref());
-        locked(&self.feedback).record(encoder, of, self.frame);
+        let of = (&**batch, passes.fit.as_ref());
+        locked(&self.feedback).record(encoder, of, self.frames.get());
     }
 
     /// Makes the room that a frame needs before it is drawn. This runs a frame's compute passes,
@@ -123,34 +122,39 @@ impl TessellationStage {
     }
 
     fn gpu(&self, queue: &wgpu::Queue) -> Gpu {
-        let info = self.device.adapter_info();
-        Gpu { device: self.device.clone(), queue: queue.clone(), info }
+        let device = self.device().clone();
+        let info = device.adapter_info();
+        Gpu { device, queue: queue.clone(), info }
     }
 
     /// Runs a frame, waits for its numbers and makes room for it.
     async fn run_once(&mut self, gpu: &Gpu, patches: PatchCount<'_>) -> Result<Feedback, Error> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let frame = self.frame;
-        self.record(&mut encoder, patches)?;
+        let Frame { number, output, .. } = self.record(&mut encoder, patches)?;
         gpu.submit(encoder)?;
-        let batch = self.output().batch;
-        let found = feedback::wait(gpu, (&batch, self.fit.as_ref()), frame).await?;
+        let of = (&*output.batch, self.passes.fit.as_ref());
+        let found = feedback::wait(gpu, of, number).await?;
         locked(&self.feedback).arrived(Some(found));
         self.adapt()?;
         Ok(found)
     }
 
-    /// An output whose batch has these groups and writes these buffers.
-    pub(super) fn new_output(
-        &mut self,
-        room: Capacity,
-        groups: &[u32],
-        stored: Stored,
-    ) -> Result<StageOutput, Error> {
-        let of_batch = (&self.factors, groups);
-        let own = self.output().own;
-        let more = (self.evaluation.as_ref(), &own);
-        StageOutput::new(&mut self.tessellator, self.form, (room, stored), of_batch, more)
+    /// An output whose batch writes these buffers, with the groups that were set last.
+    fn new_output(&mut self, room: Capacity, stored: Stored) -> Result<StageOutput, Error> {
+        let of_batch = (&self.passes.factors, &self.groups[..]);
+        let evaluation = self.passes.evaluation.as_ref();
+        StageOutput::new(&mut self.tessellator, self.form, (room, stored), of_batch, evaluation)
+    }
+
+    /// Makes an output with the groups that were set last, if the present one has another number of
+    /// groups. The room stays.
+    fn regroup(&mut self) -> Result<(), Error> {
+        if self.output.groups() as usize != self.groups.len() {
+            let StageOutput { room, stored, .. } = self.output.clone();
+            self.output = self.new_output(room, stored)?;
+            self.begins = None;
+        }
+        Ok(())
     }
 
     /// Grows the room if the latest frame needed nearly all of it and the budget allows, or shrinks
@@ -176,13 +180,11 @@ impl TessellationStage {
 
     /// Replaces the output by one with this room. On an error nothing changes.
     fn make_output(&mut self, room: Capacity) -> Result<(), Error> {
-        let words = fit::room_words(&self.device, room)?;
-        let stored = Stored::new(&self.device, self.form, room)?;
-        let groups = self.groups.clone();
-        let output = self.new_output(room, &groups, stored)?;
-        *locked(&self.output) = output;
+        let words = fit::room_words(self.device(), room)?;
+        let stored = Stored::new(self.device(), self.form, room)?;
+        self.output = self.new_output(room, stored)?;
         self.begins = None;
-        if let Some(fit) = &mut self.fit {
+        if let Some(fit) = &mut self.passes.fit {
             fit.set_room(words);
         }
         Ok(())
@@ -197,7 +199,7 @@ impl TessellationStage {
                     return Err(StageError::TooManyPatches { got, most }.into());
                 }
                 let bytes = got.to_le_bytes();
-                Ok((gpu::filled(&self.device, "patches", &bytes, Usage::COPY_SRC)?, 0))
+                Ok((gpu::filled(self.device(), "patches", &bytes, Usage::COPY_SRC)?, 0))
             }
             PatchCount::Device(buffer, offset) => {
                 let (size, usage) = (buffer.size(), buffer.usage());

@@ -3,7 +3,7 @@
 use super::TessellationStage;
 use super::evaluation::{Evaluation, Window};
 use super::gl;
-use super::own_group::OwnGroups;
+use super::own_group::{OwnGroups, OwnLayout};
 use super::room::Form;
 use crate::device::gpu;
 use crate::error::Error;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 use tess_gpu::Capacity;
 use wgpu::BufferUsages as Usage;
 
-/// A batch with room for its output. All stages that draw it share it; a clone is another handle.
+/// A batch with room for its output. The frames that it runs share it; a clone is another handle.
 #[derive(Clone, Debug)]
 pub(super) struct StageOutput {
     pub(super) room: Capacity,
@@ -20,7 +20,7 @@ pub(super) struct StageOutput {
     pub(super) stored: Stored,
     pub(super) windows: Arc<[Window]>,
     /// Bind groups of the draws.
-    pub(super) own: OwnGroups,
+    own: Arc<OwnGroups>,
 }
 
 /// The buffers that a batch writes and a draw reads; `None` where a stage has none.
@@ -68,14 +68,13 @@ impl Stored {
 }
 
 impl StageOutput {
-    /// `factors` and the groups' first patches are those of the batch; `own` has the layouts of the
-    /// draws' bind groups.
+    /// `factors` and the groups' first patches are those of the batch.
     pub(super) fn new(
         tessellator: &mut Tessellator,
         form: Form,
         (room, stored): (Capacity, Stored),
         (factors, groups): (&wgpu::Buffer, &[u32]),
-        (evaluation, own): (Option<&Evaluation>, &OwnGroups),
+        evaluation: Option<&Evaluation>,
     ) -> Result<Self, Error> {
         let outputs = match (&stored.points, &stored.indices) {
             (Some(points), Some(indices)) => Outputs::Buffers { points, indices },
@@ -91,19 +90,27 @@ impl StageOutput {
             }
             _ => Vec::new(),
         };
-        let own = own.with(tessellator, form, (&batch, factors))?;
-        Ok(Self { room, batch: Arc::new(batch), stored, windows: windows.into(), own })
+        let (batch, windows, own) = (Arc::new(batch), windows.into(), Arc::default());
+        Ok(Self { room, batch, stored, windows, own })
+    }
+
+    /// The number of groups that can be drawn one by one.
+    pub(super) fn groups(&self) -> u32 {
+        self.batch.plan().groups()
+    }
+
+    /// The stage's bind group of a draw with this layout.
+    pub(super) fn own(
+        &self,
+        device: &wgpu::Device,
+        layout: &OwnLayout,
+    ) -> Result<&wgpu::BindGroup, Error> {
+        self.own.of(device, layout, &self.batch)
     }
 
     /// Draws with the arguments of the whole batch or of one of its groups. The caller has set the
-    /// pipeline and the user's bind groups; `own` is the number of the stage's bind group, and the
-    /// group.
-    pub(super) fn draw(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        own: Option<(u32, &wgpu::BindGroup)>,
-        of_group: Option<u32>,
-    ) {
+    /// pipeline and all bind groups.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, of_group: Option<u32>) {
         let (arguments, offset) = match of_group {
             None => (self.batch.draw_arguments(), 0),
             Some(group) => {
@@ -112,9 +119,6 @@ impl StageOutput {
         };
         if let Some(vertices) = self.stored.loaded().or(self.stored.unread.as_ref()) {
             pass.set_vertex_buffer(0, vertices.slice(..));
-        }
-        if let Some((number, group)) = own {
-            pass.set_bind_group(number, group, &[]);
         }
         match &self.stored.indices {
             Some(indices) => {

@@ -1,8 +1,9 @@
 //! The stage's own bind group of a draw, which follows the user's: the buffers that points are
 //! pulled from, and the factors that `tess_factors` reads.
 //!
-//! A stage and those that draw its output may differ in whether they read factors, so there are up
-//! to two groups. They are made again with the batch whenever the room changes.
+//! Materials of one stage may differ in whether they read factors, so there are up to two groups.
+//! Each output has its own, made when a draw first needs it. Layouts and groups are made from the
+//! same list ([`bindings`]).
 
 use super::choices::Points;
 use super::room::Form;
@@ -10,30 +11,29 @@ use super::source::FACTORS_BINDING;
 use crate::device::pipeline;
 use crate::error::Error;
 use crate::{Batch, Tessellator};
+use std::sync::OnceLock;
 use tess_gpu::layout::Job;
 use tess_gpu::{Access, Binding, Pull, Resource, Span};
 
-/// The bind groups without and with the factors, if a stage asked for them ([`OwnGroups::ask`]).
-#[derive(Clone, Debug, Default)]
-pub(super) struct OwnGroups {
-    layouts: [Option<wgpu::BindGroupLayout>; 2],
-    groups: [Option<wgpu::BindGroup>; 2],
+/// The layout of the own bind group of a material's draws.
+#[derive(Clone, Debug)]
+pub(super) struct OwnLayout {
+    form: Form,
+    has_factors: bool,
+    layout: wgpu::BindGroupLayout,
 }
 
-impl OwnGroups {
-    /// The layout for a stage that reads the factors or not; `None` if its draws bind nothing.
-    pub(super) fn ask(
-        &mut self,
+/// The bind groups of one output: without and with the factors.
+#[derive(Debug, Default)]
+pub(super) struct OwnGroups([OnceLock<wgpu::BindGroup>; 2]);
+
+impl OwnLayout {
+    /// The layout for a material that reads the factors or not; `None` if its draws bind nothing.
+    pub(super) fn new(
         tessellator: &Tessellator,
         form: Form,
         has_factors: bool,
-    ) -> Result<Option<wgpu::BindGroupLayout>, Error> {
-        let pulled = if form.points.are_written() { 0 } else { usize::MAX };
-        let mut bindings: Vec<_> = pull().bindings(form.setup).take(pulled).collect();
-        bindings.extend(has_factors.then_some((FACTORS_BINDING, Resource::Factors)));
-        if bindings.is_empty() {
-            return Ok(None);
-        }
+    ) -> Result<Option<Self>, Error> {
         let entry = |(number, resource)| {
             let visibility = match resource {
                 Resource::Factors => wgpu::ShaderStages::VERTEX_FRAGMENT,
@@ -41,47 +41,57 @@ impl OwnGroups {
             };
             pipeline::entry(number, Binding(resource, Access::Read), visibility)
         };
-        let entries = bindings.into_iter().map(entry).collect();
-        let layout = tessellator.pipelines().layout("of draws", entries)?;
-        self.layouts[usize::from(has_factors)] = Some(layout.clone());
-        Ok(Some(layout))
-    }
-
-    /// The same layouts, with bind groups for this batch.
-    pub(super) fn with(
-        &self,
-        tessellator: &Tessellator,
-        form: Form,
-        (batch, factors): (&Batch, &wgpu::Buffer),
-    ) -> Result<Self, Error> {
-        let mut made = self.clone();
-        let is_pulled = !form.points.are_written();
-        for (has_factors, layout) in [false, true].into_iter().zip(&self.layouts) {
-            let Some(layout) = layout else { continue };
-            let bound = |(number, resource)| match resource {
-                Resource::Job => {
-                    let job = Span { offset: 0, size: size_of::<Job>() as u64 };
-                    (number, batch.buffers().bound(resource, job))
-                }
-                _ => (number, batch.buffers().of(resource).as_entire_binding()),
-            };
-            let pulled = pull().bindings(form.setup).filter(|_| is_pulled).map(bound);
-            let factors = has_factors.then(|| (FACTORS_BINDING, factors.as_entire_binding()));
-            let group =
-                pipeline::group(tessellator.device(), "of draws", layout, pulled.chain(factors))?;
-            made.groups[usize::from(has_factors)] = Some(group);
+        let entries: Vec<_> = bindings(form, has_factors).map(entry).collect();
+        if entries.is_empty() {
+            return Ok(None);
         }
-        Ok(made)
+        let layout = tessellator.pipelines().layout("of draws", entries)?;
+        Ok(Some(Self { form, has_factors, layout }))
     }
 
-    /// The group of a stage that reads the factors or not.
-    pub(super) const fn of(&self, has_factors: bool) -> Option<&wgpu::BindGroup> {
-        self.groups[has_factors as usize].as_ref()
+    /// The number of storage buffers that a vertex shader binds.
+    pub(super) fn storage_buffers(&self) -> u32 {
+        let storage = bindings(self.form, self.has_factors).filter(|one| one.1 != Resource::Job);
+        u32::try_from(storage.count()).unwrap_or(u32::MAX)
+    }
+
+    pub(super) const fn layout(&self) -> &wgpu::BindGroupLayout {
+        &self.layout
     }
 }
 
-const fn pull() -> Pull {
-    Pull { group: 0, first_binding: 0 }
+impl OwnGroups {
+    /// The group of this layout over a batch, to which `self` belongs.
+    pub(super) fn of(
+        &self,
+        device: &wgpu::Device,
+        of: &OwnLayout,
+        batch: &Batch,
+    ) -> Result<&wgpu::BindGroup, Error> {
+        let OwnLayout { form, has_factors, layout } = of;
+        let made = &self.0[usize::from(*has_factors)];
+        if let Some(group) = made.get() {
+            return Ok(group);
+        }
+        let bound = |(number, resource)| match resource {
+            Resource::Job => {
+                let job = Span { offset: 0, size: size_of::<Job>() as u64 };
+                (number, batch.buffers().bound(resource, job))
+            }
+            _ => (number, batch.buffers().of(resource).as_entire_binding()),
+        };
+        let bindings = bindings(*form, *has_factors).map(bound);
+        let group = pipeline::group(device, "of draws", layout, bindings)?;
+        Ok(made.get_or_init(|| group))
+    }
+}
+
+/// The bindings of a draw, by number.
+fn bindings(form: Form, has_factors: bool) -> impl Iterator<Item = (u32, Resource)> {
+    let pulled = if form.points.are_written() { 0 } else { usize::MAX };
+    let pull = Pull { group: 0, first_binding: 0 };
+    let factors = has_factors.then_some((FACTORS_BINDING, Resource::Factors));
+    pull.bindings(form.setup).take(pulled).chain(factors)
 }
 
 /// Whether draws need the stage's own bind group.

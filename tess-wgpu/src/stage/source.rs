@@ -82,7 +82,7 @@ impl VertexShader<'_> {
     }
 
     /// The text after the types and helpers, with the parts that the user's choices fill in.
-    fn own(self) -> String {
+    pub(crate) fn own(self) -> String {
         let Self { setup, group, .. } = self;
         let pull = || Pull { group, first_binding: 0 }.source_for_drawing(setup);
         let [loaded, vertex] = self.vertices.loads();
@@ -133,11 +133,15 @@ pub(crate) fn joined(user: &str, own: &str) -> String {
     [user, TYPES, HELPERS, own].join("\n")
 }
 
-/// Refuses a user's text that declares a built-in name of WGSL that the stage's text uses.
-pub(crate) fn check_names(user: &str, shader: VertexShader<'_>) -> Result<(), StageError> {
-    let domain = shader.setup.domain;
-    let own = joined("", &own_of_hull(domain, 0)) + &own_of_evaluation(0) + &shader.own();
-    match wgsl::shadowed(user, &own) {
+/// The text of the compute passes of a stage, apart from the user's text.
+pub(crate) fn own_of_passes(domain: Domain) -> String {
+    own_of_hull(domain, 0) + &own_of_evaluation(0)
+}
+
+/// Refuses a user's text that declares a built-in name of WGSL that the stage's text uses: the
+/// helpers, or `own`.
+pub(crate) fn check_names(user: &str, own: &str) -> Result<(), StageError> {
+    match wgsl::shadowed(user, &joined("", own)) {
         None => Ok(()),
         Some(wgsl::Declaration { name, line, .. }) => Err(StageError::Wgsl {
             line: Some(line),

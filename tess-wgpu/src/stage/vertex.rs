@@ -236,6 +236,13 @@ fn resolved<'a>(kind: &[&'a str], declared: &[Declaration<'a>]) -> Vec<&'a str> 
     words
 }
 
+/// The words of a type, with aliases replaced and vectors in one form: `vec2<f32>` for `vec2f`.
+pub(super) fn plain_type<'a>(kind: &[&'a str], declared: &[Declaration<'a>]) -> Vec<&'a str> {
+    let words = resolved(kind, declared);
+    let found = KINDS.iter().find(|one| scalar_and_count(&words) == Some((one.0, one.1)));
+    found.map_or(words, |one| vec![one.3])
+}
+
 /// The scalar of a type, and the number of its components.
 fn scalar_and_count<'a>(words: &[&'a str]) -> Option<(&'a str, u64)> {
     let count = |word: &str| word.strip_prefix("vec")?.parse().ok().filter(|n| (2..=4).contains(n));

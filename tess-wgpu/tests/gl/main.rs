@@ -7,6 +7,8 @@
 #![expect(clippy::float_arithmetic, reason = "pixels and factors are floats")]
 
 mod batches;
+#[path = "../stage/both.rs"]
+mod both;
 mod choice;
 #[path = "../common/mod.rs"]
 mod common;

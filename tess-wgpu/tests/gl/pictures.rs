@@ -1,10 +1,11 @@
 //! The stage on OpenGL.
 
+use crate::both::Both;
 use crate::model::{self, compare};
 use crate::scene::{PATCHES, Scene, source};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_wgpu::stage::{Points, StageError};
-use tess_wgpu::{Error, Gpu, TessellationStage};
+use tess_wgpu::{Error, Gpu};
 
 const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
 
@@ -41,7 +42,7 @@ pub(crate) fn every_way_to_draw(gpu: Gpu) {
 }
 
 /// Draws with another pipeline, whose vertex buffers are dropped afterwards.
-fn leave_locations_enabled(scene: &Scene, stage: &mut TessellationStage) {
+fn leave_locations_enabled(scene: &Scene, stage: &mut Both) {
     const WGSL: &str = "
         @vertex
         fn place(@location(0) a: f32, @location(5) b: f32) -> @builtin(position) vec4<f32> {

@@ -119,7 +119,6 @@ impl Ball {
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
         let stage = TessellationStage::builder(&source, Domain::Quad, config, QUADS)
             .bind_group(&users, &group)
-            .target(wgpu::TextureFormat::Rgba8Unorm)
             .room(Room::WorstCase)
             .build(&gpu.device)
             .unwrap_or_else(|error| panic!("{error}"));

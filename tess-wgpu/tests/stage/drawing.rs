@@ -156,42 +156,43 @@ fn an_engine_draws_groups_with_its_own_pipeline() {
 }
 
 fn an_engine_draws(scene: &Scene, points: Points) {
-    let builder = scene.builder().points(points);
+    let builder = scene.builder().points(points).groups(&[0]).of_stage();
     let layout = builder.vertex_layout().expect("a sound struct");
-    let shader = builder.vertex_shader().expect("a sound struct");
+    let shader = builder.vertex_shader(None).expect("a sound struct");
     let pipeline = scene.pipeline(shader, "tess_vertex", &[Some(layout.buffer())]);
-    let mut stage = scene.build(builder.groups(&[0]).without_pipeline());
-    assert_eq!(stage.vertex_layout(), &layout, "of the stage too");
+    let mut stage = builder.build(&scene.gpu.device).unwrap_or_else(|error| panic!("{error}"));
+    let mut picture = |groups: &[u32], arguments: fn(&TessellationStage) -> wgpu::Buffer, at| {
+        stage.set_groups(groups).expect("they ascend");
+        let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
+        stage.prepare(&mut encoder, PATCHES).expect("it is prepared");
+        let observed = scene.draw_only(encoder, |pass| {
+            let vertices = stage.vertices().expect("they are stored");
+            let indices = stage.indices().expect("they are stored");
+            pass.set_pipeline(&pipeline);
+            pass.set_vertex_buffer(0, vertices.slice(..));
+            pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed_indirect(&arguments(&stage), at);
+        });
+        observed.expect("it draws")
+    };
     // The last groups are as many as those before.
     for groups in [&[0, 3, 6][..], &[0, 1, 1, 7], &[2], &[5]] {
-        stage.set_groups(groups).expect("they ascend");
         let ends = groups[1..].iter().copied().chain([PATCHES]);
         for (group, range) in groups.iter().zip(ends).map(|(&begin, end)| begin..end).enumerate() {
-            let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
-                let vertices = stage.vertices().expect("they are stored");
-                let indices = stage.indices().expect("they are stored");
-                pass.set_pipeline(&pipeline);
-                pass.set_vertex_buffer(0, vertices.slice(..));
-                pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
-                let at = TessellationStage::GROUP_BYTES * group as u64;
-                pass.draw_indexed_indirect(&stage.group_indirect(), at);
-            });
+            let at = TessellationStage::GROUP_BYTES * group as u64;
+            let observed = picture(groups, TessellationStage::group_indirect, at);
             let mut patches = vec![PatchFactors::uniform(Domain::Quad, 0.0); 8];
             let range = range.start as usize..range.end as usize;
             patches[range.clone()].clone_from_slice(&scene.patches[range]);
             let expected = scene.pixels(&patches);
-            let observed = observed.expect("it draws");
             assert_eq!(compare(&observed, &expected), Ok(()), "group {group} of {groups:?}");
             let others = scene.pixels(&scene.patches);
             assert!(compare(&observed, &others).is_err(), "all patches would be seen");
         }
     }
-    let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
-        pass.set_pipeline(&pipeline);
-        stage.draw(pass);
-    });
-    let expected = scene.pixels(&scene.patches);
-    assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "the pass's pipeline");
+    let observed = picture(&[0], TessellationStage::indirect, 0);
+    assert_eq!(compare(&observed, &scene.pixels(&scene.patches)), Ok(()), "all of them");
+    assert_eq!(stage.vertex_layout(), &layout, "of the stage too");
 }
 
 /// If the number of groups stays the same, they are copied in the next frame. If they are set again
@@ -226,10 +227,10 @@ fn misplaced_groups_leave_the_stage_as_it_was() {
 }
 
 #[test]
-fn a_stage_without_a_pipeline_stores_its_points() {
+fn a_vertex_shader_for_an_engine_reads_stored_points() {
     let scene = scene(Domain::Quad, Partitioning::Integer);
     for points in [Points::Pull, Points::PullWithoutIndices] {
-        let refused = scene.builder().points(points).without_pipeline().build(&scene.gpu.device);
+        let refused = scene.builder().points(points).of_stage().vertex_shader(None);
         assert_eq!(refused.err(), Some(StageError::NothingStored.into()), "{points:?}");
         let stage = scene.build(scene.builder().points(points));
         assert_eq!(stage.vertices(), None, "{points:?}: the vertex shader computes them");

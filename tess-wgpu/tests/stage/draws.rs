@@ -1,6 +1,5 @@
 //! Values of a draw that the WGSL asks for: the factors, the instance and the view.
 
-use crate::common::device::device_of;
 use crate::common::objects::view_of;
 use crate::drawing::{WAYS, scene};
 use crate::model::compare;
@@ -8,7 +7,7 @@ use crate::room::scaled;
 use crate::scene::{FORMAT, PATCHES, SIZE, Scene, source};
 use tess_core::{Domain, Partitioning};
 use tess_gpu::Capacity;
-use tess_wgpu::stage::{Points, Room, StageError};
+use tess_wgpu::stage::{Frame, Points, Room, StageError};
 use tess_wgpu::{DeviceLimits, Error, Gpu};
 use wgpu::BufferUsages as Usage;
 
@@ -244,45 +243,98 @@ fn vertices_that_no_buffer_holds_are_refused() {
     assert_eq!(refused(&scene, &far, Points::Evaluated, None), expected);
 }
 
+/// The number of groups changes before a material is made that reads what no other does: its bind
+/// group, too, belongs to the output that is drawn.
 #[test]
-fn a_stage_that_draws_anothers_output_does_nothing_else() {
-    let quads = scene(Domain::Quad, Partitioning::Integer);
-    let mut stage = quads.build(quads.builder().points(Points::Evaluated));
-    let mut other = quads.build(quads.builder().output_of(&stage));
-    let mut encoder = quads.gpu.device.create_command_encoder(&Default::default());
-    let draws = || Error::from(StageError::DrawsAnother);
-    assert_eq!(other.prepare(&mut encoder, PATCHES).err(), Some(draws()));
-    assert_eq!(other.make_room(&quads.gpu.queue, PATCHES).err(), Some(draws()));
-    assert_eq!(other.set_groups(&[0]).err(), Some(draws()));
-    assert_eq!(other.set_instances(2).err(), Some(draws()));
-    let refused = other.set_factors(&mut encoder, &quads.patches).err();
-    assert_eq!(refused, Some(StageError::NotHostFactors.into()));
-    quads.frame(&mut stage, PATCHES.into()).expect("it draws");
-    assert_eq!(other.feedback(), stage.feedback(), "the other's");
-    let mut patched = stage.feedback().expect("the frame ran");
-    patched.drawn += 1;
-    assert_ne!(other.feedback(), Some(patched), "and no else");
+fn a_material_that_is_made_after_other_groups_draws_them() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let text = with_factors(Domain::Quad);
+    for points in WAYS {
+        let mut both = scene.build(scene.builder().points(points).groups(&[0]));
+        both.set_groups(&[0, 3]).expect("they ascend");
+        let other = both.material(&text).bind_group(&scene.layout, &scene.group).target(FORMAT);
+        let other = other.build().unwrap_or_else(|error| panic!("{error}"));
+        for frame in 0..2 {
+            let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
+            both.prepare(&mut encoder, PATCHES).expect("it is prepared");
+            let drawn = scene.draw_only(encoder, |pass| {
+                other.draw_group(pass, both.frame(), 1).expect("the groups are new");
+            });
+            let drawn = drawn.unwrap_or_else(|error| panic!("{points:?}, frame {frame}: {error}"));
+            let patches = drawn.iter().filter(|pixel| pixel[3] == 1).count();
+            assert!(patches > 0, "{points:?}, frame {frame}: nothing is drawn");
+        }
+    }
+}
 
-    let device = &quads.gpu.device;
+#[test]
+fn only_the_last_frame_of_a_materials_own_stage_is_drawn() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let mut stage = scene.build(scene.builder().points(Points::Evaluated));
+    let mut other = scene.build(scene.builder().points(Points::Evaluated));
+    let refusal = |both: &crate::both::Both, frame: &Frame| {
+        let encoder = scene.gpu.device.create_command_encoder(&Default::default());
+        let mut refused = None;
+        let drawn = scene.draw_only(encoder, |pass| {
+            refused = both.material.draw(pass, frame).err();
+        });
+        let pixels = drawn.expect("the pass goes on");
+        assert_eq!(refused.is_some(), crate::model::drawn(&pixels) == 0, "{refused:?}");
+        refused
+    };
+    scene.frame(&mut other, PATCHES.into()).expect("it draws");
+    scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    let first = stage.frame().clone();
+    assert_eq!(refusal(&stage, &first), None, "again");
+    assert_eq!(refusal(&other, &first), Some(StageError::OtherStage.into()));
+    scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    let old = StageError::OldFrame { frame: 0, last: 1 };
+    assert_eq!(refusal(&stage, &first), Some(old.clone().into()));
+    assert!(old.to_string().contains("draw the frame that the last `prepare` returned"), "{old}");
+    stage.make_room(&scene.gpu.queue, PATCHES).expect("the device answers");
+    let last = stage.frame().clone();
+    assert_eq!(refusal(&stage, &last), Some(StageError::OldFrame { frame: 1, last: 2 }.into()));
+    // A hot reload replaces the stage and forgets a material, which holds no part of the new one.
+    let gone = other.frame().clone();
+    drop(std::mem::replace(&mut other, stage));
+    let error = refusal(&other, &gone).expect("nothing stale is drawn");
+    assert_eq!(error, StageError::StageGone.into());
+    assert!(error.to_string().contains("make its materials again"), "{error}");
+}
+
+#[test]
+fn a_material_without_project_among_others_with_it_says_so() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let text = source(Domain::Quad) + "fn seen(vertex: Vertex) -> Vertex { return vertex; }";
+    let stage = scene.builder_of(&text).points(Points::Evaluated).of_stage();
+    let stage = stage.build(&scene.gpu.device).unwrap_or_else(|error| panic!("{error}"));
+    let material = || stage.material(&text).bind_group(&scene.layout, &scene.group).target(FORMAT);
+    let projected = material().project("seen").build().expect("the first");
+    let refused = material().build().map(drop).expect_err("it would be drawn elsewhere");
+    assert_eq!(refused, StageError::ProjectForgotten { function: None }.into());
+    assert!(refused.to_string().contains("add `.project(...)`"), "{refused}");
+    let meant = material().unprojected().build();
+    assert_eq!(meant.map(drop), Ok(()), "as it says");
+    assert_eq!(material().project("seen").build().map(drop), Ok(()), "like the first");
+    drop(projected);
+    let plain = material().build().expect("the others are gone");
+    let refused = material().project("seen").build().map(drop).expect_err("the other way round");
+    let function = Some("seen".to_owned());
+    assert_eq!(refused, StageError::ProjectForgotten { function }.into());
+    assert!(refused.to_string().contains("`.project(\"seen\")`"), "{refused}");
+    drop(plain);
+}
+
+#[test]
+fn a_material_has_the_struct_of_the_stored_vertices() {
+    let quads = scene(Domain::Quad, Partitioning::Integer);
     let wide = source(Domain::Quad)
         .replace("flat) number: u32,", "flat) number: u32, @location(2) more: f32,");
     let wide = wide.replace("uv, number);", "uv, number, 0.0);");
-    let built = quads.builder_of(&wide).output_of(&stage).build(device);
-    assert_eq!(built.err(), Some(StageError::OtherOutput.into()), "another struct");
-    let stored = quads.build(quads.builder());
-    let built = quads.builder_of(&wide).output_of(&stored).build(device);
-    assert_eq!(built.err(), None, "which matters only to stored vertices");
-    let odd = scene(Domain::Quad, Partitioning::FractionalOdd);
-    let built = Scene::on(quads.gpu.clone(), Domain::Quad, odd.config, Vec::new());
-    let built = built.builder().output_of(&stage).build(device);
-    assert_eq!(built.err(), Some(StageError::OtherOutput.into()), "another partitioning");
-    // Two devices of one instance, because devices of two instances can have the same number.
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let [first, second] = [0; 2].map(|_| {
-        let gpu = device_of(&instance, Default::default());
-        Scene::on(gpu, Domain::Quad, quads.config, Vec::new())
-    });
-    let stage = first.build(first.builder());
-    let built = second.builder().output_of(&stage).build(&second.gpu.device);
-    assert_eq!(built.err(), Some(StageError::OtherDevice.into()), "another device");
+    let other = StageError::OtherVertex;
+    for (points, expected) in [(Points::Evaluated, Some(other.into())), (Points::Stored, None)] {
+        let stage = quads.build(quads.builder().points(points));
+        let built = stage.material(&wide).bind_group(&quads.layout, &quads.group).target(FORMAT);
+        assert_eq!(built.build().err(), expected, "{points:?}");
+    }
 }

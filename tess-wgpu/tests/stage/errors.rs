@@ -1,12 +1,13 @@
 //! Errors have a type, and the user's line.
 
+use crate::both::Builder;
 use crate::common::device::{device_of, limited};
 use crate::drawing::scene;
 use crate::model::compare;
 use crate::scene::{PATCHES, Scene, source};
 use tess_core::{Domain, Partitioning, PatchFactors};
 use tess_wgpu::stage::{Factors, PatchCount, Points, Room, StageError};
-use tess_wgpu::{Error, Stopwatch, TessellationStage, Tessellator};
+use tess_wgpu::{Error, Stopwatch, Tessellator};
 use wgpu::BufferUsages as Usage;
 
 fn quads() -> Scene {
@@ -116,6 +117,109 @@ fn functions_that_do_not_go_with_the_stage_are_reported_with_their_line() {
 }
 
 #[test]
+fn functions_of_other_types_are_answered_with_the_right_line() {
+    let scene = quads();
+    let right = source(Domain::Quad);
+    let (hull, domain) = ("fn hull(number: u32) -> QuadFactors {", "fn domain(number: u32, uv");
+    let seen = "fn seen(vertex: Vertex) -> Vertex { return vertex; }";
+    let right = right + seen;
+    let domain_line = "write `fn domain(number: u32, uv: vec2<f32>) -> Vertex`";
+    let seen_line = "write `fn seen(vertex: Vertex) -> Vertex`";
+    for (from, to, own, says) in [
+        (hull, "fn hull(number: u32) -> vec4f {", "`fn hull(number: u32) -> vec4f`", ""),
+        (hull, "fn hull() -> QuadFactors {", "`fn hull() -> QuadFactors`", ""),
+        (
+            domain,
+            "fn domain(n: i32, uv",
+            "`fn domain(n: i32, uv: vec2<f32>) -> Vertex`",
+            domain_line,
+        ),
+        (domain, "fn domain(uv", "`fn domain(uv: vec2<f32>) -> Vertex`", domain_line),
+        (
+            seen,
+            "fn seen(at: vec4f) -> vec4f { return at; }",
+            "`fn seen(at: vec4f) -> vec4f`",
+            seen_line,
+        ),
+        (seen, "fn seen() -> Vertex { return Vertex(); }", "`fn seen() -> Vertex`", seen_line),
+    ] {
+        assert!(right.contains(from), "{from}");
+        let wrong = right.replace(from, to);
+        let says =
+            if says.is_empty() { "write `fn hull(number: u32) -> QuadFactors`" } else { says };
+        for points in [Points::Stored, Points::Evaluated] {
+            let builder = scene.builder_of(&wrong).points(points).project("seen");
+            let error = builder.build(&scene.gpu.device).map(drop).expect_err("other types");
+            let begin = format!("line {} of your WGSL: {own} does not", line_of(&wrong, to));
+            let text = error.to_string();
+            assert!(text.starts_with(&begin) && text.contains(says), "{points:?}: {text}");
+        }
+    }
+    let alias = right.replace(hull, "alias F = QuadFactors; alias N = u32; fn hull(n: N) -> F {");
+    let alias = alias.replace("6u * number", "6u * n").replace("uv: vec2<f32>)", "uv: vec2f,)");
+    assert_eq!(scene.builder_of(&alias).build(&scene.gpu.device).map(drop), Ok(()), "the same");
+}
+
+#[test]
+fn derivatives_outside_of_fragment_shaders_are_named_with_what_to_use() {
+    let scene = quads();
+    let textures = "@group(1) @binding(0) var image: texture_2d<f32>;
+@group(1) @binding(1) var linear: sampler;
+@group(1) @binding(2) var shadows: texture_depth_2d;
+@group(1) @binding(3) var nearer: sampler_comparison;
+";
+    let right = textures.to_owned() + &source(Domain::Quad);
+    let sum = "let at = place(number) + uv;";
+    for (used, instead) in [
+        ("textureSample(image, linear, uv).x", "`textureSampleLevel`"),
+        ("textureSampleCompare(shadows, nearer, uv, 0.5)", "`textureSampleCompareLevel`"),
+        ("fwidth(uv.x)", "compute the difference"),
+    ] {
+        for points in [Points::Stored, Points::Evaluated] {
+            let wrong = right.replace(sum, &format!("{sum} let sampled = {used};"));
+            let StageError::Wgsl { line, message } = refusal(&scene, &wrong, points) else {
+                panic!("of the WGSL");
+            };
+            assert_eq!(line, Some(line_of(&right, "fn domain")), "{message}");
+            assert!(
+                message.contains("needs derivatives") && message.contains(instead),
+                "{message}"
+            );
+        }
+    }
+}
+
+/// Four of the stage's storage buffers and five of the user's are more than eight.
+#[test]
+fn a_storage_buffer_too_many_is_counted_for_the_user() {
+    use crate::common::objects::{group, layout, storage, whole};
+    use wgpu::ShaderStages;
+    let scene = quads();
+    let device = &scene.gpu.device;
+    let visibility = ShaderStages::COMPUTE | ShaderStages::VERTEX;
+    let build = |count: usize, points| {
+        let of_all = layout(device, visibility, vec![storage(true); count]);
+        let bound = group(device, &of_all, whole(vec![&scene.factors; count]));
+        let text = source(Domain::Quad);
+        let builder = Builder::new(&text, scene.domain, scene.config, PATCHES);
+        let builder = builder.bind_group(&of_all, &bound).target(crate::scene::FORMAT);
+        builder.points(points).build(device).map(drop)
+    };
+    for (points, function, most, own) in [
+        (Points::Evaluated, "domain", 4, 4),
+        (Points::Stored, "hull", 6, 2),
+        // With integer factors no contexts are bound.
+        (Points::Pull, "domain", 4, 4),
+    ] {
+        let too_many = |got| StageError::TooManyStorageBuffers { function, got, most, own };
+        assert_eq!(build(most as usize, points), Ok(()), "{points:?}: as many as there may be");
+        let error = build(most as usize + 1, points).expect_err("one more");
+        assert_eq!(error, too_many(most + 1).into(), "{points:?}");
+        assert!(error.to_string().contains("put several arrays into one buffer"), "{error}");
+    }
+}
+
+#[test]
 fn the_factors_of_another_domain_are_named() {
     for (own, other, function) in [
         (Domain::Quad, Domain::Triangle, "QuadFactors"),
@@ -172,7 +276,7 @@ fn bindings_that_do_not_go_with_their_layout_are_named() {
         let usage = Usage::STORAGE | Usage::UNIFORM;
         let given = scene.gpu.buffer("given", 256, usage).expect("there is room");
         let bound = group(device, &of_one, whole([&given]));
-        let built = TessellationStage::builder(text, scene.domain, scene.config, PATCHES)
+        let built = Builder::new(text, scene.domain, scene.config, PATCHES)
             .bind_group(&of_one, &bound)
             .points(points)
             .target(crate::scene::FORMAT)
@@ -285,7 +389,7 @@ fn a_device_without_compute_shaders_is_refused() {
     let gpu = limited(wgpu::Limits::downlevel_webgl2_defaults());
     let scene = quads();
     let source = source(Domain::Quad);
-    let built = TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
+    let built = Builder::new(&source, scene.domain, scene.config, PATCHES)
         .target(wgpu::TextureFormat::Rgba8Unorm)
         .build(&gpu.device);
     let limit = "max_compute_workgroups_per_dimension";
@@ -347,11 +451,11 @@ fn what_cannot_be_made_is_refused() {
     }
     assert_eq!(built.build(device).err(), None, "four, and the stage binds none");
     let source = source(Domain::Quad);
-    let many = TessellationStage::builder(&source, scene.domain, scene.config, 6_000_000);
+    let many = Builder::new(&source, scene.domain, scene.config, 6_000_000);
     let built = many.bind_group(&scene.layout, &scene.group).build(device);
     let expected = StageError::TooManyFactors { needed: 144_000_000, limit: 128 << 20 };
     assert_eq!(built.err(), Some(expected.into()), "they are bound at once");
-    let built = TessellationStage::builder(&source, scene.domain, scene.config, 8)
+    let built = Builder::new(&source, scene.domain, scene.config, 8)
         .target(wgpu::TextureFormat::Rgba32Uint)
         .build(device);
     let error = built.map(|_| ()).expect_err("without its bind group");

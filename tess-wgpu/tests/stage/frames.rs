@@ -1,16 +1,17 @@
 //! Frames that are dropped, kept or interrupted do not disturb the stage.
 
+use crate::both::{Both, Builder};
 use crate::common::objects::{group, layout, part, whole};
 use crate::drawing::{scene, some_factors};
 use crate::model::{compare, compare_factors, drawn};
 use crate::scene::{PATCHES, Scene};
 use tess_core::{Domain, Partitioning, PatchFactors};
+use tess_wgpu::Error;
 use tess_wgpu::stage::{Overflow, PatchCount, Room, StageError};
-use tess_wgpu::{Error, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
 /// A scene whose first frame does not fit, and its stage.
-fn growing() -> (Scene, TessellationStage) {
+fn growing() -> (Scene, Both) {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
     let room = Room::Automatic { most_bytes: 1 << 20 };
     let stage = scene.build(scene.builder().room(room));
@@ -18,13 +19,13 @@ fn growing() -> (Scene, TessellationStage) {
 }
 
 /// Prepares a frame in an encoder of its own.
-fn prepared(scene: &Scene, stage: &mut TessellationStage) -> wgpu::CommandEncoder {
+fn prepared(scene: &Scene, stage: &mut Both) -> wgpu::CommandEncoder {
     let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
     stage.prepare(&mut encoder, PATCHES).expect("it is prepared");
     encoder
 }
 
-fn assert_exact(scene: &Scene, stage: &mut TessellationStage, what: &str) {
+fn assert_exact(scene: &Scene, stage: &mut Both, what: &str) {
     let observed = scene.frame(stage, PATCHES.into()).expect("it draws");
     assert_eq!(compare(&observed, &scene.pixels(&scene.patches)), Ok(()), "{what}");
 }
@@ -130,13 +131,13 @@ fn bind_groups_of_other_layouts_are_errors_of_wgpus() {
     let (dynamic, of_dynamic) = bound(&scene, (true, read), &scene.factors);
     let build = |layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup| {
         let source = crate::scene::source(Domain::Quad);
-        TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
+        Builder::new(&source, scene.domain, scene.config, PATCHES)
             .bind_group(layout, group)
             .target(crate::scene::FORMAT)
             .build(device)
             .expect("the group is not looked at yet")
     };
-    let complaint = |stage: &mut TessellationStage| {
+    let complaint = |stage: &mut Both| {
         let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
         let mut encoder = device.create_command_encoder(&Default::default());
         stage.prepare(&mut encoder, PATCHES).expect("nor here");
@@ -173,7 +174,7 @@ fn dynamic_offsets_choose_factors() {
     let (layout, _) = bound(&scene, (true, ty), &both);
     let group = group(&scene.gpu.device, &layout, [(0, part(&both, 0, size))]);
     let source = crate::scene::source(Domain::Quad);
-    let mut stage = TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
+    let mut stage = Builder::new(&source, scene.domain, scene.config, PATCHES)
         .bind_group(&layout, &group)
         .target(crate::scene::FORMAT)
         .room(Room::WorstCase)

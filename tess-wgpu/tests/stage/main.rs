@@ -5,6 +5,7 @@
 mod ball;
 #[path = "../../examples/shared/bindings.rs"]
 mod bindings;
+mod both;
 #[path = "../../examples/shared/camera.rs"]
 mod camera;
 #[path = "../common/mod.rs"]

@@ -1,9 +1,9 @@
 //! A stage of one patch without bindings, and the part of the picture that it covers.
 
+use crate::both::Builder;
 use crate::model::drawn;
 use crate::scene::{FORMAT, Scene};
 use tess_core::{Config, Domain};
-use tess_wgpu::TessellationStage;
 use tess_wgpu::stage::Room;
 
 /// The number of pixels that a patch of factors 3, or of two lines of three segments, covers.
@@ -27,7 +27,7 @@ pub(crate) fn pixels(
          return Vertex(vec4f({position}, 0.5, 1.0));\n}}\n\
          @fragment fn shade() -> @location(0) vec4u {{ return vec4u(0u, 0u, 0u, 1u); }}"
     );
-    let mut stage = TessellationStage::builder(&source, domain, config, 1)
+    let mut stage = Builder::new(&source, domain, config, 1)
         .target(FORMAT)
         .room(Room::WorstCase)
         .primitive(primitive)

@@ -41,7 +41,6 @@ fn stage(gpu: &Gpu, room: Room) -> TessellationStage {
                   fn domain(number: u32, uv: vec2f) -> Vertex { return Vertex(vec4f(uv, 0.0, 1.0)); }";
     TessellationStage::builder(source, Domain::Quad, config(), PATCHES.into())
         .factors(Factors::Host)
-        .without_pipeline()
         .room(room)
         .build(&gpu.device)
         .unwrap_or_else(|error| panic!("{error}"))

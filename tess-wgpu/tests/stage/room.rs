@@ -1,5 +1,6 @@
 //! Frames that do not fit are coarser or empty, and a stage makes more room if it may.
 
+use crate::both::{Both, Builder};
 use crate::drawing::{scene, some_factors};
 use crate::model::{compare, compare_factors, drawn};
 use crate::scene::{PATCHES, Scene};
@@ -18,7 +19,7 @@ fn needed(scene: &Scene) -> Capacity {
 }
 
 /// The feedback of frame `frame`, for which the device is polled.
-fn feedback(scene: &Scene, stage: &mut TessellationStage, frame: u64) -> Feedback {
+fn feedback(scene: &Scene, stage: &mut Both, frame: u64) -> Feedback {
     for _ in 0..8 {
         if let Some(feedback) = stage.feedback().filter(|feedback| feedback.frame >= frame) {
             return feedback;
@@ -184,7 +185,7 @@ fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
         );
         let patches = 1 << 14;
         let source = crate::scene::source(domain);
-        let stage = TessellationStage::builder(&source, domain, scene.config, patches)
+        let stage = Builder::new(&source, domain, scene.config, patches)
             .bind_group(&scene.layout, &scene.group)
             .target(crate::scene::FORMAT)
             .room(Room::Bytes(1000))
@@ -199,7 +200,7 @@ fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
 
 /// A stage that draws only depth. It stores neither points nor indices, so its room can be of any
 /// size.
-fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) -> TessellationStage {
+fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) -> Both {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let source = format!(
         "struct Vertex {{ @builtin(position) position: vec4f }}\n{hull}\n\
@@ -212,7 +213,7 @@ fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) ->
         stencil: wgpu::StencilState::default(),
         bias: wgpu::DepthBiasState::default(),
     };
-    TessellationStage::builder(&source, domain, config, patches)
+    Builder::new(&source, domain, config, patches)
         .depth(depth)
         .points(Points::PullWithoutIndices)
         .room(Room::Exactly(room))

@@ -1,10 +1,11 @@
 //! A stage, its target, and the pixels that it draws.
 
+use crate::both::{Both, Builder};
 use crate::common::objects::{copy_pixels, group, layout, plain, storage, view_of, whole};
 use crate::model;
 use tess_core::{Config, Domain, PatchFactors};
-use tess_wgpu::stage::{PatchCount, Room, StageBuilder};
-use tess_wgpu::{Error, Gpu, TessellationStage};
+use tess_wgpu::stage::{PatchCount, Room};
+use tess_wgpu::{Error, Gpu};
 use wgpu::BufferUsages as Usage;
 
 /// The width and height in pixels: patches are in a grid of 4 x 2.
@@ -128,27 +129,27 @@ impl Scene {
         })
     }
 
-    /// The builder of a stage of at most [`PATCHES`] patches.
-    pub(crate) fn builder(&self) -> StageBuilder<'_> {
+    /// The builder of a stage of at most [`PATCHES`] patches, and of its material.
+    pub(crate) fn builder(&self) -> Builder<'_> {
         self.builder_of(&self.source).room(Room::WorstCase)
     }
 
     /// The same builder with other WGSL, and without the scene's room.
-    pub(crate) fn builder_of<'a>(&'a self, source: &'a str) -> StageBuilder<'a> {
-        TessellationStage::builder(source, self.domain, self.config, PATCHES)
+    pub(crate) fn builder_of<'a>(&'a self, source: &'a str) -> Builder<'a> {
+        Builder::new(source, self.domain, self.config, PATCHES)
             .bind_group(&self.layout, &self.group)
             .target(FORMAT)
     }
 
     /// Builds a stage that must be valid.
-    pub(crate) fn build(&self, builder: StageBuilder<'_>) -> TessellationStage {
+    pub(crate) fn build(&self, builder: Builder<'_>) -> Both {
         builder.build(&self.gpu.device).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Prepares and draws a frame.
     pub(crate) fn frame(
         &self,
-        stage: &mut TessellationStage,
+        stage: &mut Both,
         patches: PatchCount<'_>,
     ) -> Result<Vec<Pixel>, Error> {
         self.frame_with(stage, patches, |stage, pass| stage.draw(pass))
@@ -157,9 +158,9 @@ impl Scene {
     /// Prepares a frame, and draws it with `draw`.
     pub(crate) fn frame_with(
         &self,
-        stage: &mut TessellationStage,
+        stage: &mut Both,
         patches: PatchCount<'_>,
-        draw: impl FnOnce(&TessellationStage, &mut wgpu::RenderPass<'_>),
+        draw: impl FnOnce(&Both, &mut wgpu::RenderPass<'_>),
     ) -> Result<Vec<Pixel>, Error> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         stage.prepare(&mut encoder, patches)?;

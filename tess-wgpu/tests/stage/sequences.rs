@@ -46,6 +46,8 @@ impl World<'_> {
             Give { seed, is_dropped } => own.give(gpu, seed, is_dropped),
             Move { by, is_bound } => own.shift(gpu, by, is_bound),
             Group { groups } => own.regroup(groups),
+            StageCall::Repeat { instances } => own.repeat(instances),
+            StageCall::Paint { shows_factors } => own.paint(gpu, shows_factors),
             Frame { count, from, draw, then } => {
                 return self.frame(count, from, draw, then);
             }
@@ -202,6 +204,30 @@ fn groups_and_room_change_in_one_frame() {
         MakeRoom { count: 5 },
         Frame { count: 3, from: Count::Device, draw: Draw::AmongOthers, then: Then::Submit },
     ]);
+}
+
+/// A material that reads what no other does is made while other groups wait for their frame.
+#[test]
+fn a_material_is_made_between_groups_and_their_frame() {
+    let frame = |draw| Frame { count: 8, from: Count::Host, draw, then: Then::Submit };
+    let calls = |stage| {
+        [
+            Use { stage },
+            Give { seed: 4, is_dropped: false },
+            MakeRoom { count: 8 },
+            Group { groups: 2 },
+            StageCall::Paint { shows_factors: true },
+            StageCall::Repeat { instances: 2 },
+            frame(Draw::OneByAnother(1)),
+            Again { draw: Draw::Everything },
+            Group { groups: 3 },
+            frame(Draw::ByAnother),
+            Rebuild { variant: 2, is_alone: false },
+            Give { seed: 8, is_dropped: false },
+            frame(Draw::ByAnother),
+        ]
+    };
+    replay(&(0..5).flat_map(calls).collect::<Vec<_>>());
 }
 
 /// Room that was given back grows again, also for a stage that replaces the first.

@@ -1,11 +1,11 @@
 //! Stages with one tessellator share all pipelines that are the same for both. Sequences compare
 //! their output.
 
+use crate::both::Builder;
 use crate::common::device::device_of;
 use crate::scene::{FORMAT, PATCHES, source};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_wgpu::stage::StageBuilder;
-use tess_wgpu::{Gpu, TessellationStage, Tessellator};
+use tess_wgpu::{Gpu, Tessellator};
 
 /// The numbers of compute and of render pipelines in an instance.
 fn pipelines(instance: &wgpu::Instance) -> [usize; 2] {
@@ -29,8 +29,8 @@ fn a_stage_makes_the_pipelines_that_no_other_has() {
     let scene = crate::scene::Scene::on(gpu, Domain::Quad, config, Vec::new());
     let shared = tessellator(&scene.gpu.device, None);
     let right = source(Domain::Quad);
-    let build = |text: &str, change: fn(StageBuilder<'_>) -> StageBuilder<'_>| {
-        let builder = TessellationStage::builder(text, Domain::Quad, config, PATCHES)
+    let build = |text: &str, change: fn(Builder<'_>) -> Builder<'_>| {
+        let builder = Builder::new(text, Domain::Quad, config, PATCHES)
             .bind_group(&scene.layout, &scene.group)
             .target(FORMAT)
             .tessellator(&shared);
@@ -46,12 +46,7 @@ fn a_stage_makes_the_pipelines_that_no_other_has() {
     let with_constant = right.clone() + "override a = 1.0;";
     let mut all = Vec::new();
     for (what, text, change, expected) in [
-        (
-            "nothing",
-            &right,
-            (|builder| builder) as fn(StageBuilder<'_>) -> StageBuilder<'_>,
-            [0, 0],
-        ),
+        ("nothing", &right, (|builder| builder) as fn(Builder<'_>) -> Builder<'_>, [0, 0]),
         ("the fragment shader", &other_fragment, |builder| builder, [0, 1]),
         ("the same again", &other_fragment, |builder| builder, [0, 0]),
         ("the hull", &other_hull, |builder| builder, [1, 1]),
@@ -72,7 +67,6 @@ fn a_stage_makes_the_pipelines_that_no_other_has() {
         ),
         ("a constant's declaration", &with_constant, |builder| builder, [0, 1]),
         ("a constant's value", &with_constant, |builder| builder.constants(&[("a", 2.0)]), [1, 1]),
-        ("its own pipeline", &right, |builder| builder.without_pipeline(), [0, 0]),
     ] {
         let (stage, made) = build(text, change);
         assert_eq!(made, expected, "another stage that differs in {what}");
@@ -106,7 +100,7 @@ fn no_frame_makes_a_pipeline() {
     for points in crate::drawing::WAYS {
         let shared = tessellator(&gpu.device, None);
         let build = |patches| {
-            let builder = TessellationStage::builder(hull, Domain::Quad, config, patches)
+            let builder = Builder::new(hull, Domain::Quad, config, patches)
                 .bind_group(&layout, &group)
                 .target(FORMAT)
                 .points(points)
@@ -145,7 +139,7 @@ fn stages_can_be_built_on_another_thread() {
     let text = source(Domain::Quad);
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let shared = Tessellator::new(&gpu.device);
-    let build = || TessellationStage::builder(&text, Domain::Quad, config, 1).tessellator(&shared);
+    let build = || Builder::new(&text, Domain::Quad, config, 1).tessellator(&shared);
     is_send(&build().build_async(&gpu.device));
     let refused =
         std::thread::scope(|scope| scope.spawn(|| build().build(&gpu.device).err()).join());

@@ -6,8 +6,8 @@ use crate::timing::device_time;
 use std::cell::RefCell;
 use std::time::Duration;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_wgpu::stage::{Points, Room};
-use tess_wgpu::{DeviceLimits, Gpu, Stopwatch, TessellationStage, Tessellator};
+use tess_wgpu::stage::{Frame, Material, Points, Room};
+use tess_wgpu::{DeviceLimits, Gpu, Stopwatch, TessellationStage};
 
 /// The time for which each frame is repeated.
 const LONG_ENOUGH: Duration = Duration::from_millis(250);
@@ -57,17 +57,21 @@ fn print_row(row: [u32; 4], stored: [f64; 2], evaluated: [f64; 2]) {
     );
 }
 
-/// A stage, and those that draw its output for other cameras.
+/// A stage, and the materials that draw its frames for several cameras.
 struct Scene {
-    first: RefCell<TessellationStage>,
-    others: Vec<TessellationStage>,
+    stage: RefCell<TessellationStage>,
+    first: Material,
+    others: Vec<Material>,
     patches: u32,
 }
 
 impl Scene {
     fn new(gpu: &Gpu, (text, points): (&str, Points), patches: u32, passes: u32) -> Result<Self> {
         let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
-        let shared = Tessellator::new(&gpu.device);
+        let stage = TessellationStage::builder(text, Domain::Quad, config, patches)
+            .points(points)
+            .room(Room::Automatic { most_bytes: 1 << 30 })
+            .build(&gpu.device)?;
         let depth = wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(true),
@@ -75,20 +79,13 @@ impl Scene {
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         };
-        let pass = |camera| {
-            TessellationStage::builder(text, Domain::Quad, config, patches)
-                .tessellator(&shared)
-                .points(points)
-                .room(Room::Automatic { most_bytes: 1 << 30 })
-                .project(camera)
-                .depth(depth.clone())
-        };
-        let first = pass("camera_0").target(FORMAT).build(&gpu.device)?;
+        let pass = |camera| stage.material(text).project(camera).depth(depth.clone());
+        let first = pass("camera_0").target(FORMAT).build()?;
         // Only depth, as in shadow maps.
         let others = ["camera_1", "camera_2", "camera_3"].into_iter().take(passes as usize - 1);
-        let others = others.map(|camera| pass(camera).output_of(&first).build(&gpu.device));
+        let others = others.map(|camera| pass(camera).build());
         let others = others.collect::<std::result::Result<_, _>>()?;
-        Ok(Self { first: RefCell::new(first), others, patches })
+        Ok(Self { stage: RefCell::new(stage), first, others, patches })
     }
 
     /// The times of `prepare` alone and of a frame: one `prepare`, and a pass for each camera.
@@ -98,16 +95,20 @@ impl Scene {
         stopwatch: &Stopwatch,
         [colour, depth]: &[wgpu::TextureView; 2],
     ) -> Result<[f64; 2]> {
-        self.first.borrow_mut().make_room(&gpu.queue, self.patches)?;
-        // An error in a recorded frame appears when it is submitted.
-        let prepare = |encoder: &mut wgpu::CommandEncoder| {
-            let _ = self.first.borrow_mut().prepare(encoder, self.patches);
+        self.stage.borrow_mut().make_room(&gpu.queue, self.patches)?;
+        let prepared = |encoder: &mut wgpu::CommandEncoder| -> Frame {
+            let frame = self.stage.borrow_mut().prepare(encoder, self.patches);
+            frame.expect("the device works and the number is the stage's")
         };
+        let prepare = |encoder: &mut wgpu::CommandEncoder| drop(prepared(encoder));
         let frame = |encoder: &mut wgpu::CommandEncoder| {
-            prepare(encoder);
-            self.first.borrow().draw(&mut begin(encoder, Some(colour), depth));
-            for stage in &self.others {
-                stage.draw(&mut begin(encoder, None, depth));
+            let frame = prepared(encoder);
+            let draw = |material: &Material, mut pass: wgpu::RenderPass<'_>| {
+                material.draw(&mut pass, &frame).expect("it is the last frame");
+            };
+            draw(&self.first, begin(encoder, Some(colour), depth));
+            for other in &self.others {
+                draw(other, begin(encoder, None, depth));
             }
         };
         let time = |work: &dyn Fn(&mut wgpu::CommandEncoder)| {

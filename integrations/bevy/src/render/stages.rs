@@ -208,7 +208,6 @@ fn stage(
         .groups(begins)
         .first_room(room)
         .tessellator(tessellator)
-        .without_pipeline()
         .build(gpu.device.wgpu_device())
 }
 

@@ -22,6 +22,10 @@ pub(crate) enum StageCall {
     Move { by: u32, is_bound: bool },
     /// Sets other groups of patches, which take effect in the next frame.
     Group { groups: u32 },
+    /// Sets the number of instances, which takes effect in the next frame.
+    Repeat { instances: u32 },
+    /// Makes the other material of the stage again, with the factors in its pixels or without.
+    Paint { shows_factors: bool },
     /// Prepares and draws a frame of the first `count` patches.
     Frame { count: u32, from: Count, draw: Draw, then: Then },
     /// Draws the last prepared frame again, if it ran.
@@ -49,8 +53,16 @@ pub(crate) enum Draw {
     One(u32),
     /// Everything, after every stage is prepared in the same encoder.
     AmongOthers,
-    /// Everything, by a stage that draws this one's output.
+    /// Everything, by the other material.
     ByAnother,
+    /// A group, by the other material.
+    OneByAnother(u32),
+}
+
+impl Draw {
+    pub(crate) const fn is_by_another(self) -> bool {
+        matches!(self, Self::ByAnother | Self::OneByAnother(_))
+    }
 }
 
 /// The fate of a frame.
@@ -68,6 +80,8 @@ pub(crate) enum WrongFrame {
     Groups,
     BindGroup,
     Factors,
+    /// Draws the frame before the last.
+    Old,
 }
 
 /// The source of a stage's factors.
@@ -149,6 +163,7 @@ pub(crate) fn call(stages: usize) -> impl Strategy<Value = StageCall> + Clone {
     let draw = prop_oneof![
         4 => Just(Draw::Everything),
         2 => (0..5_u32).prop_map(Draw::One),
+        1 => (0..5_u32).prop_map(Draw::OneByAnother),
         2 => select(vec![Draw::AmongOthers, Draw::ByAnother]),
     ];
     let from = prop_oneof![2 => Just(Count::Host), 1 => Just(Count::Device)];
@@ -159,6 +174,7 @@ pub(crate) fn call(stages: usize) -> impl Strategy<Value = StageCall> + Clone {
         WrongFrame::Groups,
         WrongFrame::BindGroup,
         WrongFrame::Factors,
+        WrongFrame::Old,
     ];
     prop_oneof![
         2 => (0..stages).prop_map(|stage| StageCall::Use { stage }),
@@ -168,6 +184,8 @@ pub(crate) fn call(stages: usize) -> impl Strategy<Value = StageCall> + Clone {
             .prop_map(|(seed, is_dropped)| StageCall::Give { seed, is_dropped }),
         2 => (0..8_u32, any::<bool>()).prop_map(|(by, is_bound)| StageCall::Move { by, is_bound }),
         3 => (0..6_u32).prop_map(|groups| StageCall::Group { groups }),
+        1 => (0..3_u32).prop_map(|instances| StageCall::Repeat { instances }),
+        2 => any::<bool>().prop_map(|shows_factors| StageCall::Paint { shows_factors }),
         2 => draw.clone().prop_map(|draw| StageCall::Again { draw }),
         9 => (prop_oneof![Just(crate::scene::PATCHES), 0..9_u32], from, draw, then)
             .prop_map(|(count, from, draw, then)| StageCall::Frame { count, from, draw, then }),

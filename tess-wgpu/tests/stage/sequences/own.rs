@@ -1,6 +1,7 @@
 //! A stage in a sequence of frames, and its model.
 
 use super::calls::{self, Count, Draw, Source, StageForm, WrongFrame};
+use crate::both::{Both, Builder};
 use crate::common::expected::Expected;
 use crate::common::objects::{self, group, whole};
 use crate::hold::equal;
@@ -11,7 +12,9 @@ use std::collections::VecDeque;
 use tess_core::{Config, OutputPrimitive, Patch, PatchFactors};
 use tess_gpu::layout::{Status, factor_words};
 use tess_gpu::{Capacity, Setup};
-use tess_wgpu::stage::{Factors, Feedback, Overflow, PatchCount, Points, StageError};
+use tess_wgpu::stage::{
+    Factors, Feedback, Frame, Material, Overflow, PatchCount, Points, StageError,
+};
 use tess_wgpu::{Error, Gpu, TessellationStage, Tessellator};
 use wgpu::BufferUsages as Usage;
 
@@ -27,9 +30,16 @@ pub(super) struct Own {
     /// The frame since which little was needed, and the greatest needs since then.
     pub(super) lull: (u64, Capacity),
     pub(super) scene: Scene,
-    pub(super) stage: TessellationStage,
-    /// Draws the stage's output, with a mark of its own.
-    other: TessellationStage,
+    pub(super) stage: Both,
+    source: String,
+    /// Draws the stage's frames with a mark of its own.
+    other: Material,
+    /// Whether it also shows the patches' first factors.
+    shows_factors: bool,
+    /// The number of instances of the prepared frame, and of the next.
+    pub(super) instances: [u32; 2],
+    /// The frame before the last.
+    pub(super) old: Option<Frame>,
     pub(super) given: wgpu::Buffer,
     pub(super) camera: wgpu::Buffer,
     pub(super) cameras: wgpu::BindGroupLayout,
@@ -45,14 +55,15 @@ pub(super) struct Own {
     pub(super) kept: VecDeque<(wgpu::CommandEncoder, u64, u32, Capacity)>,
 }
 
-/// The mark of a pixel that another stage has drawn.
+/// The mark of a pixel that another material has drawn.
 const OTHER: u32 = 7;
 
 /// The frames of little output after which a stage gives room back.
 pub(super) const PATIENCE: u64 = 2;
 
-/// The scene's WGSL with a grid that a uniform shifts. A variant exchanges patches in `hull`, or
-/// writes another number in the fragment shader, or both.
+/// The scene's WGSL with a grid that a uniform shifts, and with instances of which each is drawn
+/// one row lower. A variant exchanges patches in `hull`, or writes another number in the fragment
+/// shader, or both.
 fn source(form: StageForm, variant: u32) -> String {
     let place = "return vec2<f32>(f32(number % 4u), f32(number / 4u));";
     let text = scene::source(form.domain);
@@ -62,7 +73,10 @@ fn source(form: StageForm, variant: u32) -> String {
     let text = text.replace("u * number;", "u * turned(number);");
     let text = text.replace("vertex.number, 1u);", &format!("vertex.number, {mark}u);"));
     let turned = format!("\nfn turned(number: u32) -> u32 {{\n    return number ^ {turn}u;\n}}\n");
-    text.replace(place, moved) + &turned + "@group(1) @binding(0) var<uniform> camera: vec4<u32>;\n"
+    let lower = "fn lower(vertex: Vertex) -> Vertex {\n    var other = vertex;\n    \
+                 other.position.y -= f32(tess_instance());\n    return other;\n}\n";
+    let camera = "@group(1) @binding(0) var<uniform> camera: vec4<u32>;\n";
+    text.replace(place, moved) + &turned + lower + camera
 }
 
 impl Own {
@@ -87,10 +101,11 @@ impl Own {
         let camera = gpu.upload("camera", &[0; 16], usage).expect("room");
         let cameras = old.map_or_else(|| layout_of_cameras(gpu), |old| old.cameras.clone());
         let source = source(form, variant);
-        let builder = TessellationStage::builder(&source, form.domain, config, PATCHES)
+        let builder = Builder::new(&source, form.domain, config, PATCHES)
             .bind_group(&scene.layout, &scene.group)
             .bind_group(&cameras, &group(&gpu.device, &cameras, whole([&camera])))
             .target(FORMAT)
+            .project("lower")
             .groups(&GROUPS)
             .tessellator(shared)
             .points(form.points)
@@ -104,14 +119,9 @@ impl Own {
             });
         let mut stage = scene.build(builder);
         stage.shrink_after(PATIENCE);
-        let mark = |mark: u32| format!("vertex.number, {mark}u);");
-        let marked = source.replace(&mark(1 + variant / 2), &mark(OTHER));
-        let other = TessellationStage::builder(&marked, form.domain, config, PATCHES)
-            .bind_group(&scene.layout, &scene.group)
-            .bind_group(&cameras, &group(&gpu.device, &cameras, whole([&camera])))
-            .target(FORMAT)
-            .output_of(&stage);
-        let other = scene.build(other);
+        let groups = [&scene.group, &group(&gpu.device, &cameras, whole([&camera]))];
+        let layouts = [&scene.layout, &cameras];
+        let other = material(&stage, (&source, variant, false), layouts, groups);
         Self {
             form,
             variant,
@@ -119,7 +129,11 @@ impl Own {
             lull: Default::default(),
             scene,
             stage,
+            source,
             other,
+            shows_factors: false,
+            instances: [1; 2],
+            old: None,
             given,
             camera,
             cameras,
@@ -206,6 +220,20 @@ impl Own {
         }
     }
 
+    /// Makes the other material again, with factors in its pixels or without.
+    pub(super) fn paint(&mut self, gpu: &Gpu, shows_factors: bool) {
+        self.shows_factors = shows_factors;
+        let camera = group(&gpu.device, &self.cameras, whole([&self.camera]));
+        let of = (&self.source[..], self.variant, shows_factors);
+        let layouts = [&self.scene.layout, &self.cameras];
+        self.other = material(&self.stage, of, layouts, [&self.scene.group, &camera]);
+    }
+
+    pub(super) fn repeat(&mut self, instances: u32) {
+        self.stage.set_instances(instances).expect("there is room");
+        self.instances[1] = instances;
+    }
+
     pub(super) fn regroup(&mut self, groups: u32) {
         let mut random = tess_verify::generate::SplitMix64::new(groups.into());
         let mut begins: Vec<u32> = (0..groups).map(|_| random.below(PATCHES + 1)).collect();
@@ -223,6 +251,7 @@ impl Own {
     ) -> Result<(), String> {
         let before = self.stage.capacity();
         self.drawn = None;
+        let old = self.stage.frame.clone();
         let prepared = match from {
             Count::Host => self.stage.prepare(encoder, count.min(PATCHES)),
             Count::Device => {
@@ -235,6 +264,8 @@ impl Own {
             }
         };
         prepared.map_err(|error| error.to_string())?;
+        self.old = old;
+        self.instances[0] = self.instances[1];
         self.groups.clone_from(&self.next_groups);
         self.frame += 1;
         self.check_room(before)
@@ -307,11 +338,30 @@ impl Own {
     fn pixels(&self, patches: &[PatchFactors], mark: u32) -> Vec<Option<Pixel>> {
         let mut placed = patches.to_vec();
         placed.rotate_right(self.moved as usize);
+        let shown = |number: u32| match patches[number as usize].iter().next() {
+            Some(first) if mark == OTHER && self.shows_factors => number ^ first.to_bits(),
+            _ => number,
+        };
         let number = |[u, v, cell, is_drawn]: Pixel| match is_drawn {
-            1 => [u, v, (cell + PATCHES - self.moved) % PATCHES, mark],
+            1 => [u, v, shown((cell + PATCHES - self.moved) % PATCHES), mark],
             _ => [0; 4],
         };
-        self.scene.pixels(&placed).into_iter().map(|pixel| pixel.map(number)).collect()
+        let pixels = self.scene.pixels(&placed).into_iter().map(|pixel| pixel.map(number));
+        let mut all: Vec<_> = pixels.collect();
+        let row = all.len() / 2;
+        match self.instances[0] {
+            0 => all.fill(Some([0; 4])),
+            1 => {}
+            // The second instance covers the lower row, wherever the upper one is covered.
+            _ => {
+                for at in 0..row {
+                    if all[at] != Some([0; 4]) {
+                        all[row + at] = all[at];
+                    }
+                }
+            }
+        }
+        all
     }
 }
 
@@ -323,14 +373,20 @@ impl Own {
         draw: Draw,
     ) -> Result<(Vec<Pixel>, Option<usize>), String> {
         let group = match draw {
-            Draw::One(group) if !self.groups.is_empty() => Some(group as usize % self.groups.len()),
+            Draw::One(group) | Draw::OneByAnother(group) if !self.groups.is_empty() => {
+                Some(group as usize % self.groups.len())
+            }
             _ => None,
         };
         let number = |group| u32::try_from(group).expect("a few");
-        let stage = if matches!(draw, Draw::ByAnother) { &self.other } else { &self.stage };
-        let observed = self.scene.draw_only(encoder, |pass| match group {
-            None => stage.draw(pass),
-            Some(group) => stage.draw_group(pass, number(group)).expect("it is there"),
+        let material = if draw.is_by_another() { &self.other } else { &self.stage.material };
+        let frame = self.stage.frame();
+        let observed = self.scene.draw_only(encoder, |pass| {
+            let drawn = match group {
+                None => material.draw(pass, frame),
+                Some(group) => material.draw_group(pass, frame, number(group)),
+            };
+            drawn.expect("it is the last frame");
         });
         Ok((observed.map_err(|error| error.to_string())?, group))
     }
@@ -352,10 +408,7 @@ impl Own {
         }
         // The model would take too long for more.
         let is_little = self.needed(&drawn).primitives < 2500;
-        let mark = match draw {
-            Draw::ByAnother => OTHER,
-            _ => 1 + self.variant / 2,
-        };
+        let mark = if draw.is_by_another() { OTHER } else { 1 + self.variant / 2 };
         if is_little { compare(observed, &self.pixels(&drawn, mark)) } else { Ok(()) }
     }
 
@@ -380,6 +433,16 @@ impl Own {
                 self.stage.set_bind_group(2, &self.scene.group),
                 stage(StageError::NoSuchBindGroup { number: 2, groups: 2 }),
             ),
+            WrongFrame::Old => {
+                let Some(old) = &self.old else { return Ok(()) };
+                let mut refused = Ok(());
+                let drawn = self.scene.draw_only(encoder, |pass| {
+                    refused = self.other.draw(pass, old);
+                });
+                drawn.map_err(|error| error.to_string())?;
+                let (frame, last) = (old.number(), self.frame - 1);
+                return equal("refusal", refused, stage(StageError::OldFrame { frame, last }));
+            }
             WrongFrame::Factors if self.form.source == Source::Host => {
                 let got = PATCHES + 1;
                 let patches = vec![PatchFactors::uniform(self.form.domain, 3.0); got as usize];
@@ -395,6 +458,26 @@ impl Own {
         };
         equal("refusal", observed, expected)
     }
+}
+
+/// A material of this WGSL and variant, with another mark. It may show the patches' factors.
+fn material(
+    stage: &TessellationStage,
+    (source, variant, shows_factors): (&str, u32, bool),
+    layouts: [&wgpu::BindGroupLayout; 2],
+    groups: [&wgpu::BindGroup; 2],
+) -> Material {
+    let number = match shows_factors {
+        true => "vertex.number ^ bitcast<u32>(tess_factors(vertex.number).edges.x)",
+        false => "vertex.number",
+    };
+    let (from, to) =
+        (format!("vertex.number, {}u);", 1 + variant / 2), format!("{number}, {OTHER}u);"));
+    assert!(source.contains(&from), "{source}");
+    let marked = source.replace(&from, &to);
+    let builder = stage.material(&marked).project("lower").target(FORMAT);
+    let builder = builder.bind_group(layouts[0], groups[0]).bind_group(layouts[1], groups[1]);
+    builder.build().unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn layout_of_cameras(gpu: &Gpu) -> wgpu::BindGroupLayout {

@@ -64,6 +64,7 @@ impl Own {
         self.drawn = None;
         let found = self.stage.make_room(&gpu.queue, count);
         let found = found.map_err(|error| error.to_string())?;
+        self.old = self.stage.frame.clone();
         self.groups.clone_from(&self.next_groups);
         self.frame += 1;
         let needed = self.needed(&self.frame_patches(count));

@@ -51,12 +51,13 @@ pub async fn draw_terrain(wgsl_fault: String, is_wrong: bool) -> Result<StageRep
     let gpu = Gpu::open().await.map_err(thrown)?;
     let source = wgsl_fault + terrain::WGSL;
     let stage = TessellationStage::builder(&source, Domain::Quad, config(), terrain::PATCHES)
-        .target(terrain::FORMAT)
         .order(tess_gpu::Order::Specification)
         .build_async(&gpu.device)
         .await
         .map_err(thrown)?;
-    terrain::draw(&gpu, stage, is_wrong).await.map_err(thrown)
+    let material = stage.material(&source).target(terrain::FORMAT).build_async();
+    let material = material.await.map_err(thrown)?;
+    terrain::draw(&gpu, (stage, material), is_wrong).await.map_err(thrown)
 }
 
 const fn config() -> Config {

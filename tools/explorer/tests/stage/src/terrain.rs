@@ -3,7 +3,7 @@
 use crate::{StageReport, config};
 use tess_core::{Patch, PatchFactors};
 use tess_gpu::layout::PackedPoint;
-use tess_wgpu::stage::Feedback;
+use tess_wgpu::stage::{Feedback, Material};
 use tess_wgpu::{Error, Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
@@ -26,7 +26,7 @@ fn factors(number: u32) -> PatchFactors {
 
 pub(crate) async fn draw(
     gpu: &Gpu,
-    mut stage: TessellationStage,
+    (mut stage, material): (TessellationStage, Material),
     is_wrong: bool,
 ) -> Result<StageReport, Error> {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -43,7 +43,7 @@ pub(crate) async fn draw(
         gpu.buffer("pixels", u64::from(4 * SIZE * SIZE), Usage::COPY_SRC | Usage::COPY_DST)?;
     let (mut first, mut frames) = (None, 0);
     let last = loop {
-        frame(gpu, &mut stage, &texture, &pixels)?;
+        frame(gpu, (&mut stage, &material), &texture, &pixels)?;
         frames += 1;
         // Waiting for the pixels lets the browser answer the stage, too.
         let picture = gpu.read_async(&pixels, pixels.size()).await?;
@@ -75,12 +75,12 @@ pub(crate) async fn draw(
 /// Records and submits a frame, and a copy of its picture.
 fn frame(
     gpu: &Gpu,
-    stage: &mut TessellationStage,
+    (stage, material): (&mut TessellationStage, &Material),
     texture: &wgpu::Texture,
     pixels: &wgpu::Buffer,
 ) -> Result<(), Error> {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    stage.prepare(&mut encoder, PATCHES)?;
+    let frame = stage.prepare(&mut encoder, PATCHES)?;
     let view = texture.create_view(&Default::default());
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -91,7 +91,7 @@ fn frame(
         })],
         ..Default::default()
     });
-    stage.draw(&mut pass);
+    material.draw(&mut pass, &frame)?;
     drop(pass);
     let layout = wgpu::TexelCopyBufferLayout {
         offset: 0,
