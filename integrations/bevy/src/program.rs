@@ -66,7 +66,8 @@ impl Key {
     fn vertex_shader(&self, number: usize) -> Shader {
         let source = self.joined(PROJECT, &DRAW_GROUP.to_string());
         let builder = TessellationStage::builder(&source, self.domain, self.config, 1);
-        let shader = builder.vertex_shader(None).expect("packed points need no struct of the user's");
+        let shader =
+            builder.vertex_shader(None).expect("packed points need no struct of the user's");
         Shader::from_wgsl(shader, format!("bevy_tess/surface_{number}.wgsl"))
     }
 }
