@@ -40,9 +40,9 @@ pub enum Points {
     /// [`TessellationStage::vertices`](super::TessellationStage::vertices).
     ///
     /// What differs from draw to draw, such as the camera, then belongs in the function of
-    /// [`StageBuilder::project`](super::StageBuilder::project). The bindings that `domain` reads
-    /// must be visible to `COMPUTE`. The pass binds four storage buffers in addition to yours. A
-    /// point takes 8 bytes more than a `Vertex`.
+    /// [`MaterialBuilder::project`](super::MaterialBuilder::project). The bindings that `domain`
+    /// reads must be visible to `COMPUTE`. The pass binds four storage buffers in addition to
+    /// yours. A point takes 8 bytes more than a `Vertex`.
     Evaluated,
 }
 
