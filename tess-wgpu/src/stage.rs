@@ -85,7 +85,8 @@ pub struct TessellationStage {
     /// The first patch of each group. If their number is not that of `output`, the next frame makes
     /// another output.
     groups: Vec<u32>,
-    /// The groups, which each frame copies over those in the batch if they have changed.
+    /// The groups, which each frame copies over those in the batch if they have changed but not
+    /// their number.
     begins: Option<wgpu::Buffer>,
     /// The number of instances, once [`Self::set_instances`] has set it.
     instances: Option<wgpu::Buffer>,
@@ -228,8 +229,8 @@ impl TessellationStage {
     }
 
     /// Sets the dynamic offsets of one of the user's bind groups, in bytes and in the order of its
-    /// bindings. The next call of [`Self::prepare`] uses them; at first there are none. If there are
-    /// too many or too few, wgpu reports an error when the frame's encoder is finished.
+    /// bindings. The next call of [`Self::prepare`] uses them; at first there are none. If there
+    /// are too many or too few, wgpu reports an error when the frame's encoder is finished.
     ///
     /// # Errors
     /// [`StageError::NoSuchBindGroup`]. On an error the offsets stay as they were.

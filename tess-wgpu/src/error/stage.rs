@@ -35,9 +35,9 @@ pub enum StageError {
         /// The most that the user can have.
         most: u32,
     },
-    /// A shader binds more storage buffers than the device allows, with the stage's own. Put several
-    /// arrays into one buffer, give them the visibility of the shader stages that read them, or
-    /// open the device with higher limits ([`crate::DeviceLimits::Highest`]).
+    /// A shader binds more storage buffers than the device allows, with the stage's own. Put
+    /// several arrays into one buffer, give them the visibility of the shader stages that read
+    /// them, or open the device with higher limits ([`crate::DeviceLimits::Highest`]).
     #[error(
         "{got} storage buffers are too many for `{function}`: the device allows {most} besides the \
          stage's {own}; put several arrays into one buffer, or open the device with a higher \

@@ -69,7 +69,8 @@ impl<'a> StageBuilder<'a> {
     /// Shares pipelines with the stages that were made with the same tessellator or a clone of it.
     /// The tessellation's pipelines depend on the domain, configuration and order; the pipeline of
     /// `hull` on the part of the WGSL that it reaches; the render pipeline of a material on all of
-    /// its WGSL and the render state. [`Tessellator::with_pipeline_cache`] adds a pipeline cache of wgpu's.
+    /// its WGSL and the render state. [`Tessellator::with_pipeline_cache`] adds a pipeline cache of
+    /// wgpu's.
     ///
     /// wgpu cannot make pipelines in the background. If a frame must not wait, build stages on
     /// another thread: a stage, its builder and a tessellator are `Send`.

@@ -54,7 +54,8 @@ impl TessellationStage {
     }
 
     /// Makes what a device's first frame would wait for: the memory that feedback is read from, and
-    /// whatever wgpu and the driver make when commands are first recorded. The commands are dropped.
+    /// whatever wgpu and the driver make when commands are first recorded. The commands are
+    /// dropped.
     pub(super) fn warm_up(&self) -> Result<(), Error> {
         locked(&self.feedback).reserve(self.device())?;
         let mut encoder = self.device().create_command_encoder(&Default::default());
@@ -152,7 +153,6 @@ impl TessellationStage {
         if self.output.groups() as usize != self.groups.len() {
             let StageOutput { room, stored, .. } = self.output.clone();
             self.output = self.new_output(room, stored)?;
-            self.begins = None;
         }
         Ok(())
     }
