@@ -18,15 +18,20 @@ function quotient(dividend, divisor) {
   return f32(dividend / 64) >= divisor ? 64 : clampFactor(f32(dividend / divisor));
 }
 
-// The arguments, rounded to binary32 as a typed array would.
-const rounded = (point) => Array.from(point, f32);
+// This many numbers, rounded to binary32 as in a typed array.
+function rounded(numbers, count = 3) {
+  const own = Array.from(numbers ?? [], f32);
+  if (own.length === count) return own;
+  throw new TypeError(`${count === 3 ? "a point or the edges of a triangle are" : "the edges of a quad are"} an array of ` +
+    `${count} numbers, not ${JSON.stringify(numbers)}`);
+}
 
 export function clampFactor(factor) {
   return f32(factor) > 1 ? Math.min(f32(factor), 64) : 1;
 }
 
 export function edgeByScreenSize(a, b, eye, pixelsPerUnit, segment) {
-  [a, b, eye] = [a, b, eye].map(rounded);
+  [a, b, eye] = [a, b, eye].map((point) => rounded(point));
   const pixels = f32(distance(a, b) * f32(pixelsPerUnit));
   return quotient(pixels, f32(distance(eye, middle(a, b)) * f32(segment)));
 }
@@ -36,7 +41,7 @@ export function edgeByLength(a, b, pixelsPerUnit, segment) {
 }
 
 export function edgeByDistance(a, b, eye, scale) {
-  [a, b, eye] = [a, b, eye].map(rounded);
+  [a, b, eye] = [a, b, eye].map((point) => rounded(point));
   return quotient(f32(scale), distance(eye, middle(a, b)));
 }
 
@@ -51,7 +56,7 @@ export function atMost(factor, most) {
 }
 
 export function insideQuad(edges) {
-  const [u0, v0, u1, v1] = rounded(edges);
+  const [u0, v0, u1, v1] = rounded(edges, 4);
   return [f32(f32(v0 + v1) * 0.5), f32(f32(u0 + u1) * 0.5)];
 }
 

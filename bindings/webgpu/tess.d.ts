@@ -1,7 +1,12 @@
 /// <reference types="@webgpu/types" />
 
+// An argument of another type than those below is a `TypeError` that names what the function takes.
+
 /** WGSL: `tess_point(packed: vec2u) -> TessPoint { uv: vec2f, of_patch: u32 }`, which unpacks the two words of a vertex. */
 export const unpackWgsl: string;
+
+/** Opens the first WebGPU device. Rejects with the reason if there is none. */
+export function openDevice(): Promise<GPUDevice>;
 
 /** A module of WGSL functions; `shaders/surfaces/README.md` has a table of them. */
 export type SurfaceModule =
@@ -43,7 +48,7 @@ export class Tessellator {
   tessellate(factors: ArrayLike<number>): Promise<Output>;
   /**
    * Makes buffers that you keep for many frames, by default with room for one point and one primitive. Throws a
-   * `RangeError` if `patches` is not a whole number, or if the batch or its room is too large.
+   * `RangeError` if a number is not whole, or if the batch or its room is too large.
    */
   batch(patches: number, room?: Room): Batch;
 }
@@ -56,7 +61,7 @@ export interface Batch {
   readonly buffers: Readonly<Record<string, GPUBuffer>>;
   /** Records the dispatches. If the room is too small, the draw is empty, and `status` has the room that is needed. */
   encode(encoder: GPUCommandEncoder): void;
-  /** Runs the batch and returns the contents of these buffers as words. */
+  /** Runs the batch and returns the contents of these buffers as words. Rejects with a `RangeError` if there is no such buffer. */
   read(names: string[]): Promise<Record<string, Uint32Array>>;
   /** Frees the buffers. */
   destroy(): void;

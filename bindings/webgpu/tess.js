@@ -24,7 +24,16 @@ async function get(name, base) {
   return response;
 }
 
+export async function openDevice() {
+  const adapter = await globalThis.navigator?.gpu?.requestAdapter();
+  if (adapter) return adapter.requestDevice();
+  throw new Error(globalThis.navigator?.gpu
+    ? "the browser has WebGPU but no adapter; update the graphics driver, or look at chrome://gpu or about:support"
+    : "there is no WebGPU here; use a browser that has it, and a page from https or localhost");
+}
+
 export async function surfacesWgsl(names, base = SHADERS) {
+  needArray("surfacesWgsl", names, '["factors"]');
   const modules = await (await get("surfaces/modules.json", base)).json();
   const find = (name) => modules.find((module) => module.name === name) ?? refuse("module", name, modules.map(({ name }) => name));
   const all = new Set(names.flatMap((name) => [...find(name).needs, name]));
@@ -36,11 +45,21 @@ function refuse(what, value, choices) {
   throw new RangeError(`there is no ${what} ${JSON.stringify(value)}; choose ${choices.join(", ")}`);
 }
 
+// Refuses an argument that is not of this type, which the browser would report by the name of a member.
+function need(is, message) {
+  if (!is) throw new TypeError(message);
+}
+
+function needArray(call, list, example) {
+  need(Array.isArray(list), `${call} takes an array of names, such as ${example}, not ${JSON.stringify(list)}`);
+}
+
 const DOMAINS = ["isoline", "tri", "quad"];
 const PARTITIONINGS = ["integer", "pow2", "fractional_odd", "fractional_even"];
 
 export class Tessellator {
-  static async load(device, { domain, partitioning, base = SHADERS }) {
+  static async load(device, { domain, partitioning, base = SHADERS } = {}) {
+    need(device?.createBuffer, "Tessellator.load takes a GPUDevice; `await openDevice()` returns one");
     if (!DOMAINS.includes(domain)) refuse("domain", domain, DOMAINS);
     if (!PARTITIONINGS.includes(partitioning)) refuse("partitioning", partitioning, PARTITIONINGS);
     const folder = `${domain}-${partitioning}`;
@@ -66,6 +85,8 @@ export class Tessellator {
   }
 
   async tessellate(factors) {
+    need(Number.isInteger(factors?.length) && typeof factors !== "string",
+      "tessellate takes an array of numbers: the factors of one patch after another");
     const { domain, factors_per_patch: each } = this.manifest.setup;
     const patches = factors.length / each;
     if (!Number.isInteger(patches) || patches === 0) {
@@ -95,8 +116,10 @@ export class Tessellator {
 
 class Batch {
   constructor({ device, manifest, tables, pipelines }, patches, { points, primitives }) {
+    for (const [name, count] of Object.entries({ patches, points, primitives })) {
+      if (!Number.isInteger(count)) throw new RangeError(`batch takes a whole number of ${name}, not ${count}`);
+    }
     const plan = manifest.plans.find((plan) => plan.min_patches <= patches && patches <= plan.max_patches);
-    if (!Number.isInteger(patches)) throw new RangeError(`a batch has a whole number of patches, not ${patches}`);
     if (!plan || points > plan.max_points || primitives > plan.max_primitives) {
       throw new RangeError(`${patches} patches, ${points} points, ${primitives} primitives: not one batch`);
     }
@@ -126,6 +149,7 @@ class Batch {
   }
 
   encode(encoder) {
+    need(encoder?.beginComputePass, "encode takes a GPUCommandEncoder; `device.createCommandEncoder()` makes one");
     const pass = encoder.beginComputePass();
     for (const { pipeline, group, at, rows } of this.dispatches) {
       pass.setPipeline(pipeline);
@@ -137,6 +161,9 @@ class Batch {
   }
 
   async read(names) {
+    needArray("read", names, '["status"]');
+    const unknown = names.find((name) => !Object.hasOwn(this.buffers, name));
+    if (unknown !== undefined) refuse("buffer", unknown, Object.keys(this.buffers));
     const encoder = this.device.createCommandEncoder();
     this.encode(encoder);
     const copies = names.map((name) => {

@@ -32,6 +32,15 @@ async function compareFactors() {
       throw new Error(`${name}(${passed.join("; ")}): ${results}, not ${numbers(bits)}`);
     }
   }
+  for (const point of [undefined, 5, [1, 2]]) {
+    try {
+      factors.edgeByLength([0, 0, 0], point, 1, 1);
+    } catch (error) {
+      if (error instanceof TypeError && error.message.includes("an array of 3 numbers")) continue;
+      throw error;
+    }
+    throw new Error(`${point} is taken for a point`);
+  }
   if (calls.length < 100) throw new Error(`only ${calls.length} factors were compared`);
   console.log(`test factors ... ok (${calls.length} calls)`);
 }
@@ -79,12 +88,12 @@ async function compare([domain, partitioning, batch]) {
     const { messages } = await device.createShaderModule({ code }).getCompilationInfo();
     problems.push(...messages.map(({ message }) => message));
   }
-  const refused = async (what, call) => {
+  const refused = async (what, call, kind = RangeError, says = "") => {
     try {
       await call();
       problems.push(`${what} is not refused`);
     } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
+      if (!(error instanceof kind) || !error.message.includes(says)) throw error;
     }
   };
   await refused("an unknown domain", () => Tessellator.load(device, { domain: "triangle", partitioning }));
@@ -95,6 +104,18 @@ async function compare([domain, partitioning, batch]) {
   await refused("half a patch", () => tessellator.batch(0.5));
   await refused("room for 2^30 points", () => tessellator.batch(1, { points: 2 ** 30, primitives: 1 }));
   await refused("room for 2^33 points", () => tessellator.batch(1, { points: 2 ** 33, primitives: 1 }));
+  const untold = (what, call, says) => refused(what, call, TypeError, says);
+  await untold("no device", () => Tessellator.load(undefined, { domain, partitioning }), "await openDevice()");
+  await untold("one name of a module", () => surfacesWgsl("factors"), "such as [\"factors\"], not \"factors\"");
+  await untold("no factors", () => tessellator.tessellate(), "the factors of one patch after another");
+  await refused("no setup", () => Tessellator.load(device), RangeError, "there is no domain undefined; choose isoline");
+  const half = () => tessellator.batch(1, { points: 10 });
+  await refused("room without primitives", half, RangeError, "a whole number of primitives, not undefined");
+  const one = tessellator.batch(1);
+  await untold("no encoder", () => one.encode(), "`device.createCommandEncoder()`");
+  await untold("one name of a buffer", () => one.read("status"), "such as [\"status\"], not \"status\"");
+  await refused("an unknown buffer", () => one.read(["uv"]), RangeError, "there is no buffer \"uv\"; choose");
+  one.destroy();
   return { problems, points: expected.patches.length };
 }
 
@@ -106,6 +127,24 @@ async function share(picture) {
   const { data } = copy.getImageData(0, 0, image.width, image.height);
   const filled = data.filter((value, i) => i % 4 === 2 && value === 255 && data[i - 2] + data[i - 1] < 500).length;
   return filled / (image.width * image.height);
+}
+
+// A page without WebGPU is told so.
+async function openWithoutGpu(page) {
+  const told = await page.evaluate(async () => {
+    const { openDevice } = await import("/tess.js");
+    const gpu = { value: undefined, configurable: true };
+    Object.defineProperty(navigator, "gpu", gpu);
+    const without = await openDevice().catch(({ message }) => message);
+    Object.defineProperty(navigator, "gpu", { ...gpu, value: { requestAdapter: async () => null } });
+    const adapter = await openDevice().catch(({ message }) => message);
+    delete navigator.gpu;
+    return [without, adapter, String((await openDevice()).limits.maxBufferSize)];
+  });
+  const expected = [/there is no WebGPU here/, /no adapter; update/, /^\d+$/];
+  const wrong = told.find((message, i) => !expected[i].test(message));
+  if (wrong) throw new Error(`without WebGPU: ${wrong}`);
+  console.log("test pages without WebGPU ... ok");
 }
 
 // Opens the README's page, and checks its text and the picture that it draws.
@@ -148,7 +187,8 @@ await page.route(PAGE + "**", (route) => {
   return name === "" ? route.fulfill({ contentType: "text/html", body: "<!doctype html>" }) : route.fulfill({ path: join(packed, name) });
 });
 await page.goto(PAGE);
-let compared = 0, passed = 2;
+await openWithoutGpu(page);
+let compared = 0, passed = 3;
 for (const [setup, batch] of Object.entries(recorded())) {
   if (!folders.includes(setup)) throw new Error(`the package has no ${setup}`);
   const [domain, partitioning] = setup.split("-");
