@@ -82,9 +82,10 @@ pub enum StageError {
         found: Vec<String>,
     },
     /// The tessellator or the encoder belongs to another device than the stage. Make it with the
-    /// stage's device.
+    /// device that [`build`](crate::stage::StageBuilder::build) got.
     #[error(
-        "the tessellator or the encoder belongs to another device; make it with the stage's device"
+        "the tessellator or the encoder belongs to another device than the stage; make it with the \
+         device that `build` got: `Tessellator::new(&device)`, `device.create_command_encoder(...)`"
     )]
     OtherDevice,
     /// A member of `Vertex` is `@interpolate(flat)`, which takes the value of a primitive's first

@@ -594,4 +594,6 @@ fn encoders_and_tessellators_of_other_devices_are_refused() {
     let shared = Tessellator::new(&first);
     let built = scene.builder().tessellator(&shared).build(&second);
     assert_eq!(built.err(), Some(StageError::OtherDevice.into()), "a tessellator");
+    let told = StageError::OtherDevice.to_string();
+    assert!(told.contains("the device that `build` got: `Tessellator::new(&device)`"), "{told}");
 }
