@@ -1,161 +1,161 @@
-//! Times frames that draw one tessellation in one or four passes: `domain` in each, or evaluated
-//! once.
+//! Times frames that draw one tessellation in one, two or four passes: with `domain` in each vertex
+//! shader, or evaluated once. Evaluated vertices are loaded as attributes, as the stage does it,
+//! and for comparison from a storage buffer.
+
+mod scene;
 
 use crate::Result;
 use crate::timing::device_time;
-use std::cell::RefCell;
+use scene::{Scene, Targets, Way};
 use std::time::Duration;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_wgpu::stage::{Frame, Material, Points, Room};
-use tess_wgpu::{DeviceLimits, Gpu, Stopwatch, TessellationStage};
+use tess_core::Order;
+use tess_wgpu::{DeviceLimits, Gpu, Stopwatch};
 
 /// The time for which each frame is repeated.
-const LONG_ENOUGH: Duration = Duration::from_millis(250);
-/// The width and height of a target in pixels.
-const SIZE: u32 = 1024;
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+const LONG_ENOUGH: Duration = Duration::from_millis(120);
+
+/// Factors, and the patches along each side that give two million triangles with them.
+const SIZES: [[u32; 2]; 3] = [[4, 256], [16, 64], [64, 16]];
 
 /// Octaves of noise in `domain`, each of about 40 instructions.
-const OCTAVES: [u32; 3] = [1, 4, 32];
+const OCTAVES: [u32; 4] = [1, 2, 4, 32];
 
-/// Prints the device's times in microseconds: of `prepare` alone, and of whole frames.
+const PASSES: [usize; 3] = [1, 2, 4];
+
+/// The members of `Vertex` beside its position, which has 16 bytes.
+struct Form {
+    /// Bytes from one vertex to the next.
+    bytes: u32,
+    members: &'static str,
+    /// Their values.
+    values: &'static str,
+    /// The member or expression that the fragment shader lights.
+    normal: &'static str,
+}
+
+const FORMS: [Form; 4] = [
+    Form { bytes: 16, members: "", values: "", normal: "vec3f(0.0, 0.0, 1.0)" },
+    Form {
+        bytes: 32,
+        members: "@location(0) normal: vec3f,",
+        values: ", normal",
+        normal: "vertex.normal",
+    },
+    Form {
+        bytes: 48,
+        members: "@location(0) normal: vec3f, @location(1) uv: vec2f,",
+        values: ", normal, at",
+        normal: "vertex.normal + vec3f(vertex.uv, 0.0)",
+    },
+    Form {
+        bytes: 64,
+        members: "@location(0) normal: vec3f, @location(1) uv: vec2f, @location(2) tangent: vec4f,",
+        values: ", normal, at, vec4f(normal.zxy, 1.0)",
+        normal: "vertex.normal + vec3f(vertex.uv, 0.0) * vertex.tangent.w",
+    },
+];
+
+impl Form {
+    /// The WGSL of hills with these vertices.
+    fn text(&self, [factor, side]: [u32; 2], octaves: u32) -> String {
+        include_str!("evaluated/hills.wgsl")
+            .replace("MEMBERS", self.members)
+            .replace("VALUES", self.values)
+            .replace("NORMAL", self.normal)
+            .replace("FACTOR", &format!("{factor}.0"))
+            .replace("SIDE", &format!("{side}u"))
+            .replace("OCTAVES", &octaves.to_string())
+    }
+}
+
+/// The device, and what frames are timed with.
+struct Bench {
+    gpu: Gpu,
+    stopwatch: Stopwatch,
+    targets: Targets,
+}
+
+/// Prints the device's times in microseconds, of `prepare` alone and of whole frames, and the
+/// quotients of frames and the frame of stored points.
 pub(crate) fn run() -> Result<()> {
     let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))?;
     let stopwatch = Stopwatch::new(&gpu)?;
-    let targets = [FORMAT, DEPTH].map(|format| target(&gpu, format));
     println!("{}", gpu.name());
-    println!("                                   stored us        evaluated us");
-    println!("factor patches octaves passes  prepare    frame  prepare    frame  quotient");
-    // Two million triangles each.
-    for (factor, side) in [(4_u32, 256_u32), (16, 64), (64, 16)] {
-        for octaves in OCTAVES {
-            let text = include_str!("evaluated.wgsl")
-                .replace("FACTOR", &format!("{factor}.0"))
-                .replace("SIDE", &format!("{side}u"))
-                .replace("OCTAVES", &octaves.to_string());
-            for passes in [1, 4] {
-                let time = |points| {
-                    let scene = Scene::new(&gpu, (&text, points), side * side, passes)?;
-                    scene.times(&gpu, &stopwatch, &targets)
-                };
-                let [stored, evaluated] = [time(Points::Stored)?, time(Points::Evaluated)?];
-                print_row([factor, side * side, octaves, passes], stored, evaluated);
+    let bench = Bench { targets: Targets::new(&gpu), gpu, stopwatch };
+    bench.compare_forms()?;
+    bench.compare_orders()
+}
+
+impl Bench {
+    /// Vertices of each size, with all factors, octaves and numbers of passes.
+    fn compare_forms(&self) -> Result<()> {
+        println!(
+            "                                    stored us         evaluated us          storage"
+        );
+        println!("bytes factor octaves passes  prepare    frame  prepare    frame  ratio    ratio");
+        for form in &FORMS {
+            for size in SIZES {
+                for octaves in OCTAVES {
+                    let text = form.text(size, octaves);
+                    self.compare_passes(form, size, (&text, octaves))?;
+                }
             }
         }
-    }
-    Ok(())
-}
-
-#[expect(clippy::float_arithmetic, reason = "a quotient of times")]
-fn print_row(row: [u32; 4], stored: [f64; 2], evaluated: [f64; 2]) {
-    let [factor, patches, octaves, passes] = row;
-    let ([a, b], [c, d]) = (stored, evaluated);
-    let quotient = d / b;
-    println!(
-        "{factor:6} {patches:7} {octaves:7} {passes:6} {a:8.1} {b:8.1} {c:8.1} {d:8.1} {quotient:9.3}"
-    );
-}
-
-/// A stage, and the materials that draw its frames for several cameras.
-struct Scene {
-    stage: RefCell<TessellationStage>,
-    first: Material,
-    others: Vec<Material>,
-    patches: u32,
-}
-
-impl Scene {
-    fn new(gpu: &Gpu, (text, points): (&str, Points), patches: u32, passes: u32) -> Result<Self> {
-        let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
-        let stage = TessellationStage::builder(text, Domain::Quad, config, patches)
-            .points(points)
-            .room(Room::Automatic { most_bytes: 1 << 30 })
-            .build(&gpu.device)?;
-        let depth = wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        };
-        let pass = |camera| stage.material(text).project(camera).depth(depth.clone());
-        let first = pass("camera_0").target(FORMAT).build()?;
-        // Only depth, as in shadow maps.
-        let others = ["camera_1", "camera_2", "camera_3"].into_iter().take(passes as usize - 1);
-        let others = others.map(|camera| pass(camera).build());
-        let others = others.collect::<std::result::Result<_, _>>()?;
-        Ok(Self { stage: RefCell::new(stage), first, others, patches })
+        Ok(())
     }
 
-    /// The times of `prepare` alone and of a frame: one `prepare`, and a pass for each camera.
-    fn times(
+    #[expect(clippy::float_arithmetic, reason = "quotients of times")]
+    fn compare_passes(
         &self,
-        gpu: &Gpu,
-        stopwatch: &Stopwatch,
-        [colour, depth]: &[wgpu::TextureView; 2],
-    ) -> Result<[f64; 2]> {
-        self.stage.borrow_mut().make_room(&gpu.queue, self.patches)?;
-        let prepared = |encoder: &mut wgpu::CommandEncoder| -> Frame {
-            let frame = self.stage.borrow_mut().prepare(encoder, self.patches);
-            frame.expect("the device works and the number is the stage's")
-        };
-        let prepare = |encoder: &mut wgpu::CommandEncoder| drop(prepared(encoder));
-        let frame = |encoder: &mut wgpu::CommandEncoder| {
-            let frame = prepared(encoder);
-            let draw = |material: &Material, mut pass: wgpu::RenderPass<'_>| {
-                material.draw(&mut pass, &frame).expect("it is the last frame");
-            };
-            draw(&self.first, begin(encoder, Some(colour), depth));
-            for other in &self.others {
-                draw(other, begin(encoder, None, depth));
-            }
-        };
-        let time = |work: &dyn Fn(&mut wgpu::CommandEncoder)| {
-            device_time(gpu, stopwatch, LONG_ENOUGH, work)
-        };
-        // The first frames grow the room.
-        time(&frame)?;
-        Ok([time(&prepare)?, time(&frame)?])
+        form: &Form,
+        [factor, side]: [u32; 2],
+        (text, octaves): (&str, u32),
+    ) -> Result<()> {
+        let of = |way| Scene::new(&self.gpu, (text, side * side), way, Order::VertexCache);
+        let [stored, evaluated, storage] =
+            [of(Way::Stored)?, of(Way::Evaluated)?, of(Way::Storage)?];
+        for passes in PASSES {
+            let [[a, b], [c, d]] = [self.times(&stored, passes)?, self.times(&evaluated, passes)?];
+            let [_, e] = self.times(&storage, passes)?;
+            println!(
+                "{:5} {factor:6} {octaves:7} {passes:6} {a:8.1} {b:8.1} {c:8.1} {d:8.1} {:6.3} {:8.3}",
+                form.bytes,
+                d / b,
+                e / b
+            );
+        }
+        Ok(())
     }
-}
 
-fn begin<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    colour: Option<&wgpu::TextureView>,
-    depth: &wgpu::TextureView,
-) -> wgpu::RenderPass<'a> {
-    let colour = colour.map(|view| wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations::default(),
-    });
-    let colours = [colour];
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        color_attachments: if colours[0].is_some() { &colours } else { &[] },
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: depth,
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(1.0),
-                store: wgpu::StoreOp::Store,
-            }),
-            stencil_ops: None,
-        }),
-        ..Default::default()
-    })
-}
+    /// The orders of a patch's triangles, with vertices of 48 bytes and two octaves.
+    #[expect(clippy::float_arithmetic, reason = "a quotient of times")]
+    fn compare_orders(&self) -> Result<()> {
+        println!("\nframes with 48 bytes and 2 octaves, us: order, then stored and evaluated");
+        println!("factor passes          order   stored evaluated  ratio");
+        for size @ [factor, side] in SIZES {
+            let text = FORMS[2].text(size, 2);
+            for order in [Order::VertexCache, Order::Specification] {
+                let of = |way| Scene::new(&self.gpu, (&text, side * side), way, order);
+                let [stored, evaluated] = [of(Way::Stored)?, of(Way::Evaluated)?];
+                for passes in [1, 4] {
+                    let [_, b] = self.times(&stored, passes)?;
+                    let [_, d] = self.times(&evaluated, passes)?;
+                    let order = format!("{order:?}");
+                    println!("{factor:6} {passes:6} {order:>14} {b:8.1} {d:9.1} {:6.3}", d / b);
+                }
+            }
+        }
+        Ok(())
+    }
 
-fn target(gpu: &Gpu, format: wgpu::TextureFormat) -> wgpu::TextureView {
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width: SIZE, height: SIZE, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
-        view_formats: &[],
-    });
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+    /// The times of `prepare` alone and of a frame: one `prepare`, and this number of passes.
+    fn times(&self, scene: &Scene, passes: usize) -> Result<[f64; 2]> {
+        let time = |passes| {
+            let record = |encoder: &mut wgpu::CommandEncoder| {
+                scene.record(&self.gpu, encoder, &self.targets, passes);
+            };
+            device_time(&self.gpu, &self.stopwatch, LONG_ENOUGH, record)
+        };
+        Ok([time(0)?, time(passes)?])
+    }
 }

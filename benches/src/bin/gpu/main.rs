@@ -39,7 +39,8 @@ struct Arguments {
 enum Command {
     /// Compare the device with one CPU thread, for batches of 1 to 4096 patches
     Crossover,
-    /// Compare `Points::Evaluated` with `Points::Stored`, in frames of one and of four passes
+    /// Compare `Points::Evaluated` with `Points::Stored`, by vertex size, factor, length of
+    /// `domain` and passes
     Evaluated,
     /// Compare many meshes in one batch with as many batches
     Groups,

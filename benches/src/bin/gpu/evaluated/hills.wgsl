@@ -1,9 +1,9 @@
-// Hills of noise on a grid of patches, seen from above by up to four cameras. FACTOR, SIDE (patches along each side) and
-// OCTAVES are put in.
+// Hills of noise on a grid of patches, seen from above by up to four cameras. FACTOR, SIDE (patches along each side),
+// OCTAVES and the members of `Vertex` with their VALUES are put in.
 
 struct Vertex {
     @builtin(position) position: vec4f,
-    @location(0) normal: vec3f,
+    MEMBERS
 }
 
 fn hash(at: vec2f) -> f32 {
@@ -39,13 +39,16 @@ fn domain(number: u32, uv: vec2f) -> Vertex {
         height += noise(scale * at) * vec3f(1.0, scale, scale) / scale;
         scale *= 1.5;
     }
-    return Vertex(vec4f(2.0 * at - 1.0, 0.3 * height.x, 1.0), normalize(vec3f(-height.yz, 4.0)));
+    let normal = normalize(vec3f(-height.yz, 4.0));
+    return Vertex(vec4f(2.0 * at - 1.0, 0.3 * height.x, 1.0) VALUES);
 }
 
 fn seen(vertex: Vertex, by: f32) -> Vertex {
     let at = vertex.position;
     let turned = vec2f(at.x - by * at.z, at.y + by * at.x * at.z);
-    return Vertex(vec4f(turned, 0.1 + 0.5 * at.z, 1.0), vertex.normal);
+    var other = vertex;
+    other.position = vec4f(turned, 0.1 + 0.5 * at.z, 1.0);
+    return other;
 }
 
 fn camera_0(vertex: Vertex) -> Vertex {
@@ -66,5 +69,5 @@ fn camera_3(vertex: Vertex) -> Vertex {
 
 @fragment
 fn shade(vertex: Vertex) -> @location(0) vec4f {
-    return vec4f(vec3f(max(dot(vertex.normal, vec3f(0.6, 0.0, 0.8)), 0.0)), 1.0);
+    return vec4f(vec3f(max(dot(NORMAL, vec3f(0.6, 0.0, 0.8)), 0.0)), 1.0);
 }
