@@ -258,6 +258,7 @@ fn a_material_that_is_made_after_other_groups_draws_them() {
             let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
             both.prepare(&mut encoder, PATCHES).expect("it is prepared");
             let drawn = scene.draw_only(encoder, |pass| {
+                both.draw_group(pass, 0).expect("the first material");
                 other.draw_group(pass, both.frame(), 1).expect("the groups are new");
             });
             let drawn = drawn.unwrap_or_else(|error| panic!("{points:?}, frame {frame}: {error}"));
