@@ -200,6 +200,18 @@ def of_crossover(outputs):
     return [{"patches": patches, **rows[patches]} for patches in (1, 16, 128, 256, 1024, 4096)]
 
 
+def of_evaluated(outputs):
+    """Frames of evaluated points as multiples of those of stored points, at factors 4, 16 and 64; and from a storage buffer."""
+    line = r"^ *(\d+) +(4|16|64) +(\d+) +(\d+)(?: +[\d.]+){4} +([\d.]+) +([\d.]+)$"
+    rows = {}
+    for size, _, octaves, passes, evaluated, storage in re.findall(line, outputs[0], re.MULTILINE):
+        row = rows.setdefault((int(size), int(octaves)), {})
+        for key, ratio in ((f"{passes}_passes", evaluated), (f"{passes}_passes,_storage", storage)):
+            row.setdefault(key, []).append(f"{float(ratio):.2f}")
+    cells = lambda row: {key: " / ".join(ratios) for key, ratios in row.items()}
+    return [{"bytes": size, "octaves": octaves, **cells(row)} for (size, octaves), row in rows.items()]
+
+
 def of_stage(outputs):
     lines = re.findall(r"^(stored|pull|none) +(\d+) +(\d+) +(\d+) +([\d.]+)$", outputs[0], re.MULTILINE)
     keys = ["points", "triangles", "prepare_us", "draw_us", "G_triangles/s"]
@@ -283,6 +295,13 @@ MEASUREMENTS = {
         "gpu", GPU, [[*EDITS, *BATCHES]], of_one_thread, ["workload", "G_triangles/s", "one_thread_a_patch", "times_as_fast"]
     ),
     "gpu-groups": Measurement("gpu", GPU, [["gpu", "groups"]], of_groups, ["meshes", "microseconds"]),
+    "gpu-evaluated": Measurement(
+        "gpu",
+        Code(GPU.packages, [*WORKLOADS, "benches/src"]),
+        [["gpu", "evaluated"]],
+        of_evaluated,
+        ["bytes", "octaves", "1_passes", "2_passes", "4_passes", "1_passes,_storage", "4_passes,_storage"],
+    ),
     "gpu-crossover": Measurement(
         "gpu",
         Code([*GPU.packages, *CPU.packages], WORKLOADS),
