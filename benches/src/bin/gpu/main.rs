@@ -5,6 +5,7 @@
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- crossover
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- groups
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- evaluated
+//! cargo run --release -p tess-benches --features gpu --bin gpu -- first
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- study
 //! cargo run --release -p tess-benches --features gpu --bin gpu -- ablation benches/edits uniform-16 character
 //! ```
@@ -19,6 +20,7 @@ mod ablation;
 mod crossover;
 mod digest;
 mod evaluated;
+mod first;
 mod groups;
 mod study;
 mod timing;
@@ -42,6 +44,8 @@ enum Command {
     /// Compare `Points::Evaluated` with `Points::Stored`, by vertex size, factor, length of
     /// `domain` and passes
     Evaluated,
+    /// Time the first frames of a tessellation stage on the host
+    First,
     /// Compare many meshes in one batch with as many batches
     Groups,
     /// Time the inputs of the study of 2015, as one patch and as 4096
@@ -54,6 +58,7 @@ fn main() -> Result<()> {
     match Arguments::parse().command {
         Command::Crossover => crossover::run(),
         Command::Evaluated => evaluated::run(),
+        Command::First => first::run(),
         Command::Groups => groups::run(),
         Command::Study(arguments) => study::run(&arguments),
         Command::Ablation(arguments) => ablation::run(&arguments),
