@@ -1,5 +1,9 @@
 #![doc = include_str!("../README.md")]
 
+// The tests run an example.
+#[cfg(test)]
+extern crate self as bevy_tess;
+
 mod bezier;
 mod component;
 mod cpu;

@@ -1,6 +1,8 @@
 //! Whole frames without a window: the domain points equal the CPU's, user shaders are drawn, and
 //! errors in them do not end the program.
 
+#[expect(dead_code, reason = "the game's `main` opens a window")]
+mod game;
 mod images;
 mod materials;
 mod passes;
@@ -188,6 +190,30 @@ fn wrong_wgsl_is_not_drawn_and_ends_nothing() {
     app.world_mut().spawn((right, Transform::from_xyz(0.0, 0.0, -0.5)));
     run(&mut app);
     assert_eq!(middle(&mut app), [0, 255, 0, 255], "the other one is drawn");
+}
+
+/// As when the text of a shape is loaded again from its file.
+#[test]
+fn a_new_text_replaces_the_one_that_was_drawn() {
+    let mut app = app();
+    let entity = app.world_mut().spawn_empty().id();
+    let red = GREEN.replace("(0.0, select(0.0, 1.0, is_seen), 0.0", "(1.0, 0.0, 0.0").leak();
+    let wider = SURFACE.replace("uv - 0.5", "2.0 * uv - 1.0").leak();
+    let broken = SURFACE.replace("tess_place(number)", "tess_place(uv)").leak();
+    for (surface, fragment, expected) in [
+        (SURFACE, GREEN, [0, 255, 0, 255]),
+        (SURFACE, red, [255, 0, 0, 255]),
+        (broken, red, [0, 0, 0, 255]),
+        (wider, red, [255, 0, 0, 255]),
+        (SURFACE, GREEN, [0, 255, 0, 255]),
+    ] {
+        app.world_mut().entity_mut(entity).insert(Tessellated::new(Wall { surface, fragment }));
+        run(&mut app);
+        assert_eq!(middle(&mut app), expected, "{surface}{fragment}");
+        let covered = picture(&mut app).iter().filter(|pixel| **pixel == expected).count() as u32;
+        let is_wide = surface == wider;
+        assert!(is_wide == (covered > SIZE * SIZE / 2) || surface == broken, "{covered} pixels");
+    }
 }
 
 /// The points of a stage: patch, u and v.

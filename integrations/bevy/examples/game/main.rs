@@ -1,0 +1,3 @@
+//! The game of the README.
+
+include!("game.rs");
