@@ -19,6 +19,7 @@ pub use error::{LoadError, LoadErrorKind};
 pub use load::{
     CREASE, Format, LoadOptions, Loaded, Progress, Up, Weld, load, load_watched, read, teapot,
 };
+pub use repair::tally::counted;
 pub use tess_surface;
 pub use tessellate::{Job, Stage, Watch, largest_factor};
 pub use write::Totals;

@@ -1,7 +1,8 @@
 //! Notes on changes to a model: what was changed, how often, and where first.
 
-/// A number with its noun: `1 point`, `2 points`.
-pub(crate) fn counted(number: u64, one: &str) -> String {
+/// A number with its noun, as notes have it: `1 point`, `2 points`, `3 patches`.
+#[must_use]
+pub fn counted(number: u64, one: &str) -> String {
     let ending = match number {
         1 => "",
         _ if one.ends_with("ch") => "es",

@@ -21,6 +21,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+pub(crate) use tess_mesh::counted;
 pub(crate) use trusted::{Trusted, begin};
 
 /// The `-o` option.
@@ -130,16 +131,6 @@ pub(crate) fn print(bar: &ProgressBar, text: &str) -> Result<(), Failure> {
         out.flush()
     };
     bar.suspend(print).map_err(|error| Failure::write(Path::new("-"), error))
-}
-
-/// A number with its noun: `1 point`, `2 points`.
-pub(crate) fn counted(number: u64, one: &str) -> String {
-    let ending = match number {
-        1 => "",
-        _ if one.ends_with("ch") => "es",
-        _ => "s",
-    };
-    format!("{number} {one}{ending}")
 }
 
 /// Prints a message that is not part of the result to stderr.
