@@ -6,7 +6,7 @@
 use crate::budget::{Budget, MAX_MEMORY};
 use crate::error::{LoadError, LoadErrorKind};
 use crate::parts::{Channel, Materials, Part, Parts};
-use crate::read::{bpt, gltf, obj};
+use crate::read::{bpt, gltf, mtl, obj};
 use crate::repair::draft::{Draft, FacePlaces};
 use crate::repair::tally::Tally;
 use crate::repair::{collapsed, faces, weld};
@@ -172,7 +172,7 @@ fn read_watched(
 ) -> Result<Loaded, LoadError> {
     let budget = Budget::new(options.max_memory);
     let loaded = match format {
-        Format::Obj => load_obj(bytes, options, &budget, progress),
+        Format::Obj => load_obj(bytes, folder, options, &budget, progress),
         Format::Gltf => load_gltf(bytes, folder, options, &budget, progress),
         Format::Bpt => {
             options.refuse_for_patches("the file")?;
@@ -205,6 +205,7 @@ fn of_patches(model: Model, notes: Vec<String>, first: impl FnOnce() -> String) 
 
 fn load_obj(
     bytes: &[u8],
+    folder: Option<&Path>,
     options: &LoadOptions,
     budget: &Budget,
     progress: Progress<'_>,
@@ -216,7 +217,10 @@ fn load_obj(
     let mut draft = Draft::new(mesh, FacePlaces::Lines(lines));
     draft.channels = colors.into_iter().collect();
     draft.notes = notes;
-    polygons(draft, &Runs { parts: nodes, smoothing }, materials, None, options)
+    let runs = Runs { parts: nodes, smoothing };
+    let mut loaded = polygons(draft, &runs, materials, None, options)?;
+    loaded.files = mtl::read(&mut loaded.parts, folder, budget);
+    Ok(loaded)
 }
 
 /// The runs of an OBJ file's parts. Each object and group of one name is a node.

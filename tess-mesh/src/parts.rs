@@ -87,10 +87,13 @@ pub struct Materials {
     /// The material libraries of an OBJ file (`mtllib`), as the file names them.
     pub libraries: Vec<String>,
     /// The members of a glTF document that describe materials: `materials`, `textures`, `samplers`
-    /// and `images`, and the names of the extensions that these use.
+    /// and `images`, and the names of the extensions that these use. Those of an OBJ file come from
+    /// its material libraries: base colours, opacity and their images, which are not embedded.
     pub document: Map<String, Value>,
     /// The contents of images that are in the file's buffers, by their number in `images`.
     pub images: Vec<(usize, Vec<u8>)>,
+    /// Notes on what glTF does not get of the material libraries.
+    pub losses: Vec<String>,
 }
 
 /// The parts of a model.

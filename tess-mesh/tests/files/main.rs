@@ -9,6 +9,7 @@
 mod edges;
 mod harm;
 mod heights;
+mod materials;
 mod output;
 mod polygons;
 mod slivers;

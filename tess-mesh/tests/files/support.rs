@@ -4,7 +4,9 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::fs;
 use std::io;
+use std::path::{Path, PathBuf};
 use tess_mesh::tess_surface::FactorRule;
 use tess_mesh::tess_surface::glam::Vec3;
 use tess_mesh::write::{Block, Glb, GltfOptions, IndexWidth, Sink, WriteAt};
@@ -180,6 +182,14 @@ impl WriteAt for Memory {
         content[offset as usize..end].copy_from_slice(bytes);
         Ok(())
     }
+}
+
+/// An empty folder for a test.
+pub(crate) fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
 }
 
 /// The document and the binary part of the GLB file that a model becomes.

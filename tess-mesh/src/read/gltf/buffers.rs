@@ -2,13 +2,12 @@
 
 use super::document::{Document, broken};
 use crate::budget::Budget;
+use crate::read::beside;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
-use std::fs::{self, File};
-use std::io::Read;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// The buffers of a document, each loaded when it is needed.
 #[derive(Debug)]
@@ -91,10 +90,9 @@ fn from_uri(
         return Ok((bytes, None));
     }
     let relative = file_name(uri)?;
-    let folder = folder.ok_or("a file without a folder cannot have other files beside it")?;
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let file = folder.join(relative);
-    Ok((read_file(&file, folder, length)?, Some(file)))
+    let file = beside::path(folder, &relative)?;
+    let bytes = beside::read(&file, folder.unwrap_or(Path::new("")), length)?;
+    Ok((bytes, Some(file)))
 }
 
 /// The relative path of a URI that names a file in the model's folder or below it.
@@ -102,19 +100,7 @@ fn file_name(uri: &str) -> Result<PathBuf, String> {
     let outside = || format!("`{uri}` is not a file in the model's folder or below it");
     let scheme = uri.split(['/', '?', '#']).next().is_some_and(|first| first.contains(':'));
     let path = PathBuf::from(percent_decoded(uri).ok_or_else(outside)?);
-    let mut depth = 0i32;
-    for component in path.components() {
-        depth += match component {
-            Component::Normal(_) => 1,
-            Component::CurDir => 0,
-            Component::ParentDir => -1,
-            Component::RootDir | Component::Prefix(_) => return Err(outside()),
-        };
-        if depth < 0 {
-            return Err(outside());
-        }
-    }
-    if scheme || depth == 0 { Err(outside()) } else { Ok(path) }
+    if scheme || !beside::is_below(&path) { Err(outside()) } else { Ok(path) }
 }
 
 /// Decodes percent encoding (RFC 3986, section 2.1); `None` if a `%` is not followed by two digits,
@@ -131,22 +117,4 @@ fn percent_decoded(uri: &str) -> Option<String> {
         bytes.extend(rest.as_bytes());
     }
     String::from_utf8(bytes).ok().filter(|path| !path.contains('\0'))
-}
-
-/// Reads at most `length` bytes of an ordinary file that is below `folder` after links are
-/// followed.
-fn read_file(path: &Path, folder: &Path, length: u64) -> Result<Vec<u8>, String> {
-    let shown = path.display();
-    let cannot = |error: std::io::Error| format!("cannot read {shown}: {error}");
-    let real = fs::canonicalize(path).map_err(cannot)?;
-    if !real.starts_with(fs::canonicalize(folder).map_err(cannot)?) {
-        return Err(format!("{shown} is a link to a file outside of the model's folder"));
-    }
-    let found = fs::metadata(&real).map_err(cannot)?;
-    if !found.is_file() {
-        return Err(format!("{shown} is not an ordinary file"));
-    }
-    let mut bytes = Vec::new();
-    File::open(&real).and_then(|file| file.take(length).read_to_end(&mut bytes)).map_err(cannot)?;
-    Ok(bytes)
 }

@@ -39,7 +39,7 @@ pub(crate) fn materials(data: &Data<'_>) -> Materials {
     let images = if kept.contains_key("images") { images.collect() } else { Vec::new() };
     let names = lists.materials.iter().map(|material| material["name"].as_str());
     let names = names.map(|name| name.map(str::to_owned)).collect();
-    Materials { names, libraries: Vec::new(), document: kept, images }
+    Materials { names, document: kept, images, ..Materials::default() }
 }
 
 /// The names of the extensions in a value.

@@ -50,7 +50,7 @@ glTF models are in their pose at rest, with the weights of morph targets, the jo
 transforms of nodes; animations are not applied. Buffers must be files in the model's folder or below it.
 
 Meshes keep names, materials, colours, tangents and all texture coordinates; glTF keeps the images, by reference or embedded \
-as in the input. Vertices that patches share are written once, except where normals or other values differ. The poses of \
+as in the input. Of an OBJ file's material libraries, glTF gets base colours (`Kd`), opacity and their images (`map_Kd`). Vertices that patches share are written once, except where normals or other values differ. The poses of \
 skins and morph targets are applied, and animations are lost.
 
 --displace maps the image by the model's texture coordinates, (0, 0) at the lower left. A face without texture coordinates \
@@ -352,13 +352,13 @@ impl MeshCommand {
         factor
     }
 
-    /// The files of the command, including the buffers next to the model and the binary part next
+    /// The files of the command, including those to which the model refers and the binary part next
     /// to the result.
-    fn roles<'a>(&'a self, buffers: &'a [PathBuf], part: Option<&'a Path>) -> Vec<Role<'a>> {
+    fn roles<'a>(&'a self, others: &'a [PathBuf], part: Option<&'a Path>) -> Vec<Role<'a>> {
         let input = self.input.as_deref().map(|path| Role::input("IN", path));
         let map = self.displace.as_deref().map(|path| Role::input("--displace", path));
-        let buffers = buffers.iter().map(|path| Role::input("the model's buffer", path));
-        let inputs = input.into_iter().chain(map).chain(buffers);
+        let others = others.iter().map(|path| Role::input("a file of the model", path));
+        let inputs = input.into_iter().chain(map).chain(others);
         let part = part.map(|path| Role::output("the binary part of -o,", path));
         inputs.chain([Role::output("-o", &self.output)]).chain(part).collect()
     }

@@ -113,13 +113,10 @@ pub(crate) fn notes_of_losses(form: ResultForm, parts: &Parts) -> impl Iterator<
              keep them"
                 .to_owned()
         }),
-        (matches!(form, ResultForm::Gltf | ResultForm::Glb) && !materials.libraries.is_empty())
-            .then(|| {
-                let library = &materials.libraries[0];
-                format!("materials: glTF gets their names; the library {library} is not read")
-            }),
     ];
-    notes.into_iter().flatten()
+    let is_gltf = matches!(form, ResultForm::Gltf | ResultForm::Glb);
+    let of_libraries = materials.losses.iter().filter(move |_| is_gltf).cloned();
+    notes.into_iter().flatten().chain(of_libraries)
 }
 
 /// The formats of the result.
