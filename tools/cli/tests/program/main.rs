@@ -30,6 +30,7 @@ mod mesh_gltf;
 mod mesh_input;
 mod mesh_pose;
 mod mesh_repair;
+mod mesh_size;
 mod options;
 mod patch;
 #[cfg(all(feature = "probe", feature = "shaders"))]
