@@ -79,6 +79,10 @@ const SUBJECTS: &[Subject] = &[
         passes: &[Pass { tests: "-C=--all-features -C=--lib -C=--test=surfaces", files: &[] }],
     },
     Subject {
+        package: "tess-mesh",
+        passes: &[Pass { tests: "-C=--lib -C=--test=readers -C=--test=files", files: &[] }],
+    },
+    Subject {
         package: "tess-verify",
         passes: &[
             Pass {
