@@ -11,6 +11,9 @@ use std::process::Command;
 /// The packages of the virtual environment.
 const PACKAGES: &[&str] = &["numpy>=1.24", "pillow>=10", "pygltflib>=1.16,<2", "scipy>=1.10"];
 
+/// The viewer whose pictures of inputs and outputs are compared.
+const VIEWER: &str = "f3d>=3,<5";
+
 /// Khronos' validator for glTF files.
 const VALIDATOR: &str = "gltf-validator@2.0.0-dev.3.10";
 
@@ -43,14 +46,22 @@ pub(crate) fn judge_made(program: &Path) -> Result<Command, String> {
 /// # Errors
 /// An output is wrong, or the judges cannot be installed.
 pub(crate) fn run(folders: &[&str]) -> Result<(), String> {
-    command::run(judge(&command::program()?)?.args(folders))
+    let mut judge = judge(&command::program()?)?;
+    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", VIEWER];
+    command::run(Command::new(python()).args(pip))?;
+    command::run(judge.arg("--pictures").args(folders))
+}
+
+/// The interpreter of the virtual environment.
+fn python() -> PathBuf {
+    folder().join("venv/bin/python")
 }
 
 /// The command that judges what this program makes, without its folders.
 fn judge(program: &Path) -> Result<Command, String> {
     setup::provide(&[PYTHON, NODE])?;
     let environment = folder().join("venv");
-    let (python, done) = (environment.join("bin/python"), environment.join("done"));
+    let (python, done) = (python(), environment.join("done"));
     if fs::read_to_string(&done).ok().as_deref() != Some(PACKAGES.join(" ").as_str()) {
         command::run(command::python().args(["-m", "venv", "--clear"]).arg(&environment))?;
         let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];

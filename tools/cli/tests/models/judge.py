@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs `tess mesh` on every model of some folders and judges the outputs.
 
-    judge.py TESS FOLDER... [--validator FOLDER] [--made] [--limit SECONDS]
+    judge.py TESS FOLDER... [--validator FOLDER] [--pictures] [--made] [--limit SECONDS]
 
 No code here is shared with the program: pygltflib and numpy read files and compute poses, and Khronos' glTF validator
 checks outputs if it is installed in FOLDER as an npm package. A file must be read (exit code 0) or refused (2); with
@@ -11,7 +11,9 @@ checks outputs if it is installed in FOLDER as an npm package. A file must be re
 - at factor 1 its points are the points of the posed input, each within 1e-5 of the diagonal;
 - at factor 3, flat and curved, it has at most three open edges for each open edge of the input;
 - its triangles face the side of their normals: flat ones, and with --made also curved ones;
-- its picture is not blank.
+- its picture is not blank;
+- with --pictures, the pictures that f3d makes of it at factor 1 are those that it makes of a glTF input, unless a note says
+  that faces, points or lines were left out or normals were wrong.
 
 Exit code: 0 if all is right, 1 if there are complaints, 2 if no model was found.
 """
@@ -130,6 +132,7 @@ class Run:
     def __init__(self, tess, path, folder, limit):
         self.tess, self.path, self.folder, self.limit = tess, path, pathlib.Path(folder), limit
         self.reason = None
+        self.notes = []
 
     def mesh(self, name, words):
         """The output's path; None if the file is refused, and then `reason` is set."""
@@ -137,6 +140,7 @@ class Run:
         command = [self.tess, "mesh", str(self.path), *words.split(), "-o", str(out)]
         done = subprocess.run(command, capture_output=True, text=True, timeout=self.limit, check=False)
         lines = [line for line in done.stderr.splitlines() if line.strip()]
+        self.notes = [line for line in lines if line.startswith("tess: note: ")]
         if done.returncode == 2 and lines and self.path.name in done.stderr:
             self.reason = done.stderr.strip().replace(str(self.path), self.path.name)
             return None
@@ -165,15 +169,50 @@ def judge_file(run, validate, made):
             complaints += [f"{out.name}: {what}" for what in judge_numbers(mesh) + judge_cracks(mesh, expected)]
         if not is_bezier:
             complaints += [what for out in outputs[: 1 + made] for what in judge_sides(Mesh(out))]
-        complaints += validate([whole, outputs[0]])
+        # What is wrong with the input's materials is wrong with the output's, which are the same.
+        of_input = validate([run.path]) if run.path.suffix.lower() in (".gltf", ".glb") else []
+        complaints += sorted(set(validate([whole, outputs[0]])) - set(of_input))
     complaints += judge_picture(run.mesh("picture.png", "--factor 2 --size 160x120"))
     return complaints
 
 
+# Notes on what the output shows otherwise.
+CHANGED = ("points or lines", "no whole triangle", "smooth normals")
+
+
+class Pictures:
+    """Compares pictures of inputs and outputs."""
+
+    def __init__(self):
+        import pictured  # f3d needs a library of graphics, which not every machine has
+
+        self.pictured = pictured
+        self.compared = self.faults = 0
+        self.unseen = []
+
+    def judge(self, run):
+        if run.path.suffix.lower() not in (".gltf", ".glb"):
+            return []
+        out = run.mesh("look.gltf", "--factor 1")
+        if any(words in note for note in run.notes for words in CHANGED):
+            return []
+        part, drawn = self.pictured.difference(run.path, out)
+        self.compared += 1
+        # The same comparison must see that materials are lost.
+        faulty = out.with_name("faulty.gltf")
+        if drawn > 0.02 and self.pictured.without_materials(out, faulty):
+            self.faults += 1
+            if self.pictured.difference(run.path, faulty)[0] <= self.pictured.MOST:
+                self.unseen.append(run.path.name)
+        return [f"{part:.2%} of a picture differs"] if part > self.pictured.MOST else []
+
+
 VALIDATE = """
-const validator = require("gltf-validator"), fs = require("fs");
+const validator = require("gltf-validator"), fs = require("fs"), { dirname, resolve } = require("path");
+const read = (path) => new Uint8Array(fs.readFileSync(path));
 Promise.all(process.argv.slice(1).map(async (path) => {
-    const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(path)));
+    const externalResourceFunction = async (uri) => read(resolve(dirname(path), decodeURIComponent(uri)));
+    const report = await validator.validateBytes(read(path), { externalResourceFunction });
     return report.issues.messages.filter((issue) => issue.severity === 0).map((issue) => issue.message);
 })).then((issues) => console.log(JSON.stringify(issues.flat())));
 """
@@ -185,7 +224,7 @@ def validator(folder):
         return lambda paths: []
 
     def validate(paths):
-        command = ["node", "-e", VALIDATE, *map(str, paths)]
+        command = ["node", "-e", VALIDATE, *(str(path.resolve()) for path in paths)]
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
         return [f"validator: {issue}" for issue in json.loads(done.stdout)]
 
@@ -218,6 +257,7 @@ def main():
     parser.add_argument("tess")
     parser.add_argument("folders", nargs="+", type=pathlib.Path)
     parser.add_argument("--validator", type=pathlib.Path, help="folder of node_modules with gltf-validator")
+    parser.add_argument("--pictures", action="store_true", help="compare pictures by f3d")
     parser.add_argument("--made", action="store_true", help="names say which files are refused")
     parser.add_argument("--limit", type=float, default=120, help="most seconds of a run")
     args = parser.parse_args()
@@ -226,12 +266,14 @@ def main():
     files = sorted(path for folder in args.folders for path in folder.rglob("*") if path.suffix.lower() in SUFFIXES)
     if not files:
         sys.exit(2)
-    refused, wrong = collections.Counter(), 0
+    refused, wrong, pictures = collections.Counter(), 0, Pictures() if args.pictures else None
     for path in files:
         with tempfile.TemporaryDirectory() as folder:
             run = Run(args.tess, path, folder, args.limit)
             try:
                 complaints = judge_file(run, validate, args.made)
+                if pictures and complaints is not None:
+                    complaints += pictures.judge(run)
             except Exception as error:  # whatever goes wrong with one file is a finding
                 complaints = [f"{type(error).__name__}: {error}"]
         if complaints is None:
@@ -245,6 +287,11 @@ def main():
             print(f"{path}: {complaint}", flush=True)
     for reason, count in refused.most_common():
         print(f"refused {count}: {reason}")
+    if pictures:
+        seen = pictures.faults - len(pictures.unseen)
+        print(f"{pictures.compared} files pictured; of {pictures.faults} outputs without materials {seen} are seen")
+        for name in pictures.unseen:
+            print(f"not seen without materials: {name}")
     print(f"{len(files)} files: {len(files) - refused.total()} read, {refused.total()} refused, {wrong} with complaints")
     verdict = "FAILED" if wrong else "ok"
     print(f"test result: {verdict}. {len(files) - wrong} passed; {wrong} failed; 0 ignored")
