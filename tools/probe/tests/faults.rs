@@ -7,14 +7,15 @@
 )]
 
 use std::sync::{Arc, OnceLock};
-use tess_core::Domain;
+use tess_core::{Domain, Tessellation};
 use tess_probe::{Captured, Info, Judge, Method, ProbeReport};
-use tess_verify::Case;
 use tess_verify::check::{Denormals, Known, ListOrder, Strength};
+use tess_verify::{Case, mistakes};
 
 const LINE: &str = "case quad fractional_odd triangle_cw ruler 40a00000 40d00000 40e00000 40500000 40a80000 40c00000";
 const DENORMAL: &str = "case tri integer triangle_cw ruler 00000001 40400000 40400000 40400000";
 const CULLED: &str = "case tri integer triangle_cw ruler 00000000 40400000 40400000 40400000";
+const ISOLINES: &str = "case isoline integer line ruler 40400000 40a00000";
 
 fn case(line: &str) -> Case {
     line.parse().expect("a case")
@@ -28,9 +29,17 @@ fn info() -> &'static Info {
 
 /// The output of an exact device.
 fn exact(case: &Case) -> Captured {
-    let output = case.patch().tessellate();
+    drawn(case, &case.patch().tessellate())
+}
+
+/// What is captured of a patch with this output.
+fn drawn(case: &Case, output: &Tessellation) -> Captured {
     let third = |[u, v]: [u32; 2]| match case.domain() {
-        Domain::Triangle => float(0x1_0000 - u - v),
+        // Negative outside of the domain.
+        Domain::Triangle => match 0x1_0000u32.checked_sub(u + v) {
+            Some(w) => float(w),
+            None => float(u + v - 0x1_0000) | 1 << 31,
+        },
         _ => 0,
     };
     let vertex = |&index: &u32| {
@@ -61,6 +70,16 @@ fn judged(line: &str, strength: Strength, fault: impl FnOnce(&mut Captured)) -> 
     let mut judge = Judge::new(info(), Method::Primitives, strength);
     judge.add(&case, &captured);
     judge.finish()
+}
+
+/// The report on one patch of a device that makes a mistake of the table.
+fn mistaken(line: &str, strength: Strength, words: &str) -> ProbeReport {
+    let case = case(line);
+    let mistake = mistakes::named(words).unwrap_or_else(|| panic!("{words} is not in the table"));
+    let request = mistakes::requests([case]).next().expect("one");
+    let wrong = mistake.wrong_answer(&request, &case.patch().tessellate());
+    let wrong = wrong.unwrap_or_else(|| panic!("{words} does not show on {line}"));
+    judged(line, strength, |own| *own = drawn(&case, &wrong))
 }
 
 fn explained(report: &ProbeReport) -> Vec<&str> {
@@ -152,40 +171,68 @@ fn a_lost_triangle_is_seen() {
 
 #[test]
 fn a_flipped_triangle_is_seen() {
-    let report = judged(LINE, any(), |captured| captured.vertices.swap(7, 8));
+    let report = mistaken(LINE, any(), "one triangle turns the other way: first");
     assert_eq!((report.different, report.rows[0].connectivity), (1, 1), "{report}");
     assert_eq!(report.unexplained.patches, 1, "one flipped triangle is no orientation: {report}");
 }
 
+/// Every mistake of the table that changes what is drawn of a patch is seen, whatever it is; what
+/// is captured of the answer is its primitives.
+#[test]
+fn every_mistake_is_seen() {
+    let mut seen = 0;
+    for (line, mistake) in [LINE, DENORMAL, CULLED, ISOLINES]
+        .into_iter()
+        .flat_map(|line| mistakes::all().iter().map(move |mistake| (line, mistake)))
+    {
+        let case = case(line);
+        let request = mistakes::requests([case]).next().expect("one");
+        let right = case.patch().tessellate();
+        let Some(wrong) = mistake.wrong_answer(&request, &right) else { continue };
+        let is_place = |index: &u32| {
+            let point = wrong.points.get(*index as usize);
+            point.is_some_and(|point| point.u.to_bits().max(point.v.to_bits()) <= 0x1_0000)
+        };
+        if !wrong.indices.iter().all(is_place) {
+            continue; // such an answer is not drawn
+        }
+        let wrong = drawn(&case, &wrong);
+        let strength = Strength { order: ListOrder::Sequence, ..any() };
+        let report = judged(line, strength, |own| *own = wrong.clone());
+        let is_other = wrong != exact(&case);
+        assert_eq!(report.different == 1, is_other, "{line}: {}: {report}", mistake.words());
+        seen += u32::from(is_other);
+    }
+    assert!(seen > 300, "the table shows: {seen}");
+}
+
 #[test]
 fn other_orders_are_told_apart() {
-    let turned = |captured: &mut Captured| captured.vertices[3..6].rotate_left(1);
-    let moved = |captured: &mut Captured| captured.vertices.rotate_left(3);
-    let report = judged(LINE, any(), turned);
+    let [turned, moved] = ["another vertex leads a triangle", "primitives have another order"];
+    let report = mistaken(LINE, any(), turned);
     assert_eq!(
         (report.different, report.rows[0].leading),
         (0, 1),
         "another leading vertex: {report}"
     );
-    let report = judged(LINE, any(), moved);
+    let report = mistaken(LINE, any(), moved);
     assert_eq!((report.different, report.rows[0].order), (0, 1), "another order: {report}");
-    for fault in [&turned as &dyn Fn(&mut Captured), &moved] {
+    for fault in [turned, moved] {
         let strength = Strength { order: ListOrder::Sequence, ..any() };
-        assert_eq!(judged(LINE, strength, fault).different, 1, "in sequence they differ");
+        assert_eq!(mistaken(LINE, strength, fault).different, 1, "in sequence they differ");
     }
 }
 
 #[test]
 fn a_patch_that_should_be_culled_is_seen() {
-    let kept = exact(&case(&CULLED.replace("00000000", "40400000")));
-    let report = judged(CULLED, any(), |captured| *captured = kept);
+    let report = mistaken(CULLED, any(), "a discarded patch has a primitive");
     assert_eq!((report.rows[0].culling, report.unexplained.patches), (1, 1), "{report}");
 }
 
 #[test]
 fn flushed_denormals_are_explained_and_may_be_asked_for() {
-    let flush = |captured: &mut Captured| captured.vertices.clear();
-    let report = judged(DENORMAL, any(), flush);
+    let flush = "an outer level that is a positive denormal discards";
+    let report = mistaken(DENORMAL, any(), flush);
     assert_eq!((report.different, report.rows[0].culling), (1, 1), "they differ: {report}");
     assert_eq!(
         (&*report.explanations[0].way, report.unexplained.patches),
@@ -193,11 +240,11 @@ fn flushed_denormals_are_explained_and_may_be_asked_for() {
         "{report}"
     );
     assert_eq!(report.explanations.len(), 1, "no mistake is needed: {report}");
-    let report = judged(DENORMAL, Strength { denormals: Denormals::Flush, ..any() }, flush);
+    let report = mistaken(DENORMAL, Strength { denormals: Denormals::Flush, ..any() }, flush);
     assert_eq!(report.different, 0, "with the freedom they are equal: {report}");
-    let report = judged(LINE, any(), flush);
-    let empty = vec!["a patch has no output"];
-    assert_eq!((explained(&report), report.unexplained.patches), (empty, 1), "{LINE}: {report}");
+    let empty = "a patch has no output";
+    let report = mistaken(LINE, any(), empty);
+    assert_eq!((explained(&report), report.unexplained.patches), (vec![empty], 1), "{report}");
 }
 
 /// A freedom that explains every odd patch is distinguished from one that explains only some.
@@ -231,19 +278,16 @@ fn another_conversion_is_explained() {
 
 #[test]
 fn orientations_are_said_in_one_line() {
-    let reverse = |captured: &mut Captured| {
-        captured.vertices.chunks_mut(3).for_each(|triangle| triangle.swap(1, 2));
-    };
-    let exchange =
-        |captured: &mut Captured| captured.vertices.iter_mut().for_each(|v| v.swap(0, 1));
-    let report = judged(LINE, any(), reverse);
-    assert_eq!(explained(&report), ["every triangle turns the other way"], "{report}");
+    let reverse = "every triangle turns the other way";
+    let exchange = "u and v are exchanged: order of vertices kept";
+    let report = mistaken(LINE, any(), reverse);
+    assert_eq!(explained(&report), [reverse], "{report}");
     assert!(
         report.to_string().contains("not allowed: every triangle turns the other way"),
         "{report}"
     );
-    let report = judged(LINE, any(), exchange);
-    assert_eq!(explained(&report), ["u and v are exchanged: order of vertices kept"], "{report}");
+    let report = mistaken(LINE, any(), exchange);
+    assert_eq!(explained(&report), [exchange], "{report}");
 }
 
 #[test]
