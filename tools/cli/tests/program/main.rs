@@ -7,6 +7,8 @@ mod campaigns;
 mod captures;
 mod check;
 #[cfg(unix)]
+mod commit;
+#[cfg(unix)]
 mod coverage;
 mod crossed;
 #[cfg(unix)]
