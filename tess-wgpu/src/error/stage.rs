@@ -81,8 +81,8 @@ pub enum StageError {
         /// Names that the WGSL declares.
         found: Vec<String>,
     },
-    /// The tessellator or the encoder belongs to another device than the stage. Make it with the
-    /// device that [`build`](crate::stage::StageBuilder::build) got.
+    /// The tessellator or the encoder, also that of a render pass, belongs to another device than
+    /// the stage. Make it with the device that [`build`](crate::stage::StageBuilder::build) got.
     #[error(
         "the tessellator or the encoder belongs to another device than the stage; make it with the \
          device that `build` got: `Tessellator::new(&device)`, `device.create_command_encoder(...)`"

@@ -9,6 +9,7 @@ use super::frame::{Frame, WeakCount};
 use super::own_group::OwnLayout;
 use super::user_groups::UserGroups;
 use super::{StageError, TessellationStage};
+use crate::device::gpu;
 use crate::error::Error;
 use std::sync::Arc;
 
@@ -45,7 +46,8 @@ impl Material {
     ///
     /// # Errors
     /// [`StageError::OtherStage`], [`StageError::OldFrame`] or [`StageError::StageGone`] for this
-    /// frame; [`Error::OutOfMemory`]. On an error nothing is drawn.
+    /// frame; [`StageError::OtherDevice`] for a pass of another instance; [`Error::OutOfMemory`].
+    /// On an error nothing is drawn.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, frame: &Frame) -> Result<(), Error> {
         self.draw_as(pass, frame, None)
     }
@@ -77,17 +79,18 @@ impl Material {
         frame.check(&self.stage)?;
         let own = self.own.as_ref();
         let own = own.map(|layout| frame.output.own(&self.device, layout)).transpose()?;
-        pass.set_pipeline(&self.pipeline);
-        let mut next = 0;
-        for (number, group, offsets) in self.bind_groups.iter() {
-            pass.set_bind_group(number, group, offsets);
-            next = number + 1;
-        }
-        if let Some(own) = own {
-            pass.set_bind_group(next, own, &[]);
-        }
-        frame.output.draw(pass, group);
-        Ok(())
+        gpu::recorded(&self.device, || {
+            pass.set_pipeline(&self.pipeline);
+            let mut next = 0;
+            for (number, group, offsets) in self.bind_groups.iter() {
+                pass.set_bind_group(number, group, offsets);
+                next = number + 1;
+            }
+            if let Some(own) = own {
+                pass.set_bind_group(next, own, &[]);
+            }
+            frame.output.draw(pass, group);
+        })
     }
 
     /// Replaces one of the user's bind groups, by its number. The next draw uses it.
