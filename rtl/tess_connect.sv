@@ -136,9 +136,13 @@ module tess_connect (
     assign start_ready = !active || ends_patch;
 
     always_ff @(posedge clk) begin
-        if (rst)                             active <= 1'b0;
-        else if (start_valid && start_ready) active <= start_patch.primitives != 14'd0;
-        else if (ends_patch)                 active <= 1'b0;
+        if (rst) begin
+            active <= 1'b0;
+        end else if (start_valid && start_ready) begin
+            active <= start_patch.primitives != 14'd0;
+        end else if (ends_patch) begin
+            active <= 1'b0;
+        end
 
         if (start_valid && start_ready) begin
             patch         <= start_patch;
@@ -149,11 +153,17 @@ module tess_connect (
             m_u           <= points_of(start_counts, 3'd4) - 7'd2;
             m_v           <= points_of(start_counts, 3'd5) - 7'd2;
             strip_along_u <= points_of(start_counts, 3'd4) > points_of(start_counts, 3'd5);
-            if (start_patch.out == tess_pkg::POINT)           at <= AT_SEQUENCE;
-            else if (start_patch.domain == tess_pkg::ISOLINE) at <= AT_LINE;
-            else if (start_patch.out == tess_pkg::LINE)       at <= AT_SEQUENCE;
-            else if (start_patch.minimum)                     at <= AT_MINIMUM;
-            else                                              at <= AT_STITCH;
+            if (start_patch.out == tess_pkg::POINT) begin
+                at <= AT_SEQUENCE;
+            end else if (start_patch.domain == tess_pkg::ISOLINE) begin
+                at <= AT_LINE;
+            end else if (start_patch.out == tess_pkg::LINE) begin
+                at <= AT_SEQUENCE;
+            end else if (start_patch.minimum) begin
+                at <= AT_MINIMUM;
+            end else begin
+                at <= AT_STITCH;
+            end
         end else if (describes) begin
             is_first <= 1'b0;
             if (at == AT_STITCH) begin
@@ -184,8 +194,11 @@ module tess_connect (
     logic [1:0] size;
     always_comb begin
         size = 2'd3;
-        if (patch.out == tess_pkg::POINT)               size = 2'd1;
-        else if (at == AT_SEQUENCE || at == AT_LINE)    size = 2'd2;
+        if (patch.out == tess_pkg::POINT) begin
+            size = 2'd1;
+        end else if (at == AT_SEQUENCE || at == AT_LINE) begin
+            size = 2'd2;
+        end
     end
 
     logic is_last_edge;
@@ -198,9 +211,13 @@ module tess_connect (
     assign inner_after = inner_base + {6'd0, edge_inner_last};
 
     always_ff @(posedge clk) begin
-        if (rst)            edge_valid <= 1'b0;
-        else if (describes) edge_valid <= 1'b1;
-        else if (passes)    edge_valid <= 1'b0;
+        if (rst) begin
+            edge_valid <= 1'b0;
+        end else if (describes) begin
+            edge_valid <= 1'b1;
+        end else if (passes) begin
+            edge_valid <= 1'b0;
+        end
 
         if (describes) begin
             edge_stitch        <= at == AT_STITCH;
@@ -248,9 +265,11 @@ module tess_connect (
     // Bit 2 p + 1 of `both` is position p of the outer row, bit 2 p that of the inner row. It is a separate vector because
     // Icarus Verilog 11 does not accept a variable index into a member.
     logic [63:0] both_masks;
-    always_comb for (int i = 0; i < 32; i++) begin
-        both_masks[2*i]     = inner_mask[i];
-        both_masks[2*i + 1] = outer_mask[i];
+    always_comb begin
+        for (int i = 0; i < 32; i++) begin
+            both_masks[2*i]     = inner_mask[i];
+            both_masks[2*i + 1] = outer_mask[i];
+        end
     end
 
     tess_stitch_t described, ahead;
@@ -262,10 +281,15 @@ module tess_connect (
         described.has_inner = edge_inner_last[0];
         described.has_outer = edge_outer_last[0];
         described.masked    = outer_half - {5'd0, described.has_ends} + edge_inner_last[6:1];
-        if (described.has_ends)              described.begins = tess_pkg::FIRST;
-        else if (edge_inner_last[6:1] != 0)  described.begins = tess_pkg::OUT;
-        else if (described.has_inner)        described.begins = tess_pkg::MIDDLE_INNER;
-        else                                 described.begins = tess_pkg::MIDDLE_OUTER;
+        if (described.has_ends) begin
+            described.begins = tess_pkg::FIRST;
+        end else if (edge_inner_last[6:1] != 0) begin
+            described.begins = tess_pkg::OUT;
+        end else if (described.has_inner) begin
+            described.begins = tess_pkg::MIDDLE_INNER;
+        end else begin
+            described.begins = tess_pkg::MIDDLE_OUTER;
+        end
         described.mask      = both_masks;
         described.middle         = edge_middle;
         described.outer_last     = edge_outer_last;
@@ -283,10 +307,16 @@ module tess_connect (
     end
 
     always_ff @(posedge clk) begin
-        if (rst)         ahead_valid <= 1'b0;
-        else if (passes) ahead_valid <= 1'b1;
-        else if (takes)  ahead_valid <= 1'b0;
-        if (passes)      ahead <= described;
+        if (rst) begin
+            ahead_valid <= 1'b0;
+        end else if (passes) begin
+            ahead_valid <= 1'b1;
+        end else if (takes) begin
+            ahead_valid <= 1'b0;
+        end
+        if (passes) begin
+            ahead <= described;
+        end
     end
 
     logic         step_valid, step_begins;

@@ -15,9 +15,17 @@ module tess_delay #(
     end else begin : g_registers
         logic [CLOCKS*WIDTH-1:0] values; // the newest value in the lowest bits
         if (CLOCKS == 1) begin : g_one
-            always_ff @(posedge clk) if (advance) values <= in;
+            always_ff @(posedge clk) begin
+                if (advance) begin
+                    values <= in;
+                end
+            end
         end else begin : g_line
-            always_ff @(posedge clk) if (advance) values <= {values[(CLOCKS-1)*WIDTH-1:0], in};
+            always_ff @(posedge clk) begin
+                if (advance) begin
+                    values <= {values[(CLOCKS-1)*WIDTH-1:0], in};
+                end
+            end
         end
         assign out = values[CLOCKS*WIDTH-1 -: WIDTH];
     end

@@ -34,14 +34,21 @@ module tess_factor #(
         is_nan = (&bits[30:23]) && (|bits[22:0]);
         low  = F32_1;
         high = F32_64;
-        if (partitioning == tess_pkg::FRACTIONAL_EVEN) low = F32_2;
+        if (partitioning == tess_pkg::FRACTIONAL_EVEN) begin
+            low = F32_2;
+        end
         if (partitioning == tess_pkg::FRACTIONAL_ODD) begin
             high = F32_63;
-            if (is_inside && has_frame) low = F32_1_FRAME;
+            if (is_inside && has_frame) begin
+                low = F32_1_FRAME;
+            end
         end
         clamped = bits[30:0];
-        if (bits[31] || is_nan || bits[30:0] < low) clamped = low;
-        else if (bits[30:0] > high)                 clamped = high;
+        if (bits[31] || is_nan || bits[30:0] < low) begin
+            clamped = low;
+        end else if (bits[30:0] > high) begin
+            clamped = high;
+        end
     end
 
     // ---- align ---------------------------------------------------------------------------------

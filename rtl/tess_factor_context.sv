@@ -52,7 +52,9 @@ module tess_factor_context #(
     function automatic logic [6:0] drop_msb(input logic [6:0] x);
         drop_msb = x;
         for (int i = 0; i < 7; i++) begin
-            if (x[i]) drop_msb = x & ~(7'd1 << i); // the highest set bit is assigned last
+            if (x[i]) begin // the highest set bit is assigned last
+                drop_msb = x & ~(7'd1 << i);
+            end
         end
     endfunction
 
@@ -62,11 +64,17 @@ module tess_factor_context #(
     always_comb begin
         half_points = ceil_points[5:0];
         points      = {ceil_points[5:0], !is_odd}; // section 14.1
-        if (floor_points == ceil_points)         split = 6'(ceil_points + 7'd1); // no position splits
-        else if (is_center)                      split = 6'(ceil_before - 7'd1);
-        else if (is_odd && floor_points == 7'd1) split = 6'd0;
-        else if (is_odd)                         split = 6'((odd_top << 1) + 7'd1);
-        else                                     split = 6'((even_top << 1) + 7'd1);
+        if (floor_points == ceil_points) begin // no position splits
+            split = 6'(ceil_points + 7'd1);
+        end else if (is_center) begin
+            split = 6'(ceil_before - 7'd1);
+        end else if (is_odd && floor_points == 7'd1) begin
+            split = 6'd0;
+        end else if (is_odd) begin
+            split = 6'((odd_top << 1) + 7'd1);
+        end else begin
+            split = 6'((even_top << 1) + 7'd1);
+        end
     end
 
     tess_reciprocal floor_reciprocal (

@@ -160,9 +160,14 @@ module tess_factors (
     tess_delay #(.WIDTH(TAG_BITS), .CLOCKS(2)) to_context (.clk, .advance, .in(fixed_tag), .out(context_tag));
 
     always_ff @(posedge clk) begin
-        if (rst)          valids <= 6'd0;
-        else if (advance) valids <= {valids[4:0], busy};
-        if (advance)      lasts <= {lasts[4:0], issues_last};
+        if (rst) begin
+            valids <= 6'd0;
+        end else if (advance) begin
+            valids <= {valids[4:0], busy};
+        end
+        if (advance) begin
+            lasts <= {lasts[4:0], issues_last};
+        end
     end
 
     logic          context_valid, context_last;
@@ -213,10 +218,15 @@ module tess_factors (
         if (advance && context_valid) begin
             whole   <= context_tag;
             all_one <= (starts || all_one) && is_one;
-            if (starts)                    ring_points <= {2'd0, made.points} - 9'd1;
-            else if (context_tag.is_outer) ring_points <= ring_points + {2'd0, made.points} - 9'd1;
+            if (starts) begin
+                ring_points <= {2'd0, made.points} - 9'd1;
+            end else if (context_tag.is_outer) begin
+                ring_points <= ring_points + {2'd0, made.points} - 9'd1;
+            end
             for (int i = 0; i < 4; i++) begin
-                if (context_k == 3'(i)) contexts[BITS*i +: BITS] <= made;
+                if (context_k == 3'(i)) begin
+                    contexts[BITS*i +: BITS] <= made;
+                end
             end
             // Quad: (n4 - 2)(n5 - 2). Isoline: n1 (n0 - 1). Triangle, with h = n3 / 2: 3h (h - 1) + 1 or 3(h - 1)(h - 1).
             if (sets_wide) begin
@@ -225,10 +235,15 @@ module tess_factors (
             end
             if (sets_tall) begin
                 contexts[BITS*5 +: BITS] <= made;
-                if (is_quad)             tall <= made.points - 7'd2;
-                else if (is_isoline)     tall <= made.points - 7'd1;
-                else if (made.points[0]) tall <= half + (half << 1);
-                else                     tall <= half + (half << 1) - 7'd3;
+                if (is_quad) begin
+                    tall <= made.points - 7'd2;
+                end else if (is_isoline) begin
+                    tall <= made.points - 7'd1;
+                end else if (made.points[0]) begin
+                    tall <= half + (half << 1);
+                end else begin
+                    tall <= half + (half << 1) - 7'd3;
+                end
             end
         end
     end
@@ -251,7 +266,9 @@ module tess_factors (
     assign is_doubled = counted_out[1] && counted_domain != tess_pkg::ISOLINE && !is_minimum;
     always_comb begin
         inner = product;
-        if (counted_domain == tess_pkg::TRIANGLE) inner = product + {12'd0, out_contexts[BITS*4]};
+        if (counted_domain == tess_pkg::TRIANGLE) begin
+            inner = product + {12'd0, out_contexts[BITS*4]};
+        end
     end
 
     always_ff @(posedge clk) begin
@@ -282,16 +299,28 @@ module tess_factors (
         end
         if (product_valid) begin
             out_patch.minimum <= is_minimum;
-            if (is_minimum)                               out_patch.points <= (counted_domain == tess_pkg::QUAD) ? 13'd4 : 13'd3;
-            else if (counted_domain == tess_pkg::ISOLINE) out_patch.points <= product;
-            else                                          out_patch.points <= inner + ring13;
+            if (is_minimum) begin
+                out_patch.points <= (counted_domain == tess_pkg::QUAD) ? 13'd4 : 13'd3;
+            end else if (counted_domain == tess_pkg::ISOLINE) begin
+                out_patch.points <= product;
+            end else begin
+                out_patch.points <= inner + ring13;
+            end
 
-            if (counted_out == tess_pkg::POINT)           subtrahend <= 14'd0;
-            else if (counted_domain == tess_pkg::ISOLINE) subtrahend <= {7'd0, lines};
-            else if (counted_out == tess_pkg::LINE)       subtrahend <= 14'd1;
-            else if (is_minimum)                          subtrahend <= 14'd2;
-            else                                          subtrahend <= {1'b0, ring13} + 14'd2;
+            if (counted_out == tess_pkg::POINT) begin
+                subtrahend <= 14'd0;
+            end else if (counted_domain == tess_pkg::ISOLINE) begin
+                subtrahend <= {7'd0, lines};
+            end else if (counted_out == tess_pkg::LINE) begin
+                subtrahend <= 14'd1;
+            end else if (is_minimum) begin
+                subtrahend <= 14'd2;
+            end else begin
+                subtrahend <= {1'b0, ring13} + 14'd2;
+            end
         end
-        if (sum_valid) out_patch.primitives <= (is_doubled ? {out_patch.points, 1'b0} : {1'b0, out_patch.points}) - subtrahend;
+        if (sum_valid) begin
+            out_patch.primitives <= (is_doubled ? {out_patch.points, 1'b0} : {1'b0, out_patch.points}) - subtrahend;
+        end
     end
 endmodule

@@ -16,7 +16,10 @@ module tess_fork #(
     assign in_ready  = &(took | takes);
 
     always_ff @(posedge clk) begin
-        if (rst || in_ready) took <= '0;
-        else                 took <= took | takes;
+        if (rst || in_ready) begin
+            took <= '0;
+        end else begin
+            took <= took | takes;
+        end
     end
 endmodule

@@ -22,7 +22,7 @@ module tess_place (
         .p          (in_p),
         .flip       (flip_next),
         .middle     (middle_next),
-        /* verilator lint_off PINCONNECTEMPTY */
+        /* verilator lint_off PINCONNECTEMPTY */ // only tess_placer outputs it
         .position   (),
         /* verilator lint_on PINCONNECTEMPTY */
         .coarse     (coarse_next),
@@ -50,12 +50,14 @@ module tess_place (
         .middle       (middle),
         .coarse       (coarse),
         .fine         (fine),
-        /* verilator lint_off PINCONNECTEMPTY */
+        /* verilator lint_off PINCONNECTEMPTY */ // only tess_placer outputs it
         .half_location(),
         /* verilator lint_on PINCONNECTEMPTY */
         .location     (location_next)
     );
     always_ff @(posedge clk) begin
-        if (advance) location <= location_next;
+        if (advance) begin
+            location <= location_next;
+        end
     end
 endmodule

@@ -60,7 +60,7 @@ module tess_place_position #(
         .in ({middle_next, coarse_next, fine_next, chosen}),
         .out({middle, coarse_position, fine_position, position})
     );
-    tess_delay #(.WIDTH(2 * 17 + 1), .CLOCKS(2 * CLOCKS)) units (
+    tess_delay #(.WIDTH(2 * 17 + 1), .CLOCKS(2 * CLOCKS)) inverses (
         .clk, .advance,
         .in ({inv_floor, inv_ceil, flip_next}),
         .out({coarse_unit, fine_unit, flip})

@@ -110,10 +110,14 @@ module tess_points (
                 if (!is_quad || runs_along_v) begin
                     a_runs = 1'b0;
                     start  = backward ? end_v : {1'b0, ring};
-                    if (is_quad && side[1]) across = end_u;
+                    if (is_quad && side[1]) begin
+                        across = end_u;
+                    end
                 end else begin
                     start = backward ? end_u : {1'b0, ring};
-                    if (side[1]) across = end_v;
+                    if (side[1]) begin
+                        across = end_v;
+                    end
                 end
             end
             AT_CENTRE: begin
@@ -154,9 +158,13 @@ module tess_points (
     assign next_outer   = points_of(contexts, {1'b0, side + 2'd1}) - 7'd2;
 
     always_ff @(posedge clk) begin
-        if (rst)                             active <= 1'b0;
-        else if (start_valid && start_ready) active <= start_patch.points != 13'd0;
-        else if (ends_patch)                 active <= 1'b0;
+        if (rst) begin
+            active <= 1'b0;
+        end else if (start_valid && start_ready) begin
+            active <= start_patch.points != 13'd0;
+        end else if (ends_patch) begin
+            active <= 1'b0;
+        end
 
         if (start_valid && start_ready) begin
             is_quad     <= start_patch.domain == tess_pkg::QUAD;
@@ -182,9 +190,15 @@ module tess_points (
         end else if (describes) begin
             remaining <= remaining - {6'd0, further} - 13'd1;
             side      <= (at == AT_LINE || is_last_side) ? 2'd0 : side + 2'd1;
-            if (at == AT_LINE || is_last_side) ring <= ring + 6'd1;
-            if (at == AT_OUTER) further <= next_outer;
-            if (at == AT_RING)  further <= runs_along_v ? rest_u : rest_v;
+            if (at == AT_LINE || is_last_side) begin
+                ring <= ring + 6'd1;
+            end
+            if (at == AT_OUTER) begin
+                further <= next_outer;
+            end
+            if (at == AT_RING) begin
+                further <= runs_along_v ? rest_u : rest_v;
+            end
             if ((at == AT_OUTER || at == AT_RING) && is_last_side) begin
                 end_u   <= end_u - 7'd1;
                 end_v   <= end_v - 7'd1;
@@ -214,9 +228,13 @@ module tess_points (
     assign describes = active && (!ahead_valid || takes);
 
     always_ff @(posedge clk) begin
-        if (rst)            ahead_valid <= 1'b0;
-        else if (describes) ahead_valid <= 1'b1;
-        else if (takes)     ahead_valid <= 1'b0;
+        if (rst) begin
+            ahead_valid <= 1'b0;
+        end else if (describes) begin
+            ahead_valid <= 1'b1;
+        end else if (takes) begin
+            ahead_valid <= 1'b0;
+        end
 
         if (describes) begin
             ahead         <= {is_last_edge, is_quad, at, side, is_backward, a_runs, across};
@@ -237,9 +255,13 @@ module tess_points (
     assign takes = advance && ahead_valid && (!walks || ends_edge);
 
     always_ff @(posedge clk) begin
-        if (rst)                             walks <= 1'b0;
-        else if (takes)                      walks <= 1'b1;
-        else if (advance && ends_edge)       walks <= 1'b0;
+        if (rst) begin
+            walks <= 1'b0;
+        end else if (takes) begin
+            walks <= 1'b1;
+        end else if (advance && ends_edge) begin
+            walks <= 1'b0;
+        end
 
         if (takes) begin
             here      <= ahead;
@@ -283,6 +305,8 @@ module tess_points (
         end else if (advance) begin
             {out_valid, valids} <= {valids, walks};
         end
-        if (advance) {out_last, lasts} <= {lasts, here.last && ends_edge};
+        if (advance) begin
+            {out_last, lasts} <= {lasts, here.last && ends_edge};
+        end
     end
 endmodule

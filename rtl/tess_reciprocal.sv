@@ -7,7 +7,9 @@ module tess_reciprocal (
     always_comb begin
         value = '0;
         for (int unsigned i = 1; i <= 64; i++) begin
-            if (n == 7'(i)) value = 17'((32'h1_0000 + i / 2) / i);
+            if (n == 7'(i)) begin
+                value = 17'((32'h1_0000 + i / 2) / i);
+            end
         end
     end
 endmodule

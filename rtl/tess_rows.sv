@@ -36,8 +36,11 @@ module tess_rows (
                       : inner_descends ? inner_next - 13'd1 : inner_next + 13'd1;
 
     always_ff @(posedge clk) begin
-        if (rst)          valid <= 1'b0;
-        else if (advance) valid <= step_valid;
+        if (rst) begin
+            valid <= 1'b0;
+        end else if (advance) begin
+            valid <= step_valid;
+        end
         if (advance) begin
             here <= step;
             if (step_valid && step_begins) begin
@@ -84,8 +87,11 @@ module tess_rows (
     end
 
     always_ff @(posedge clk) begin
-        if (rst)          out_valid <= 1'b0;
-        else if (advance) out_valid <= valid;
+        if (rst) begin
+            out_valid <= 1'b0;
+        end else if (advance) begin
+            out_valid <= valid;
+        end
         if (advance) begin
             out_size <= size;
             out_i0   <= i0;

@@ -40,10 +40,16 @@ module tess_skid #(
         assign {is_full, spare} = '0;
         assign in_ready = !rst && !out_valid;
         always_ff @(posedge clk) begin
-            if (rst)            out_valid <= 1'b0;
-            else if (out_valid) out_valid <= !out_ready;
-            else                out_valid <= in_valid;
-            if (!out_valid) out_data <= in_data;
+            if (rst) begin
+                out_valid <= 1'b0;
+            end else if (out_valid) begin
+                out_valid <= !out_ready;
+            end else begin
+                out_valid <= in_valid;
+            end
+            if (!out_valid) begin
+                out_data <= in_data;
+            end
         end
     end else begin : g_two
         assign in_ready = !rst && !is_full;
@@ -57,8 +63,12 @@ module tess_skid #(
             end else begin
                 is_full   <= is_full || in_valid;
             end
-            if (!out_valid || out_ready) out_data <= is_full ? spare : in_data;
-            if (!is_full) spare <= in_data;
+            if (!out_valid || out_ready) begin
+                out_data <= is_full ? spare : in_data;
+            end
+            if (!is_full) begin
+                spare <= in_data;
+            end
         end
     end
 endmodule

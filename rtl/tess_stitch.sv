@@ -64,9 +64,13 @@ module tess_stitch (
     assign is_masked = phase == tess_pkg::OUT || phase == tess_pkg::BACK;
     assign holds     = phase == tess_pkg::FIRST;
     always_ff @(posedge clk) begin
-        if (rst)                       walks <= 1'b0;
-        else if (takes)                walks <= 1'b1;
-        else if (advance && ends)      walks <= 1'b0;
+        if (rst) begin
+            walks <= 1'b0;
+        end else if (takes) begin
+            walks <= 1'b1;
+        end else if (advance && ends) begin
+            walks <= 1'b0;
+        end
 
         if (takes) begin
             here     <= ahead;
@@ -84,11 +88,16 @@ module tess_stitch (
             is_first <= 1'b0;
             is_odd   <= !is_odd;
             // A pair ends with its second step; the first step of a ring precedes its pairs.
-            if (here.kind == tess_pkg::RING ? !is_odd && !is_first : is_odd) pairs <= pairs - 7'd1;
+            if (here.kind == tess_pkg::RING ? !is_odd && !is_first : is_odd) begin
+                pairs <= pairs - 7'd1;
+            end
             phase    <= phase_next;
             masked   <= (is_masked && !ends_way) ? masked - 6'd1 : here.masked;
-            if (is_masked && !ends_way) left <= left & (left - 64'd1);
-            else if (!holds)            left <= reversed;
+            if (is_masked && !ends_way) begin
+                left <= left & (left - 64'd1);
+            end else if (!holds) begin
+                left <= reversed;
+            end
         end
     end
 
@@ -135,15 +144,20 @@ module tess_stitch (
     logic [63:0]  borrow;
     assign borrow = left - 64'd1;
     always_ff @(posedge clk) begin
-        if (rst)          made_valid <= 1'b0;
-        else if (advance) made_valid <= walks;
+        if (rst) begin
+            made_valid <= 1'b0;
+        end else if (advance) begin
+            made_valid <= walks;
+        end
         if (advance) begin
             made        <= next;
             made_begins <= is_first;
             made_stitch <= here;
             made_masked <= here.kind == tess_pkg::TRANSITION && is_masked;
             made_back   <= phase == tess_pkg::BACK;
-            for (int i = 0; i < 32; i++) lowest[i] <= left[2*i+1] && !borrow[2*i+1];
+            for (int i = 0; i < 32; i++) begin
+                lowest[i] <= left[2*i+1] && !borrow[2*i+1];
+            end
         end
     end
 
@@ -152,8 +166,11 @@ module tess_stitch (
     logic is_outer;
     assign is_outer = (lowest != 32'd0) != made_back;
     always_ff @(posedge clk) begin
-        if (rst)          step_valid <= 1'b0;
-        else if (advance) step_valid <= made_valid;
+        if (rst) begin
+            step_valid <= 1'b0;
+        end else if (advance) begin
+            step_valid <= made_valid;
+        end
         if (advance) begin
             step        <= made;
             step_begins <= made_begins;

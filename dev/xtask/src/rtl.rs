@@ -5,6 +5,7 @@ mod bench;
 mod budgets;
 mod cost;
 mod gates;
+mod lint;
 #[cfg(feature = "kit")]
 mod long;
 mod names;
@@ -38,14 +39,15 @@ pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
     })
 }
 
-/// Checks the ports, then runs the circuit's tests of the C interface: comparisons with the model,
-/// planted faults, clocks, and the UVM package.
+/// Checks the sources' style and the ports, then runs the circuit's tests of the C interface:
+/// comparisons with the model, planted faults, clocks, and the UVM package.
 ///
 /// # Errors
 /// A tool is missing, the lint warns, an output depends on an input, an element or a number of
 /// clocks differs, or a planted fault is not found.
 pub(crate) fn compare() -> Result<(), String> {
     setup::provide(&[setup::VERILATOR, setup::SYSTEMC, setup::YOSYS])?;
+    lint::run()?;
     ports::run()?;
     // A test whose tool is missing fails.
     let mut tests = command::cargo(CAPI);
