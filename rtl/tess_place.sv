@@ -55,9 +55,11 @@ module tess_place (
         /* verilator lint_on PINCONNECTEMPTY */
         .location     (location_next)
     );
+    logic [16:0] placed;
     always_ff @(posedge clk) begin
         if (advance) begin
-            location <= location_next;
+            placed <= location_next;
         end
     end
+    assign location = placed;
 endmodule

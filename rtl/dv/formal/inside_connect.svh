@@ -9,3 +9,7 @@ ledger ledger (
         + (ahead_valid ? 16'(ahead.further) + 16'd1 : 16'd0)),
     .held_last(8'(active) + 8'(ahead_valid && ahead.last)),
     .also((!edge_valid || (active && !is_first)) && (!active || !is_first || patch.primitives != 14'd0)));
+// What waits keeps its values: the patch until the next one starts, and the stitch ahead.
+hold #(.WIDTH($bits(patch) + tess_pkg::COUNTS_BITS + 1)) patch_hold (
+    .clk, .keeps(!(start_valid && start_ready)), .state({patch, counts, strip_along_u}));
+hold #(.WIDTH($bits(ahead))) ahead_hold (.clk, .keeps(!passes), .state(ahead));

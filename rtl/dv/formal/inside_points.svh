@@ -17,3 +17,11 @@ ledger ledger (
     .held_last(8'(active) + 8'(ahead_valid && ahead.last) + 8'(walks && here.last) + behind_last),
     .also(!walks || ends_edge == (to_come == 7'd0)));
 port #(.WIDTH(35)) out_port (.clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_u, out_v, out_last}));
+// What waits keeps its values: the patch until the next one starts, the edge ahead, and the walk.
+hold #(.WIDTH(2 + tess_pkg::CONTEXTS_BITS)) patch_hold (
+    .clk, .keeps(!(start_valid && start_ready)), .state({is_quad, row_along_u, contexts}));
+hold #(.WIDTH(16 + 2 * 7 + 2 * BITS)) ahead_hold (
+    .clk, .keeps(!describes), .state({ahead, ahead_start, ahead_further, ahead_a, ahead_b}));
+hold #(.WIDTH(1 + 16 + 2 * 7 + 1 + 2 * BITS + 2 * BEHIND)) walk_hold (
+    .clk, .keeps(!advance && !rst),
+    .state({walks, here, along, to_come, ends_edge, a_context, b_context, valids, lasts}));

@@ -20,5 +20,6 @@ if (ENTRIES != 0) begin : g_proof
             assert (held == 2'd0 || out_data == first);
             assert (held != 2'd2 || spare == second);
         end
+        cover (has_begun && !rst && leaves && held == 2'(ENTRIES));
     end
 end

@@ -7,3 +7,8 @@ ledger ledger (
     .also(!walks || ends == (to_come == 7'd0)));
 port #(.WIDTH(4 + $bits(step_stitch))) out_port (
     .clk, .rst, .valid(step_valid), .ready(advance), .data({step_begins, step, step_stitch}));
+// The walk keeps its values while it waits.
+hold #(.WIDTH(1 + $bits(here) + 7 + 3 + 7 + 3 + 6 + 64 + 1 + 3 + 1 + $bits(here) + 2 + 32)) walk_hold (
+    .clk, .keeps(!advance && !rst),
+    .state({walks, here, to_come, ends, is_first, is_odd, pairs, phase, masked, left, made_valid, made, made_begins, made_stitch,
+        made_masked, made_back, lowest}));

@@ -19,5 +19,6 @@ module ledger (
     always_comb begin
         if (!has_begun) assume (rst);
         if (has_begun && !rst) assert (also && held == due && held_last == due_last);
+        cover (has_begun && !rst && left != 16'd0);
     end
 endmodule

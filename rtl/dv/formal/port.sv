@@ -15,5 +15,6 @@ module port #(
         if (!has_begun) assume (rst);
         if (TAKES) assume (is_kept);
         else assert (is_kept);
+        cover (has_begun && !rst && stalled && !ready);
     end
 endmodule

@@ -30,5 +30,7 @@ module prove_factor (
             assert (fixed == whole << 16);
             assert (odd == (whole[0] && !(is_inside && whole == 64'd1)));
         end
+        cover (partitioning[1]);
+        cover (!partitioning[1]);
     end
 endmodule

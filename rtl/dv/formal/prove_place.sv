@@ -31,6 +31,8 @@ module prove_place_position (
         assert (flip == flips && middle == is_middle);
         assert (position == q);
         assert (middle || (coarse == a && fine == b));
+        cover (is_middle);
+        cover (flips && !is_middle && q > split);
     end
 endmodule
 
@@ -58,5 +60,7 @@ module prove_place_blend (
         assert (64'(weight) + 64'd1 == 64'h1_0000 - fraction);
         assert (half_location == half);
         assert (location == (flip ? 64'h1_0000 - half : half) && location <= 64'h1_0000);
+        cover (middle);
+        cover (flip && !middle && coarse != 17'd0 && fine != coarse && fraction != 16'd0);
     end
 endmodule

@@ -4,7 +4,7 @@
 //! Yosys selects the logic between the outputs and the registers that feed them, and the inputs in
 //! it.
 
-use super::proofs;
+use super::proofs::{self, Planted};
 use crate::command;
 use std::path::Path;
 use std::process::Command;
@@ -23,7 +23,7 @@ pub(super) const FAULTS: [(&str, bool); 2] = [
 pub(crate) fn run() -> Result<(), String> {
     let folder = proofs::folder();
     for buffered in [false, true] {
-        proofs::copy(None)?;
+        proofs::copy(Planted::Nothing, true)?;
         let inputs = inputs_of_outputs(&folder, buffered)?;
         if !inputs.is_empty() {
             let inputs = inputs.join(", ");
@@ -32,7 +32,7 @@ pub(crate) fn run() -> Result<(), String> {
     }
     println!("\nno output depends on an input in the same clock, except on the reset");
     for (fault, buffered) in FAULTS {
-        proofs::copy(Some(fault))?;
+        proofs::copy(Planted::Fault(fault), true)?;
         let inputs = inputs_of_outputs(&folder, buffered)?;
         if inputs.is_empty() {
             return Err(format!("no output depends on an input, though {fault}"));

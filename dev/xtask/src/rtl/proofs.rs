@@ -23,9 +23,17 @@ struct Proof {
     /// The number of clocks of the base case and of the induction step; 0 for circuits without
     /// state.
     depth: u32,
+    /// The number of clocks in which each `cover` is reached under the assumptions; 0 if only a
+    /// reset is assumed.
+    reach: u32,
+    /// Whether the properties inside the modules are part of it.
+    inside: bool,
     /// Planted faults with which the proof fails.
     faults: &'static [&'static str],
 }
+
+/// The files with modules that exist only for proofs.
+const PROVED: [&str; 4] = ["prove_factor", "prove_place", "prove_skid", "prove_top"];
 
 const PROOFS: &[Proof] = &[
     Proof {
@@ -33,6 +41,8 @@ const PROOFS: &[Proof] = &[
         top: "tess_top",
         free: &["tess_factors", "tess_points", "tess_connect"],
         depth: 6,
+        reach: 8,
+        inside: true,
         faults: &[
             "a patch leaves the front end when the points' stage alone has taken it",
             "a patch is withdrawn from the points' stage",
@@ -46,6 +56,8 @@ const PROOFS: &[Proof] = &[
         top: "tess_factors",
         free: &[],
         depth: 4,
+        reach: 14,
+        inside: true,
         faults: &["a patch that waits in the front end survives a reset"],
     },
     Proof {
@@ -53,6 +65,8 @@ const PROOFS: &[Proof] = &[
         top: "tess_points",
         free: &["tess_place"],
         depth: 1,
+        reach: 18,
+        inside: true,
         faults: &[
             "a stall loses the last point",
             "v moves on in a stall",
@@ -61,10 +75,33 @@ const PROOFS: &[Proof] = &[
         ],
     },
     Proof {
+        says: "tess_place keeps everything while it waits",
+        top: "tess_place",
+        free: &[],
+        depth: 1,
+        reach: 3,
+        inside: true,
+        faults: &[
+            "a location moves on in a stall",
+            "a location changes after 2000 clocks of a stall",
+        ],
+    },
+    Proof {
+        says: "tess_combine keeps everything while it waits",
+        top: "tess_combine",
+        free: &[],
+        depth: 1,
+        reach: 3,
+        inside: true,
+        faults: &["v moves on in a stall"],
+    },
+    Proof {
         says: "tess_connect neither drops nor doubles a primitive",
         top: "tess_connect",
         free: &["tess_stitch", "tess_rows", "tess_mask"],
         depth: 1,
+        reach: 8,
+        inside: true,
         faults: &["a stitch that is described survives a reset"],
     },
     Proof {
@@ -72,6 +109,8 @@ const PROOFS: &[Proof] = &[
         top: "tess_stitch",
         free: &[],
         depth: 4,
+        reach: 8,
+        inside: true,
         faults: &["every primitive of the last stitch is the last", "a step survives a reset"],
     },
     Proof {
@@ -79,6 +118,8 @@ const PROOFS: &[Proof] = &[
         top: "tess_rows",
         free: &[],
         depth: 4,
+        reach: 8,
+        inside: true,
         faults: &["a primitive survives a reset"],
     },
     Proof {
@@ -86,6 +127,8 @@ const PROOFS: &[Proof] = &[
         top: "prove_skid",
         free: &[],
         depth: 6,
+        reach: 8,
+        inside: true,
         faults: &[
             "the buffer of one entry takes an element while one leaves",
             "the spare entry is overwritten",
@@ -94,10 +137,25 @@ const PROOFS: &[Proof] = &[
         ],
     },
     Proof {
+        says: "every output of the whole design stays with its value while it is not taken",
+        top: "prove_top",
+        free: &[],
+        depth: 1,
+        reach: 0,
+        inside: false,
+        faults: &[
+            "a stall of 32 clocks loses a point",
+            "a stall of 32 clocks loses a primitive",
+            "counts that wait are overwritten",
+        ],
+    },
+    Proof {
         says: "tess_factor equals section 3 for every pattern",
         top: "prove_factor",
         free: &[],
         depth: 0,
+        reach: 1,
+        inside: true,
         faults: &[
             "ties round down, not to even",
             "infinity is a NaN",
@@ -109,6 +167,8 @@ const PROOFS: &[Proof] = &[
         top: "prove_place_position",
         free: &[],
         depth: 0,
+        reach: 1,
+        inside: true,
         faults: &[
             "mirroring forgets the parity of the edge",
             "the coarser place is two bits short",
@@ -119,33 +179,55 @@ const PROOFS: &[Proof] = &[
         top: "prove_place_blend",
         free: &[],
         depth: 0,
+        reach: 1,
+        inside: true,
         faults: &["the blend is cut off, not rounded"],
     },
 ];
 
-/// Runs each proof, and checks that it fails with each of its planted faults.
+/// Runs each proof, and checks that its assumptions can be reached and that it fails with each of
+/// its planted faults.
 ///
 /// # Errors
-/// A tool is missing, a proof fails, or a proof holds although a fault is planted.
+/// A tool is missing, a proof fails or is vacuous, or a proof holds although a fault is planted.
 pub(crate) fn run() -> Result<(), String> {
     setup::provide(&[setup::YOSYS])?;
     place::installed(&folder(), &[YICES])?;
     for proof in PROOFS {
         let began = Instant::now();
-        proof.write(None)?;
+        proof.write(Planted::Nothing)?;
         if let Some(counterexample) = proof.fails()? {
             return Err(format!("not proved: {}\n{counterexample}", proof.says));
         }
+        if let Some(unreached) = proof.is_vacuous()? {
+            return Err(format!("vacuous: {}\n{unreached}", proof.says));
+        }
         println!("proved: {}, {:.1} s", proof.says, began.elapsed().as_secs_f32());
         for fault in proof.faults {
-            proof.write(Some(fault))?;
+            proof.write(Planted::Fault(fault))?;
             if proof.fails()?.is_none() {
                 return Err(format!("proved, though {fault}: {}", proof.says));
             }
             println!("    it fails if {fault}, as it must");
         }
     }
+    let first = &PROOFS[0];
+    first.write(Planted::Contradiction)?;
+    if first.fails()?.is_some() || first.is_vacuous()?.is_none() {
+        return Err(format!("assumes what nothing meets, and is not found: {}", first.says));
+    }
+    println!("an assumption that nothing meets makes a proof vacuous, and is found");
     Ok(())
+}
+
+/// What is wrong with a copy of the design and its proofs.
+#[derive(Clone, Copy)]
+pub(super) enum Planted<'a> {
+    Nothing,
+    /// A fault of the circuit, by name.
+    Fault(&'a str),
+    /// An assumption of `ledger.sv` that nothing meets, so that every proof with one holds.
+    Contradiction,
 }
 
 pub(super) fn folder() -> PathBuf {
@@ -153,11 +235,11 @@ pub(super) fn folder() -> PathBuf {
 }
 
 /// Copies the design and the proofs to one folder. Proofs about a module's registers are appended
-/// to the module, because Yosys has no `bind`.
-pub(super) fn copy(fault: Option<&str>) -> Result<(), String> {
-    let number = match fault {
-        None => 0,
-        Some(name) => {
+/// to the module, if `inside` it, because Yosys has no `bind`.
+pub(super) fn copy(planted: Planted<'_>, inside: bool) -> Result<(), String> {
+    let number = match planted {
+        Planted::Nothing | Planted::Contradiction => 0,
+        Planted::Fault(name) => {
             let faults = circuit::faults(&workspace())?;
             let found = faults.into_iter().find(|(_, fault)| fault.name == name);
             found.ok_or_else(|| format!("no fault `{name}`"))?.0
@@ -171,7 +253,11 @@ pub(super) fn copy(fault: Option<&str>) -> Result<(), String> {
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let (to, text) = match name.strip_prefix("inside_").and_then(|rest| rest.strip_suffix("h"))
         {
+            None if matches!(planted, Planted::Contradiction) && name == "ledger.sv" => {
+                (folder().join(&name), text.replace("assume (rst)", "assume (1'b0)"))
+            }
             None => (folder().join(&name), text),
+            Some(_) if !inside => continue,
             Some(module) => {
                 let module = folder().join(format!("tess_{module}"));
                 let design = command::read(&module)?;
@@ -201,18 +287,21 @@ impl Proof {
     }
 
     /// Makes Yosys write the problem to be proved.
-    fn write(&self, fault: Option<&str>) -> Result<(), String> {
-        copy(fault)?;
+    fn write(&self, planted: Planted<'_>) -> Result<(), String> {
+        copy(planted, self.inside)?;
         let free: String = self.free.iter().map(|name| format!("cutpoint t:*{name}; ")).collect();
         // Outputs that no property uses are removed, and with them the multipliers that feed them.
         let script = format!(
-            "read_verilog -sv -formal -I . {} ledger.sv port.sv prove_factor.sv prove_place.sv prove_skid.sv; hierarchy -top {}; proc; {free}flatten; \
+            "read_verilog -sv -formal -I . {} hold.sv ledger.sv port.sv {}.sv; hierarchy -top {}; proc; {free}flatten; \
              delete -output; opt -full -nosdff -nodffe; opt_clean -purge; dffunmap; opt_clean; write_smt2 -wires {}",
             design(&folder())?.join(" "),
+            PROVED.join(".sv "),
             self.top,
             self.file().display()
         );
         let mut yosys = Command::new("yosys");
+        // A property of a part of its state would prove less than it says.
+        yosys.args(["-e", "Resizing cell port"]);
         command::quiet_output(yosys.args(["-q", "-p", &script]).current_dir(folder())).map(|_| ())
     }
 
@@ -224,6 +313,18 @@ impl Proof {
             return Ok(base);
         }
         self.solve(&["-i", "-t", &steps])
+    }
+
+    /// The covers that are not reached under the assumptions; `None` if all are, or if there is no
+    /// assumption but that of a reset.
+    fn is_vacuous(&self) -> Result<Option<String>, String> {
+        if self.reach == 0 {
+            return Ok(None);
+        }
+        if !command::read(&self.file())?.contains("yosys-smt2-cover") {
+            return Ok(Some("it has no cover".to_owned()));
+        }
+        self.solve(&["-c", "-t", &self.reach.to_string()])
     }
 
     fn solve(&self, arguments: &[&str]) -> Result<Option<String>, String> {
