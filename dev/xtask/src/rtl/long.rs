@@ -113,13 +113,13 @@ impl Work<'_> {
             return Ok(());
         }
         let began = Instant::now();
-        let said = self.compare(&name, shard).map_err(|error| format!("shard {name}: {error}"))?;
+        let said = self.compare(number, shard).map_err(|error| format!("shard {name}: {error}"))?;
         let seconds = began.elapsed().as_secs_f32();
         println!("[{} of {}] {name}: {said}, {seconds:.1} s", number + 1, self.shards.len());
         fs::write(&note, said).map_err(|error| in_file(&note, &error))
     }
 
-    fn compare(&self, name: &str, shard: &Shard) -> Result<String, String> {
+    fn compare(&self, number: usize, shard: &Shard) -> Result<String, String> {
         let cases = match *shard {
             Shard::Stages(inputs) => return self.stages.compare(inputs),
             Shard::Level2(first) => self.level_2.iter().skip(first).take(10_000).copied().collect(),
@@ -129,8 +129,8 @@ impl Work<'_> {
                 Selection { random: Some(PATCHES), ..level }.cases().collect::<Vec<_>>()
             }
         };
-        let stimuli = self.bench.stimuli(name, &lines(&cases))?;
-        let seed = format!("+seed={}", 1 + name.len());
+        let stimuli = self.bench.stimuli(&shard.name(), &lines(&cases))?;
+        let seed = seed(number);
         let arguments = [&stimuli, &seed, "+gaps", "+resets=10"];
         let (verdict, _) = self.bench.compare(&arguments, cases.len())?;
         // If a shard differs, its patches are kept.
@@ -138,6 +138,11 @@ impl Work<'_> {
         fs::remove_file(file).map_err(|error| in_file(file, &error))?;
         Ok(verdict.to_string())
     }
+}
+
+/// The argument that seeds a shard's stalls and resets: one of its own for each shard.
+fn seed(number: usize) -> String {
+    format!("+seed={}", 1 + number)
 }
 
 /// Cases as the bench reads them, one a line.
@@ -184,5 +189,7 @@ mod tests {
         assert_eq!(names.len(), shards.len(), "a note each");
         assert_eq!((SMALL + LEVEL_3) * PATCHES, 10_000_000, "patches");
         assert_ne!(small(1), small(2), "a seed's own patches");
+        let seeds: BTreeSet<String> = (0..shards.len()).map(seed).collect();
+        assert_eq!(seeds.len(), shards.len(), "stalls of their own");
     }
 }
