@@ -121,6 +121,47 @@ mod tests {
         }
     }
 
+    /// Each port of `tess_top` has its row in the document, and each port and parameter its place in
+    /// the template.
+    #[test]
+    fn the_document_has_every_port() {
+        let document = command::read(&workspace().join("docs/rtl.md")).expect("a document");
+        let template = document.split("```").find(|text| text.contains("tess_top #("));
+        let template = template.expect("a template");
+        let text = command::read(&sources().join("tess_top.sv")).expect("the top");
+        let head = text.split("\n);").next().expect("ports");
+        let mut ports = Vec::new();
+        for line in head.lines() {
+            let code = line.split("//").next().unwrap_or_default().trim().trim_end_matches(',');
+            let words: Vec<&str> = code.split_whitespace().collect();
+            let (direction, bits, name) = match words[..] {
+                ["input", "logic", name] => ("in", 1, name),
+                ["output", "logic", name] => ("out", 1, name),
+                [side @ ("input" | "output"), "logic", range, name] => {
+                    let highest = range.trim_start_matches('[').trim_end_matches(":0]");
+                    let highest: u32 = highest.parse().expect("a range");
+                    (if side == "input" { "in" } else { "out" }, highest + 1, name)
+                }
+                ["parameter", "bit", name, "=", "1'b0"] => {
+                    let row = "| bit | 0, 1 | 0 |";
+                    let is_row = |line: &str| {
+                        line.starts_with(&format!("| `{name}` |")) && line.contains(row)
+                    };
+                    assert!(document.lines().any(is_row), "{name}, {row}");
+                    assert!(template.contains(&format!(".{name}(1'b0)")), "{name} in the template");
+                    continue;
+                }
+                _ => continue,
+            };
+            let row = format!("| `{name}` | {direction} | {bits} | ");
+            assert!(document.lines().any(|line| line.starts_with(&row)), "no row {row}");
+            let mut named = template.split(|c: char| !c.is_alphanumeric() && c != '_');
+            assert!(named.any(|word| word == name), "{name} in the template");
+            ports.push(name);
+        }
+        assert_eq!(ports.len(), 25, "all ports");
+    }
+
     /// `tess explain --signals` refuses a list with other signals than the model's. This one has
     /// all of them.
     #[test]
