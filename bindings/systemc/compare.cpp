@@ -7,6 +7,7 @@
 #include "tess_model.h"
 #include "tess_rtl.h"
 
+#include <algorithm>
 #include <array>
 #include <cinttypes>
 #include <cstdio>
@@ -48,7 +49,8 @@ static std::vector<patch_t> random_patches(uint32_t count, uint32_t seed) {
     uint32_t state = seed == 0 ? 1 : seed;
     std::vector<patch_t> patches(count);
     for (patch_t &patch : patches) {
-        patch = {next(state) % 3, next(state) % 4, next(state) % 4, next(state) % 2 == 1, {}};
+        const uint32_t domain = next(state) % 16 == 0 ? 3 : next(state) % 3; // 3 is not a domain
+        patch = {domain, next(state) % 4, next(state) % 4, next(state) % 2 == 1, {}};
         for (uint32_t &factor : patch.factors) factor = random_factor(state);
     }
     return patches;
@@ -178,6 +180,8 @@ int sc_main(int argc, char **argv) {
     for (int s = 0; s < 3; s++) is_different |= differ(NAMES[s], of_rtl.streams[s], of_model.streams[s]);
     const auto &streams = of_rtl.streams;
     if (is_different || streams[0].size() != count || streams[1].empty() || streams[2].empty()) return 1;
-    std::printf("%zu patches, %zu points, %zu primitives equal\n", streams[0].size(), streams[1].size(), streams[2].size());
+    const auto culled = std::count_if(patches.begin(), patches.end(), [](const patch_t &patch) { return patch.domain == 3; });
+    std::printf("%zu patches, %zu of domain 3, %zu points, %zu primitives equal\n", streams[0].size(),
+        static_cast<size_t>(culled), streams[1].size(), streams[2].size());
     return 0;
 }
