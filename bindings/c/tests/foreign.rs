@@ -34,6 +34,7 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("mesa_draws_equal_model", &["cc"], mesa::draws_equal_model),
     ("rules_example_judges_the_model", &["cc"], c::rules_example_judges_the_model),
     ("rtl_equals_model", &["c++", "make", "verilator"], rtl::equals_model),
+    ("rtl_buffered_equals_model", &["c++", "make", "verilator"], rtl::buffered_equals_model),
     (
         "rtl_clocks_are_those_of_the_document",
         &["c++", "make", "verilator"],

@@ -82,8 +82,9 @@ usage: cargo xtask [--yes | --no-install] <command>
   integrations
           build the plugin for Bevy, run its tests and its example, and compare the pictures of its two
           ways to tessellate
-  rtl     check the circuit's ports, lint it and compare it with the model in Verilator: level 1, random patches under
-          back-pressure, single stages; plant its faults; print clocks for the workloads of `tess bench` and isolines
+  rtl     check the circuit's style and ports, lint it and compare both its variants with the model in Verilator: level 1,
+          random patches under back-pressure, single stages; plant its faults; print clocks for the workloads of
+          `tess bench` and isolines
   rtl --plant FOLDER [NUMBER]
           write the design to FOLDER with every fault of rtl/dv/circuit.faults, which a simulation selects with
           `+fault=NUMBER`, or with one fault; print their numbers

@@ -6,7 +6,7 @@
 //   +seed=N         seed of everything random (default 1)
 //   +gaps           random gaps between patches, back-pressure of several kinds on each stream
 //   +resets=N       N resets before anything is checked, each with up to four patches under way
-//   +covered        fails unless every bin of tess_sequences.svh is hit
+//   +covered        fails unless every bin of tess_sequences.svh is hit, and every rule of tess_checks.sv has applied
 //   +alone          sends each patch after the output of the previous one is complete, to measure latencies
 //   +fault=N        the design has fault N (`cargo xtask rtl --plant`); ends soon after a difference
 // Exit: PASS, or $fatal. For each difference the patch is printed as a line that `tess explain` and +stimuli accept.
@@ -59,9 +59,11 @@ module tb_tess #(
     logic [(PADDED ? 64 : 48)-1:0]  point_data;
     logic [(PADDED ? 64 : 56)-1:0]  primitive_data;
     logic [(PADDED ? 256 : 200)-1:0] patch_data;
+    logic [63:0] padding; // of the patch: the design ignores it
     always_comb begin
-        patch_data        = '0;
-        patch_data[199:0] = {patch_factors, 1'b0, patch_center, patch_out, patch_partitioning, patch_domain};
+        padding           = {64{^patch_factors}};
+        patch_data        = (PADDED ? 256 : 200)'({padding[55:0], 200'd0});
+        patch_data[199:0] = {patch_factors, padding[7], patch_center, patch_out, patch_partitioning, patch_domain};
     end
 `ifdef TESS_GATES
     tess_axis axis (
@@ -93,6 +95,14 @@ module tb_tess #(
     assign primitive_i2      = primitive_data[44:32];
     assign primitive_size    = primitive_data[49:48];
     assign primitive_i0      = primitive_data[12:0];
+
+    // The bits of the words that have fields. The others are 0.
+    localparam bit [63:0] COUNTS_FIELDS    = 64'h3FFF_1FFF;
+    localparam bit [63:0] POINT_FIELDS     = 64'h1_FFFF_01_FFFF;
+    localparam bit [63:0] PRIMITIVE_FIELDS = 64'h3_1FFF_1FFF_1FFF;
+    function automatic void check_padding(input string stage, input bit [63:0] word, input bit [63:0] fields);
+        if ((word & ~fields) != 64'd0) tess_check_pkg::failed(stage, "padding", "tess_axis");
+    endfunction
 
     always #5 clk = ~clk;
 
@@ -178,6 +188,7 @@ module tb_tess #(
         stimulus_t s;
         if (of_counts.size() == 0) $fatal(1, "counts came that no patch has");
         s = of_counts.pop_front();
+        check_padding("counts", 64'(counts_data), COUNTS_FIELDS);
         compare(s, COUNTS_POINTS, 0, 32'(counts_points), s.points);
         compare(s, COUNTS_PRIMITIVES, 0, 32'(counts_primitives), s.primitives);
         patches_checked++;
@@ -196,6 +207,7 @@ module tb_tess #(
         end
         s = of_points[0];
         p = model_point(config_of(s), s.x, next_point);
+        check_padding("points", 64'(point_data), POINT_FIELDS);
         compare(s, POINTS_U, next_point, 32'(point_u), p.u);
         compare(s, POINTS_V, next_point, 32'(point_v), p.v);
         next_point++;
@@ -219,6 +231,7 @@ module tb_tess #(
         end
         s = of_primitives[0];
         p = model_primitive(config_of(s), s.x, next_primitive);
+        check_padding("connect", 64'(primitive_data), PRIMITIVE_FIELDS);
         compare(s, CONNECT_SIZE, next_primitive, 32'(primitive_size), p.size);
         compare(s, CONNECT_I0, next_primitive, 32'(primitive_i0), p.i0);
         compare(s, CONNECT_I1, next_primitive, 32'(primitive_i1), p.i1);
@@ -332,7 +345,8 @@ module tb_tess #(
 
     // ---- back-pressure -------------------------------------------------------------------------
 
-    localparam int unsigned LONG_STALL = 1024; // clocks
+    // Clocks of long stalls, and of the longest. Stalls last 100 clocks longer, in which an element comes to be stalled.
+    localparam int unsigned LONG_STALL = 1024, LONGEST_STALL = 5000;
 
     // The present kind of stall of each consumer: never, every fourth clock, every other clock, always.
     int unsigned manner[3] = '{0, 0, 0}, remains = 0;
@@ -356,8 +370,8 @@ module tb_tess #(
             remains = 64 + random() % 128;
             first   = (kind == 0) ? random() % 3 : 3;
             foreach (manner[i]) manner[i] = random() % ((kind < 4) ? 3 : 2);
-            if (kind >= 14) begin // only one stream, or all of them; sometimes for more than 1000 clocks
-                remains = (random() % 64 == 0) ? LONG_STALL + 100 : 40;
+            if (kind >= 14) begin // only one stream, or all of them; sometimes for thousands of clocks
+                remains = (random() % 64 != 0) ? 40 : 100 + ((random() % 2 == 0) ? LONGEST_STALL : LONG_STALL);
                 foreach (manner[i]) manner[i] = (kind == 14) ? 0 : 3;
                 manner[random() % 3] = 3;
             end
@@ -418,7 +432,7 @@ module tb_tess #(
                 check_primitive();
             end
             count_clocks();
-            if (idle > 2000 && (is_offered || !is_empty())) begin
+            if (idle > LONGEST_STALL + 2000 && (is_offered || !is_empty())) begin
                 if (of_points.size() != 0) compare(of_points[0], POINTS_VALID, next_point, 0, 1);
                 if (of_primitives.size() != 0) compare(of_primitives[0], CONNECT_VALID, next_primitive, 0, 1);
                 show();
@@ -534,7 +548,10 @@ module tb_tess #(
             $display("between patches: at most %0d clocks", most_silent);
             $display("within patches: %0d clocks without a point, %0d without a primitive", lost_points, lost_primitives);
         end
-        if ($test$plusargs("covered") != 0 && sequences_missed() != 0) $fatal(1, "FAIL: sequences are not covered");
+        if ($test$plusargs("covered") != 0) begin
+            int unsigned unhit = sequences_missed(), idle_rules = tess_check_pkg::missed();
+            if (unhit != 0 || idle_rules != 0) $fatal(1, "FAIL: not everything is covered");
+        end
         if (tess_check_pkg::failures != 0) $fatal(1, "FAIL: %0d assertions", tess_check_pkg::failures);
         if (mismatches != 0) $fatal(1, "FAIL");
         if (points_checked == 0 || primitives_checked == 0) $fatal(1, "FAIL: nothing was checked");

@@ -3,19 +3,58 @@
 // tess_check_pkg::failures, which the bench's verdict includes.
 package tess_check_pkg;
     int unsigned failures = 0;
+    int unsigned applied[string]; // the instances of each rule to which it has applied
 
     function automatic void failed(input string stage, input string signal, input string module_name);
         failures++;
         if (failures <= 20)
             $display("ASSERTION stage=%s signal=%s module=%s at %0t", stage, signal, module_name, $time);
     endfunction
+
+    // Adds to the tally of a rule.
+    function automatic void note(input string stage, input string signal, input string module_name, input int unsigned instances);
+        string rule = {"stage=", stage, " signal=", signal, " module=", module_name};
+        if (!applied.exists(rule)) applied[rule] = 0;
+        applied[rule] += instances;
+    endfunction
+
+    // Returns the number of rules that have never applied, and prints their names.
+    function automatic int unsigned missed();
+        missed = 0;
+        foreach (applied[rule]) if (applied[rule] == 0) begin
+            $display("never applied: %s", rule);
+            missed++;
+        end
+        $display("assertions: %0d rules have applied, %0d have not", 32'(applied.num()) - missed, missed);
+    endfunction
 endpackage
 
 `ifndef TESS_GATES // a netlist has no modules to bind to
 
-`define TESS_CHECK(STAGE, SIGNAL, MODULE, CONDITION) \
-    assert property (@(posedge clk) disable iff (rst) CONDITION) \
-    else tess_check_pkg::failed(STAGE, SIGNAL, MODULE);
+// Notes that a rule has applied, for the verdict: Verilator counts cover properties only in files of its own.
+module tess_check_applies #(
+    parameter string STAGE  = "",
+    parameter string SIGNAL = "",
+    parameter string MODULE = ""
+) (
+    input logic clk, rst, applies
+);
+    bit has_applied = 1'b0;
+    initial tess_check_pkg::note(STAGE, SIGNAL, MODULE, 0);
+    always @(posedge clk) begin
+        if (!rst && applies && !has_applied) begin
+            has_applied = 1'b1;
+            tess_check_pkg::note(STAGE, SIGNAL, MODULE, 1);
+        end
+    end
+endmodule
+
+// A rule: in each clock in which WHEN is 1, CONDITION is.
+`define TESS_CHECK(NAME, AT, OF, IN, WHEN, CONDITION) \
+    assert property (@(posedge clk) disable iff (rst) !(WHEN) || (CONDITION)) \
+    else tess_check_pkg::failed(AT, OF, IN); \
+    cover property (@(posedge clk) disable iff (rst) WHEN); \
+    tess_check_applies #(.STAGE(AT), .SIGNAL(OF), .MODULE(IN)) applies_``NAME (.clk, .rst, .applies(WHEN));
 
 // A stream: an element is offered unchanged until it is taken; a reset withdraws it.
 module tess_check_stream #(
@@ -35,9 +74,11 @@ module tess_check_stream #(
         stalled    <= data;
         was_reset  <= rst;
     end
-    `TESS_CHECK(STAGE, "valid", MODULE, !is_stalled || valid)
-    `TESS_CHECK(STAGE, "data", MODULE, !is_stalled || data == stalled)
-    `TESS_CHECK(STAGE, "reset", MODULE, COMES || !was_reset || !valid)
+    `TESS_CHECK(valid, STAGE, "valid", MODULE, is_stalled, valid)
+    `TESS_CHECK(data, STAGE, "data", MODULE, is_stalled, data == stalled)
+    if (!COMES) begin : g_reset
+        `TESS_CHECK(reset, STAGE, "reset", MODULE, was_reset, !valid)
+    end
 endmodule
 
 // A stream against the counts with which its stage was started: it has that many elements, and `last` only with the last.
@@ -105,14 +146,18 @@ module tess_check_factors (
 );
     logic is_made;
     assign is_made = context_valid && !context_culled;
-    `TESS_CHECK("factors", "fixed", "tess_factor", !fixed_valid || fixed_culled || (fixed >= 23'h01_0000 && fixed <= 23'h40_0000))
-    `TESS_CHECK("factor_context", "points", "tess_factor_context", !is_made || (points >= 7'd2 && points <= 7'd65))
-    `TESS_CHECK("factor_context", "half_points", "tess_factor_context", !is_made || (half_points >= 6'd1 && half_points <= 6'd32))
-    `TESS_CHECK("factor_context", "split", "tess_factor_context", !is_made || split <= 6'd33)
-    `TESS_CHECK("factor_context", "inv_floor", "tess_factor_context", !is_made || (inv_floor >= 17'd1024 && inv_floor <= 17'h1_0000))
-    `TESS_CHECK("factor_context", "inv_ceil", "tess_factor_context", !is_made || (inv_ceil >= 17'd1024 && inv_ceil <= 17'h1_0000))
-    `TESS_CHECK("counts", "points", "tess_factors", !out_valid || out_points <= 13'd4225)
-    `TESS_CHECK("counts", "primitives", "tess_factors", !out_valid || out_primitives <= 14'd8192)
+    `TESS_CHECK(fixed, "factors", "fixed", "tess_factor", fixed_valid && !fixed_culled,
+        fixed >= 23'h01_0000 && fixed <= 23'h40_0000)
+    `TESS_CHECK(points, "factor_context", "points", "tess_factor_context", is_made, points >= 7'd2 && points <= 7'd65)
+    `TESS_CHECK(half_points, "factor_context", "half_points", "tess_factor_context", is_made,
+        half_points >= 6'd1 && half_points <= 6'd32)
+    `TESS_CHECK(split, "factor_context", "split", "tess_factor_context", is_made, split <= 6'd33)
+    `TESS_CHECK(inv_floor, "factor_context", "inv_floor", "tess_factor_context", is_made,
+        inv_floor >= 17'd1024 && inv_floor <= 17'h1_0000)
+    `TESS_CHECK(inv_ceil, "factor_context", "inv_ceil", "tess_factor_context", is_made,
+        inv_ceil >= 17'd1024 && inv_ceil <= 17'h1_0000)
+    `TESS_CHECK(count_of_points, "counts", "points", "tess_factors", out_valid, out_points <= 13'd4225)
+    `TESS_CHECK(count_of_primitives, "counts", "primitives", "tess_factors", out_valid, out_primitives <= 14'd8192)
     tess_check_stream #(.STAGE("factors"), .MODULE("tess_factors"), .WIDTH(27)) stream (
         .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_points, out_primitives}));
 endmodule
@@ -139,11 +184,12 @@ module tess_check_points (
         was_active  <= active && !rst;
         was_start   <= start_valid && start_ready;
     end
-    `TESS_CHECK("points", "ring", "tess_points", !(active && was_active && !was_start) || ring == ring_before || ring == ring_before + 6'd1)
-    `TESS_CHECK("points", "a_p", "tess_points", !(walks && is_placed) || a_p < a_points)
-    `TESS_CHECK("points", "b_p", "tess_points", !(walks && is_placed) || b_p < b_points)
-    `TESS_CHECK("points", "u", "tess_points", !out_valid || out_u <= 17'h1_0000)
-    `TESS_CHECK("points", "v", "tess_points", !out_valid || out_v <= 17'h1_0000)
+    `TESS_CHECK(ring, "points", "ring", "tess_points", active && was_active && !was_start,
+        ring == ring_before || ring == ring_before + 6'd1)
+    `TESS_CHECK(a_p, "points", "a_p", "tess_points", walks && is_placed, a_p < a_points)
+    `TESS_CHECK(b_p, "points", "b_p", "tess_points", walks && is_placed, b_p < b_points)
+    `TESS_CHECK(u, "points", "u", "tess_points", out_valid, out_u <= 17'h1_0000)
+    `TESS_CHECK(v, "points", "v", "tess_points", out_valid, out_v <= 17'h1_0000)
     tess_check_stream #(.STAGE("points"), .MODULE("tess_points"), .WIDTH(35)) stream (
         .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_u, out_v, out_last}));
     tess_check_counts #(.STAGE("points"), .MODULE("tess_points")) counts (
@@ -175,10 +221,10 @@ module tess_check_connect (
             if (start_valid && start_ready && start_primitives != 14'd0) counts.push_back(start_points);
         end
     end
-    `TESS_CHECK("connect", "i0", "tess_connect", !out_valid || out_i0 < points)
-    `TESS_CHECK("connect", "i1", "tess_connect", !out_valid || out_i1 < points)
-    `TESS_CHECK("connect", "i2", "tess_connect", !out_valid || out_i2 < points)
-    `TESS_CHECK("connect", "size", "tess_connect", !out_valid || out_size != 2'd0)
+    `TESS_CHECK(i0, "connect", "i0", "tess_connect", out_valid, out_i0 < points)
+    `TESS_CHECK(i1, "connect", "i1", "tess_connect", out_valid, out_i1 < points)
+    `TESS_CHECK(i2, "connect", "i2", "tess_connect", out_valid, out_i2 < points)
+    `TESS_CHECK(size, "connect", "size", "tess_connect", out_valid, out_size != 2'd0)
     tess_check_stream #(.STAGE("connect"), .MODULE("tess_connect"), .WIDTH(42)) stream (
         .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_size, out_i0, out_i1, out_i2, out_last}));
     tess_check_counts #(.STAGE("connect"), .MODULE("tess_connect")) counts_check (
@@ -195,8 +241,8 @@ module tess_check_rows (
     input logic       clk, rst, advance, valid, is_stitch, advances_outer,
     input logic [6:0] outer_left, inner_left
 );
-    `TESS_CHECK("connect", "outer_left", "tess_stitch", !(valid && is_stitch && advances_outer) || outer_left != 7'd0)
-    `TESS_CHECK("connect", "inner_left", "tess_stitch", !(valid && is_stitch && !advances_outer) || inner_left != 7'd0)
+    `TESS_CHECK(outer_left, "connect", "outer_left", "tess_stitch", valid && is_stitch && advances_outer, outer_left != 7'd0)
+    `TESS_CHECK(inner_left, "connect", "inner_left", "tess_stitch", valid && is_stitch && !advances_outer, inner_left != 7'd0)
 endmodule
 bind tess_rows tess_check_rows checks (
     .clk, .rst, .advance, .valid, .is_stitch(size == 2'd3), .advances_outer(here.advances_outer), .outer_left, .inner_left

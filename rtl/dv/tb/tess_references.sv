@@ -25,7 +25,7 @@ module tess_reference_reciprocal (
         expected = '0;
         if (n != 7'd0 && n <= 7'd64) expected = 17'((32'h1_0000 + 32'(n) / 2) / 32'(n));
     end
-    `TESS_CHECK("factor_context", "reciprocal", "tess_reciprocal", value == expected)
+    `TESS_CHECK(reciprocal, "factor_context", "reciprocal", "tess_reciprocal", 1'b1, value == expected)
 endmodule
 bind tess_factors tess_reference_reciprocal floor_reference (
     .clk, .rst, .n(factor_context.floor_reciprocal.n), .value(factor_context.floor_reciprocal.value));
@@ -122,11 +122,11 @@ module tess_reference_place (
     assign position  = expected[1];
     assign placed    = expected[5];
     assign is_chosen = position.is_used && !position.middle;
-    `TESS_CHECK("points", "flip", "tess_place_position", !position.is_used || flip == position.flip)
-    `TESS_CHECK("points", "middle", "tess_place_position", !position.is_used || middle == position.middle)
-    `TESS_CHECK("points", "coarse", "tess_place_position", !is_chosen || 32'(coarse) == position.coarse)
-    `TESS_CHECK("points", "fine", "tess_place_position", !is_chosen || 32'(fine) == position.fine)
-    `TESS_CHECK("points", "location", "tess_place_blend", !placed.is_used || 32'(location) == placed.location)
+    `TESS_CHECK(flip, "points", "flip", "tess_place_position", position.is_used, flip == position.flip)
+    `TESS_CHECK(middle, "points", "middle", "tess_place_position", position.is_used, middle == position.middle)
+    `TESS_CHECK(coarse, "points", "coarse", "tess_place_position", is_chosen, 32'(coarse) == position.coarse)
+    `TESS_CHECK(fine, "points", "fine", "tess_place_position", is_chosen, 32'(fine) == position.fine)
+    `TESS_CHECK(location, "points", "location", "tess_place_blend", placed.is_used, 32'(location) == placed.location)
 endmodule
 bind tess_points tess_reference_place reference_a (
     .clk, .rst, .advance, .is_used(walks && here.at != AT_CORNER), .given(a_context), .p(a_p),
@@ -187,8 +187,8 @@ module tess_reference_combine (
     end
     point_t combined;
     assign combined = expected[3];
-    `TESS_CHECK("points", "u", "tess_combine", !combined.is_used || 32'(u) == combined.u)
-    `TESS_CHECK("points", "v", "tess_combine", !combined.is_used || 32'(v) == combined.v)
+    `TESS_CHECK(u, "points", "u", "tess_combine", combined.is_used, 32'(u) == combined.u)
+    `TESS_CHECK(v, "points", "v", "tess_combine", combined.is_used, 32'(v) == combined.v)
 endmodule
 bind tess_points tess_reference_combine combine_reference (
     .clk, .rst, .advance, .is_used(valids[PLACING-1]), .is_quad(quad_there), .at(at_there), .side(side_there), .a, .b,
@@ -214,7 +214,7 @@ module tess_reference_mask (
 
     logic [31:0] expected;
     always_comb for (int unsigned k = 1; k <= 32; k++) expected[k-1] = (center ? k : ruler(k)) < 32'(half);
-    `TESS_CHECK("connect", "mask", "tess_mask", !is_used || mask == expected)
+    `TESS_CHECK(mask, "connect", "mask", "tess_mask", is_used, mask == expected)
 endmodule
 bind tess_connect tess_reference_mask outer_reference (
     .clk, .rst, .is_used(passes && edge_kind == tess_pkg::TRANSITION), .center(edge_center), .half(outer_half), .mask(outer_mask));
@@ -341,10 +341,10 @@ module tess_reference_rows (
     end
     primitive_t made;
     assign made = expected[1];
-    `TESS_CHECK("connect", "size", "tess_rows", !made.is_used || out_size == made.size)
-    `TESS_CHECK("connect", "i0", "tess_rows", !made.is_used || out_i0 == made.i0)
-    `TESS_CHECK("connect", "i1", "tess_rows", !made.is_used || out_i1 == made.i1)
-    `TESS_CHECK("connect", "i2", "tess_rows", !made.is_used || out_i2 == made.i2)
+    `TESS_CHECK(size, "connect", "size", "tess_rows", made.is_used, out_size == made.size)
+    `TESS_CHECK(i0, "connect", "i0", "tess_rows", made.is_used, out_i0 == made.i0)
+    `TESS_CHECK(i1, "connect", "i1", "tess_rows", made.is_used, out_i1 == made.i1)
+    `TESS_CHECK(i2, "connect", "i2", "tess_rows", made.is_used, out_i2 == made.i2)
 endmodule
 bind tess_rows tess_reference_rows reference (
     .clk, .rst, .advance, .step_valid, .step_begins, .step, .step_stitch, .out_size, .out_i0, .out_i1, .out_i2);

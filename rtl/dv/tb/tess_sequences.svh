@@ -49,6 +49,7 @@ function automatic void cover_sequences();
         if (stalled_for[stream] == 1) hit({"stall of ", STREAMS[stream], ", ", position_of(stream)});
         if (stalled_for[stream] == 32) hit({"long stall of ", STREAMS[stream], ", ", position_of(stream)});
         if (stalled_for[stream] == LONG_STALL) hit({"stall of 1024 clocks of ", STREAMS[stream]});
+        if (stalled_for[stream] == LONGEST_STALL) hit({"stall of 5000 clocks of ", STREAMS[stream]});
         if (stalled_for[stream] == 8 && !(|(waits & ~(3'd1 << stream)))) hit({STREAMS[stream], " alone wait"});
     end
 endfunction
@@ -79,6 +80,7 @@ function automatic int unsigned sequences_missed();
     foreach (KINDS[i]) foreach (KINDS[j]) sequences_missed += missed({KINDS[i], " after ", KINDS[j]});
     for (int unsigned stream = 0; stream < 3; stream++) begin
         sequences_missed += missed({STREAMS[stream], " alone wait"}) + missed({"stall of 1024 clocks of ", STREAMS[stream]});
+        sequences_missed += missed({"stall of 5000 clocks of ", STREAMS[stream]});
         foreach (POSITIONS[i]) if ((stream == 0 && i == 0) || (stream == 1 && i != 0) || stream == 2) begin // a patch has at least two points
             string place = {STREAMS[stream], ", ", POSITIONS[i]};
             sequences_missed += missed({"stall of ", place}) + missed({"long stall of ", place});

@@ -1,8 +1,9 @@
 //! The clocks that isolines and the workloads of `tess bench` take, without back-pressure.
 
-use super::rtl;
+use super::rtl::{self, Variant};
 use super::tools::{repository, run};
 use libtest_mimic::Failed;
+use std::path::Path;
 use std::process::Command;
 use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
@@ -28,37 +29,43 @@ const HEAD: &str = "\
 const BETWEEN: u64 = 8;
 const LATENCY: u64 = 30;
 
+/// The clocks that `BUFFERED` adds, once: to the first element of a patch.
+const BUFFERS: u64 = 2;
+
 /// Prints latencies, then a row of a table for each workload; docs/rtl.md has both. No stream
-/// stands still within a patch, and no bar is missed.
+/// stands still within a patch, and no bar is missed. With register stages everything is the same,
+/// two clocks later.
 #[expect(clippy::print_stdout, reason = "the rows of the document")]
 pub(crate) fn are_those_of_the_document() -> Result<(), Failed> {
     let document = std::fs::read_to_string(repository().join("docs/rtl.md"))?;
-    let bench = rtl::bench()?;
-    let said = run(Command::new(&bench).args(["+random=1000", "+alone"]))?;
-    BenchVerdict::read(&said, 1000)?;
-    let latency = line(&said, "latency: ")?;
-    println!("\nclocks, one patch alone: {latency}");
-    let latencies: Vec<u64> = latency.split(' ').filter_map(|word| word.parse().ok()).collect();
-    let [point, primitive] = latencies[..] else { return Err(latency.into()) };
+    let [plain, buffered] = [Variant::Plain, Variant::Buffered].map(rtl::bench);
+    let (plain, buffered) = (plain?, buffered?);
+    let ([point, primitive], later) = (latencies(&plain)?, latencies(&buffered)?);
+    println!("\nclocks, one patch alone: {point} to a point, {primitive} to a primitive");
     let documented = format!("{point} clocks for a point and {primitive} for a primitive");
     let mut wrong = Vec::new();
     if point.max(primitive) > LATENCY || !document.contains(&documented) {
-        wrong.push(latency.to_owned());
+        wrong.push(documented);
+    }
+    if later != [point, primitive].map(|clocks| clocks + BUFFERS) {
+        wrong.push(format!("with register stages {later:?} clocks"));
     }
     println!("{HEAD}");
     for (name, cases) in workloads()? {
         let stimuli = rtl::stimuli(&name.replace('/', "-"), &cases)?;
-        let said = run(Command::new(&bench).arg(&stimuli))?;
-        let verdict = BenchVerdict::read(&said, cases.len() as u64)?;
-        let between = line(&said, "between patches: at most ")?.replace(" clocks", "");
+        let (verdict, between) = timed(&plain, &stimuli, cases.len())?;
         let row = row(&name, verdict, &between);
         println!("{row}");
-        let within = line(&said, "within patches: ")?;
-        if within != UNBROKEN {
-            wrong.push(format!("`{name}`, within patches: {within}"));
-        }
         if !between.parse().is_ok_and(|clocks: u64| clocks <= BETWEEN) || !document.contains(&row) {
             wrong.push(row);
+        }
+        let clocks = verdict.clocks + BUFFERS;
+        let later = timed(&buffered, &stimuli, cases.len())?;
+        if later != (BenchVerdict { clocks, ..verdict }, between) {
+            wrong.push(format!(
+                "`{name}` with register stages: {} clocks between, {}",
+                later.1, later.0
+            ));
         }
     }
     let wrong = wrong.join("\n");
@@ -66,6 +73,29 @@ pub(crate) fn are_those_of_the_document() -> Result<(), Failed> {
         return Ok(());
     }
     Err(format!("docs/rtl.md says otherwise, or a bar is missed:\n{wrong}").into())
+}
+
+/// The most clocks from the acceptance of a patch to its first point and primitive, by bench.
+fn latencies(bench: &Path) -> Result<[u64; 2], Failed> {
+    let said = run(Command::new(bench).args(["+random=1000", "+alone"]))?;
+    BenchVerdict::read(&said, 1000)?;
+    let latency = line(&said, "latency: ")?;
+    let numbers: Vec<u64> = latency.split(' ').filter_map(|word| word.parse().ok()).collect();
+    <[u64; 2]>::try_from(numbers).map_err(|_| latency.into())
+}
+
+/// The verdict on these patches without back-pressure, and the clocks between patches; within
+/// patches no clock may be without an element.
+fn timed(bench: &Path, stimuli: &str, patches: usize) -> Result<(BenchVerdict, String), Failed> {
+    let said = run(Command::new(bench).arg(stimuli))?;
+    let verdict = BenchVerdict::read(&said, patches as u64)?;
+    let within = line(&said, "within patches: ")?;
+    if within != UNBROKEN {
+        return Err(format!("{}: within patches: {within}", bench.display()).into());
+    }
+    let between = line(&said, "between patches: at most ")?;
+    let clocks = between.strip_suffix(" clocks").ok_or("the clocks between patches")?;
+    Ok((verdict, clocks.to_owned()))
 }
 
 /// Names and patches, with enough points each. Those of `tess bench` that come in batches: the
