@@ -186,7 +186,10 @@ module tb_tess #(
 
     function automatic void check_counts();
         stimulus_t s;
-        if (of_counts.size() == 0) $fatal(1, "counts came that no patch has");
+        if (of_counts.size() == 0) begin
+            tess_check_pkg::failed("counts", "valid", "tess_top");
+            $fatal(1, "FAIL: counts came that no patch has");
+        end
         s = of_counts.pop_front();
         check_padding("counts", 64'(counts_data), COUNTS_FIELDS);
         compare(s, COUNTS_POINTS, 0, 32'(counts_points), s.points);
