@@ -121,8 +121,8 @@ mod tests {
         }
     }
 
-    /// Each port of `tess_top` has its row in the document, and each port and parameter its place in
-    /// the template.
+    /// Each port of `tess_top` has its row in the document, and each port and parameter is in the
+    /// template.
     #[test]
     fn the_document_has_every_port() {
         let document = command::read(&workspace().join("docs/rtl.md")).expect("a document");
