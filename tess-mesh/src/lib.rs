@@ -12,6 +12,7 @@ mod read;
 mod repair;
 mod tessellate;
 mod texcoords;
+mod uri;
 pub mod write;
 
 pub use budget::MAX_MEMORY;

@@ -14,7 +14,7 @@ use crate::parts::Parts;
 use crate::read::beside;
 use crate::read::text::{TextLines, without_mark, words};
 use crate::repair::tally::Tally;
-use crate::write::uri_of;
+use crate::uri::uri_of;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};

@@ -4,7 +4,6 @@ use super::Totals;
 use super::binary::Binary;
 use super::{Block, GltfOptions, Sink, WriteAt};
 use std::io::{self, Write};
-use std::path::Path;
 
 /// Writes glTF in two files.
 #[derive(Debug)]
@@ -15,7 +14,8 @@ pub struct Gltf<'a, J, W> {
 }
 
 impl<'a, J: Write, W: WriteAt> Gltf<'a, J, W> {
-    /// Begins both files. `uri` is the reference from the JSON to the binary part ([`uri_of`]).
+    /// Begins both files. `uri` is the reference from the JSON to the binary part
+    /// ([`super::uri_of`]).
     pub fn new(json: J, binary: W, uri: String, options: GltfOptions<'a>) -> Self {
         Self { json, binary: Binary::new(binary, 0, options), uri }
     }
@@ -41,20 +41,4 @@ impl<J: Write, W: WriteAt> Sink for Gltf<'_, J, W> {
     fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
         self.binary.block(block)
     }
-}
-
-/// The reference to a file in the same folder, with every byte percent-encoded that has a meaning
-/// in a URI (RFC 3986, section 2).
-#[must_use]
-pub fn uri_of(file: &Path) -> String {
-    let mut uri = String::new();
-    for &byte in file.file_name().unwrap_or_default().as_encoded_bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
-                uri.push(char::from(byte));
-            }
-            _ => uri.push_str(&format!("%{byte:02X}")),
-        }
-    }
-    uri
 }

@@ -8,8 +8,9 @@ mod share;
 
 use crate::load::Up;
 use crate::parts::Parts;
+pub use crate::uri::uri_of;
 pub use glb::Glb;
-pub use gltf::{Gltf, uri_of};
+pub use gltf::Gltf;
 pub use obj::Obj;
 use std::fs::File;
 use std::io;

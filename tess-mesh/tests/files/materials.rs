@@ -41,7 +41,8 @@ fn base_colours_and_images() {
         json!([
             {name: "oak", surface: {"baseColorFactor": [0.8, 0.5, 0.25, 1.0], "metallicFactor": 0,
                 "baseColorTexture": {"index": 0}}},
-            {name: "glass", surface: {"baseColorFactor": [1.0, 0.0, 0.5, 0.25], "metallicFactor": 0},
+            {name: "glass",
+                surface: {"baseColorFactor": [1.0, 0.0, 0.5, 0.25], "metallicFactor": 0},
                 "alphaMode": "BLEND"},
             {name: "thin", surface: {"baseColorFactor": [0.5, 0.5, 0.5, 0.25], "metallicFactor": 0},
                 "alphaMode": "BLEND"},

@@ -24,7 +24,7 @@ fn crates() -> BTreeSet<String> {
 }
 
 /// The files of the repository that the compiler read for the program: its dep-info of each crate,
-/// in the folder where cargo keeps it. Cargo's own `tess.d` joins them, but `cargo test` makes none.
+/// in the folder where cargo keeps it. Cargo's own `tess.d` joins them; `cargo test` makes none.
 fn read_by_compiler(root: &Path) -> BTreeSet<PathBuf> {
     let crates = crates();
     let folder = Path::new(env!("CARGO_BIN_EXE_tess")).with_file_name("deps");

@@ -1,5 +1,5 @@
-//! Tests that `tess mesh` begins nothing that is impossible: a result that its format cannot hold is
-//! refused before a file is there, with the factor that would fit.
+//! Tests that `tess mesh` begins nothing that is impossible: a result that its format cannot hold
+//! is refused before a file is there, with the factor that would fit.
 
 use crate::mesh::{counts, write};
 use crate::support::{Folder, directory, tess};
