@@ -63,6 +63,8 @@ impl Scene {
             }
         });
         let passes = passes.collect::<std::result::Result<_, _>>()?;
+        // The first run has the room of a new stage, and makes more; the second tells of that.
+        stage.make_room(&gpu.queue, patches)?;
         let found = stage.make_room(&gpu.queue, patches)?;
         if found.scale < 1.0 {
             return Err("the room does not hold the frame, which would be coarser".into());
