@@ -259,6 +259,13 @@ EDITS = ["gpu", "ablation", "benches/edits"]
 BATCHES = ["uniform", *UNLIKE, "meshes/triangles-at-once", "meshes/quads-at-once", "worst"]
 DRAWN = ["uniform", *UNLIKE, "worst"]
 FRAMES = ["uniform-16", "terrain", "character"]
+WRITTEN = ["benches/src/lib.rs", "benches/src/written.rs"]
+
+
+def of_gpu(*files):
+    """Files of the program `gpu`, with that which takes its times."""
+    return [f"benches/src/bin/gpu/{file}" for file in ("timing.rs", *files)]
+
 
 MEASUREMENTS = {
     "simd": simd(workloads=ALL),
@@ -297,7 +304,7 @@ MEASUREMENTS = {
     "gpu-groups": Measurement("gpu", GPU, [["gpu", "groups"]], of_groups, ["meshes", "microseconds"]),
     "gpu-evaluated": Measurement(
         "gpu",
-        Code(GPU.packages, [*WORKLOADS, "benches/src"]),
+        Code(GPU.packages, of_gpu("evaluated.rs", "evaluated")),
         [["gpu", "evaluated"]],
         of_evaluated,
         ["bytes", "octaves", "1_passes", "2_passes", "4_passes", "1_passes,_storage", "4_passes,_storage"],
@@ -332,8 +339,8 @@ MEASUREMENTS = {
         of_stage,
         ["points", "triangles", "prepare_us", "draw_us", "G_triangles/s"],
     ),
-    "study-cpu": Measurement("study", Code(CPU.packages, [*WORKLOADS, "benches/src"]), [["study"]], lines_of),
-    "study-gpu": Measurement("study", Code(GPU.packages, [*WORKLOADS, "benches/src"]), [["gpu", "study"]], lines_of, needs_gpu=True),
+    "study-cpu": Measurement("study", Code(CPU.packages, [*WORKLOADS, *WRITTEN, "benches/src/bin/study.rs"]), [["study"]], lines_of),
+    "study-gpu": Measurement("study", Code(GPU.packages, [*WORKLOADS, *of_gpu("study.rs", "groups.rs")]), [["gpu", "study"]], lines_of, needs_gpu=True),
     "study-sweep": sweep("core", "simd", code=CPU),
     "study-sweep-gpu": sweep("gpu", code=GPU, needs_gpu=True),
 }
