@@ -2,7 +2,8 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { close, enter, openWithoutGpu as open, patchWords, tess, test } from "./harness.mjs";
+import { join } from "node:path";
+import { close, enter, need, openWithoutGpu as open, patchWords, tess, test } from "./harness.mjs";
 
 const golden = readFileSync("golden/cases.txt", "utf8");
 const records = golden.split(/^(?=case )/m).slice(1);
@@ -106,7 +107,7 @@ test("saved files are what tess writes", async () => {
     await enter(page, line);
     const words = await patchWords(page);
     for (const [extension, format] of [["svg", "svg"], ["png", "png"], ["obj", "obj"], ["csv", "csv"], ["txt", "text"]]) {
-      const file = `target/explorer-test/expected.${extension}`;
+      const file = join(need("EXPLORER_MODULES"), `expected.${extension}`);
       tess("patch", ...words, "--format", format, "-o", file);
       assert.ok(readFileSync(file).equals(await saved(page, extension)), `${extension} of ${line}`);
     }
