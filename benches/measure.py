@@ -200,13 +200,16 @@ def of_crossover(outputs):
     return [{"patches": patches, **rows[patches]} for patches in (1, 16, 128, 256, 1024, 4096)]
 
 
+PASSES = {"1": "one pass", "2": "two passes", "4": "four passes"}
+
+
 def of_evaluated(outputs):
     """Frames of evaluated points as multiples of those of stored points, at factors 4, 16 and 64; and from a storage buffer."""
     line = r"^ *(\d+) +(4|16|64) +(\d+) +(\d+)(?: +[\d.]+){4} +([\d.]+) +([\d.]+)$"
     rows = {}
     for size, _, octaves, passes, evaluated, storage in re.findall(line, outputs[0], re.MULTILINE):
         row = rows.setdefault((int(size), int(octaves)), {})
-        for key, ratio in ((f"{passes}_passes", evaluated), (f"{passes}_passes,_storage", storage)):
+        for key, ratio in ((PASSES[passes], evaluated), (f"{PASSES[passes]}, storage", storage)):
             row.setdefault(key, []).append(f"{float(ratio):.2f}")
     cells = lambda row: {key: " / ".join(ratios) for key, ratios in row.items()}
     return [{"bytes": size, "octaves": octaves, **cells(row)} for (size, octaves), row in rows.items()]
@@ -262,7 +265,7 @@ FRAMES = ["uniform-16", "terrain", "character"]
 WRITTEN = ["benches/src/lib.rs", "benches/src/written.rs"]
 
 
-def of_gpu(*files):
+def files_of_gpu(*files):
     """Files of the program `gpu`, with that which takes its times."""
     return [f"benches/src/bin/gpu/{file}" for file in ("timing.rs", *files)]
 
@@ -304,10 +307,10 @@ MEASUREMENTS = {
     "gpu-groups": Measurement("gpu", GPU, [["gpu", "groups"]], of_groups, ["meshes", "microseconds"]),
     "gpu-evaluated": Measurement(
         "gpu",
-        Code(GPU.packages, of_gpu("evaluated.rs", "evaluated")),
+        Code(GPU.packages, files_of_gpu("evaluated.rs", "evaluated")),
         [["gpu", "evaluated"]],
         of_evaluated,
-        ["bytes", "octaves", "1_passes", "2_passes", "4_passes", "1_passes,_storage", "4_passes,_storage"],
+        ["bytes", "octaves", *PASSES.values(), "one pass, storage", "four passes, storage"],
     ),
     "gpu-crossover": Measurement(
         "gpu",
@@ -340,7 +343,7 @@ MEASUREMENTS = {
         ["points", "triangles", "prepare_us", "draw_us", "G_triangles/s"],
     ),
     "study-cpu": Measurement("study", Code(CPU.packages, [*WORKLOADS, *WRITTEN, "benches/src/bin/study.rs"]), [["study"]], lines_of),
-    "study-gpu": Measurement("study", Code(GPU.packages, [*WORKLOADS, *of_gpu("study.rs", "groups.rs")]), [["gpu", "study"]], lines_of, needs_gpu=True),
+    "study-gpu": Measurement("study", Code(GPU.packages, [*WORKLOADS, *files_of_gpu("study.rs", "groups.rs")]), [["gpu", "study"]], lines_of, needs_gpu=True),
     "study-sweep": sweep("core", "simd", code=CPU),
     "study-sweep-gpu": sweep("gpu", code=GPU, needs_gpu=True),
 }
