@@ -1,10 +1,9 @@
 //! Values of a draw that the WGSL asks for: the factors, the instance and the view.
 
-use crate::common::objects::view_of;
 use crate::drawing::{WAYS, scene};
 use crate::model::compare;
 use crate::room::scaled;
-use crate::scene::{FORMAT, PATCHES, SIZE, Scene, source};
+use crate::scene::{FORMAT, PATCHES, SIZE, Scene, in_pass, source};
 use tess_core::{Domain, Partitioning};
 use tess_gpu::Capacity;
 use tess_wgpu::stage::{Frame, Points, Room, StageError};
@@ -124,7 +123,7 @@ fn views_are_drawn_at_once_and_numbered() {
         let mut stage = scene.build(builder);
         let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
         stage.prepare(&mut encoder, 4).expect("it is prepared");
-        draw_views(&mut encoder, &target, views, |pass| stage.draw(pass));
+        in_pass(&mut encoder, &target, views, |pass| stage.draw(pass));
         let layers = layers(&scene.gpu, encoder, &target);
         let row = (SIZE[0] * SIZE[1] / 2) as usize;
         let expected = scene.pixels(&scene.patches[..4]);
@@ -134,26 +133,6 @@ fn views_are_drawn_at_once_and_numbered() {
         let moved = [below, above].concat();
         assert_eq!(compare(&moved, &expected), Ok(()), "{points:?}, view 1");
     }
-}
-
-fn draw_views(
-    encoder: &mut wgpu::CommandEncoder,
-    target: &wgpu::Texture,
-    multiview_mask: Option<std::num::NonZeroU32>,
-    draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
-) {
-    let view = view_of(target);
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations::default(),
-        })],
-        multiview_mask,
-        ..Default::default()
-    });
-    draw(&mut pass);
 }
 
 /// The pixels of both layers, after the commands have run.

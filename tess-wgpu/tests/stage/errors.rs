@@ -5,7 +5,7 @@ use crate::common::device::{device_of, limited};
 use crate::common::objects;
 use crate::drawing::scene;
 use crate::model::compare;
-use crate::scene::{PATCHES, Scene, source};
+use crate::scene::{PATCHES, Scene, in_pass, source};
 use tess_core::{Domain, Partitioning, PatchFactors};
 use tess_wgpu::stage::{Factors, PatchCount, Points, Room, StageError};
 use tess_wgpu::{Error, Stopwatch, Tessellator};
@@ -590,20 +590,11 @@ fn encoders_and_tessellators_of_other_devices_are_refused() {
     assert_eq!(compare(&observed, &scene.pixels(&scene.patches)), Ok(()), "the stage goes on");
     let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
     let target = objects::plain(&other, crate::scene::FORMAT, [64, 64], usage);
-    let view = objects::view_of(&target);
     let mut encoder = other.device.create_command_encoder(&Default::default());
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations::default(),
-        })],
-        ..Default::default()
+    in_pass(&mut encoder, &target, None, |pass| {
+        let refused = stage.material.draw(pass, stage.frame()).err();
+        assert_eq!(refused, Some(StageError::OtherDevice.into()), "a render pass");
     });
-    let refused = stage.material.draw(&mut pass, stage.frame()).err();
-    assert_eq!(refused, Some(StageError::OtherDevice.into()), "a render pass");
-    drop(pass);
     // Another device of the stage's own instance, because devices of two instances can have the
     // same number.
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());

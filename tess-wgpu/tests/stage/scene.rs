@@ -173,22 +173,32 @@ impl Scene {
         mut encoder: wgpu::CommandEncoder,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) -> Result<Vec<Pixel>, Error> {
-        let view = view_of(&self.target);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations::default(),
-            })],
-            ..Default::default()
-        });
-        draw(&mut pass);
-        drop(pass);
+        in_pass(&mut encoder, &self.target, None, draw);
         let size = u64::from(16 * SIZE[0] * SIZE[1]);
         let pixels = self.gpu.buffer("pixels", size, Usage::COPY_DST | Usage::COPY_SRC)?;
         copy_pixels(&mut encoder, &self.target, &pixels);
         self.gpu.run(encoder)?;
         Ok(bytemuck::pod_collect_to_vec(&self.gpu.read(&pixels, size)?))
     }
+}
+
+/// Draws in a render pass of its own, whose only target is this one.
+pub(crate) fn in_pass(
+    encoder: &mut wgpu::CommandEncoder,
+    target: &wgpu::Texture,
+    multiview_mask: Option<std::num::NonZeroU32>,
+    draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+) {
+    let view = view_of(target);
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations::default(),
+        })],
+        multiview_mask,
+        ..Default::default()
+    });
+    draw(&mut pass);
 }
