@@ -16,7 +16,7 @@ use crate::read::text::{TextLines, without_mark, words};
 use crate::repair::tally::Tally;
 use crate::uri::uri_of;
 use serde_json::{Map, Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
 /// A material.
@@ -87,12 +87,12 @@ pub(crate) fn read(parts: &mut Parts, folder: Option<&Path>, budget: &Budget) ->
 
 /// The names of the libraries, each once. A line may have one name with blanks or several names.
 fn names(lines: &[String], folder: Option<&Path>) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
+    let (mut names, mut known) = (Vec::new(), BTreeSet::new());
     for line in lines {
         let is_one = beside::path(folder, Path::new(line)).is_ok_and(|path| path.is_file());
         let own: Vec<&str> = if is_one { vec![line] } else { line.split_whitespace().collect() };
         for name in own {
-            if !names.iter().any(|known| known == name) {
+            if known.insert(name) {
                 names.push(name.to_owned());
             }
         }
