@@ -25,6 +25,8 @@ pub(super) struct Answer {
     pub(super) vertices: Vec<Place>,
     /// The distinct places of vertices, ascending.
     pub(super) places: Vec<Place>,
+    /// The number of each vertex's place among `places`.
+    numbers: Vec<u32>,
     /// Whether vertices of the inside are on the outline, where a standard allows that.
     pub(super) touches: bool,
 }
@@ -39,24 +41,31 @@ impl Answer {
         output: &Tessellation,
         specification: Specification,
     ) -> Result<Self, String> {
-        let vertex = |&index: &u32| {
-            let point = output.points.get(index as usize);
-            let place = point.map(|point| [point.u.to_bits(), point.v.to_bits()]);
-            place.ok_or_else(|| format!("index {index} of {} points", output.points.len()))
-        };
-        let vertices: Vec<Place> = output.indices.iter().map(vertex).collect::<Result<_, _>>()?;
-        let size = case.primitive_size();
-        if !vertices.len().is_multiple_of(size) {
-            let number = vertices.len();
+        let mut is_used = vec![false; output.points.len()];
+        for &index in &output.indices {
+            let used = is_used.get_mut(index as usize);
+            *used.ok_or_else(|| format!("index {index} of {} points", output.points.len()))? = true;
+        }
+        let (number, size) = (output.indices.len(), case.primitive_size());
+        if !number.is_multiple_of(size) {
             return Err(format!("{number} indices do not make whole primitives of {size}"));
         }
-        let mut places = vertices.clone();
+        let all: Vec<Place> =
+            output.points.iter().map(|p| [p.u.to_bits(), p.v.to_bits()]).collect();
+        let used = all.iter().zip(is_used).filter(|(_, is_used)| *is_used);
+        let mut places: Vec<Place> = used.map(|(place, _)| *place).collect();
         places.sort_unstable();
         places.dedup();
-        let mut answer = Self { case: *case, specification, vertices, places, touches: false };
+        let number = |place| places.binary_search(place).map_or(0, |number| number);
+        let of_points: Vec<u32> =
+            all.iter().map(|place| u32::try_from(number(place)).unwrap_or(u32::MAX)).collect();
+        let numbers: Vec<u32> = output.indices.iter().map(|i| of_points[*i as usize]).collect();
+        let vertices = output.indices.iter().map(|i| all[*i as usize]).collect();
+        let (case, touches) = (*case, false);
+        let mut answer = Self { case, specification, vertices, places, numbers, touches };
         // Where all vertices of the inside are off the outline, nothing needs an excuse.
-        answer.touches = may_touch_outline(case, specification)
-            && inside_asked(case).is_none_or(|asked| answer.inside().len() != asked);
+        answer.touches = may_touch_outline(&case, specification)
+            && inside_asked(&case).is_none_or(|asked| answer.inside().len() != asked);
         Ok(answer)
     }
 
@@ -88,6 +97,12 @@ impl Answer {
     /// The triangles; none for other primitives.
     pub(super) fn triangles(&self) -> impl Iterator<Item = [Place; 3]> {
         let (triangles, _) = self.vertices.as_chunks::<3>();
+        triangles.iter().copied().filter(|_| self.has_triangles())
+    }
+
+    /// The triangles by the numbers of their vertices' places.
+    pub(super) fn numbered_triangles(&self) -> impl Iterator<Item = [u32; 3]> {
+        let (triangles, _) = self.numbers.as_chunks::<3>();
         triangles.iter().copied().filter(|_| self.has_triangles())
     }
 

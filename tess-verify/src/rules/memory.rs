@@ -6,6 +6,7 @@ use super::edge::{known_edges, shorter};
 use super::levels::{Level, is_minimum};
 use super::lines::{Line, inner_lines, outer_lines};
 use crate::case::Case;
+use crate::generate::SplitMix64;
 use crate::vectors::words_digest;
 use std::collections::{BTreeMap, HashMap};
 use tess_core::fixed_point::ONE;
@@ -289,13 +290,17 @@ fn fractional_lines(answer: &Answer) -> impl Iterator<Item = Line> {
     lines.filter(|line| line.level.is_some_and(Level::is_fractional))
 }
 
-/// A digest of a set of triangles that does not depend on their order or on that of their vertices.
+/// A digest of triangles that does not depend on their order or on that of their vertices: the sum
+/// of a hash of each.
 fn triangles(triangles: impl Iterator<Item = [Place; 3]>) -> u64 {
     let sorted = |mut triangle: [Place; 3]| {
         triangle.sort_unstable();
         triangle
     };
-    let mut set: Vec<[Place; 3]> = triangles.map(sorted).collect();
-    set.sort_unstable();
-    words_digest(set.as_flattened().as_flattened())
+    // A mixing function of the words so far and the next ones.
+    let mix = |hash: u64, [u, v]: Place| {
+        SplitMix64::new(hash ^ (u64::from(u) << 32 | u64::from(v))).next_u64()
+    };
+    let hash = |triangle| sorted(triangle).into_iter().fold(0, mix);
+    triangles.map(hash).fold(0, u64::wrapping_add)
 }

@@ -33,20 +33,11 @@ pub(super) fn orientation(answer: &Answer) -> Judged {
 /// The triangles cover the domain once, as far as their directed edges show: after the edges that
 /// are walked in both directions are removed, the rest is one walk around the outline.
 pub(super) fn cover(answer: &Answer) -> Judged {
-    let mut net: BTreeMap<[Place; 2], i32> = BTreeMap::new();
-    for [a, b, c] in answer.triangles() {
-        for [from, to] in [[a, b], [b, c], [c, a]] {
-            let (edge, way) = if from <= to { ([from, to], 1) } else { ([to, from], -1) };
-            *net.entry(edge).or_default() += way;
-        }
-    }
-    if net.is_empty() {
-        return None;
-    }
-    net.retain(|[from, to], count| *count != 0 && from != to);
+    let net = walked(answer.numbered_triangles())?;
     let domain = answer.case.domain();
     let mut outline = vec![BTreeMap::<u32, i32>::new(); domain.outer_factors()];
-    for (&[from, to], &count) in &net {
+    for (ends, count) in net {
+        let [from, to] = ends.map(|number| answer.places[number as usize]);
         let on = |edge: &usize| {
             Some((distance_along(domain, *edge, from)?, distance_along(domain, *edge, to)?))
         };
@@ -67,6 +58,29 @@ pub(super) fn cover(answer: &Answer) -> Judged {
     Some(wrong.map_or(Ok(()), |edge| {
         Err(format!("outer edge {} is not walked once", domain.factor_names()[edge]))
     }))
+}
+
+/// The edges of triangles that are walked more often in one direction than in the other, ascending:
+/// the smaller end first, and how much more often the edge is walked from it. `None` if there are
+/// no triangles.
+fn walked(triangles: impl Iterator<Item = [u32; 3]>) -> Option<Vec<([u32; 2], i32)>> {
+    let edges = triangles.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+    // Both ends, and whether the larger one comes first, in a word that sorts fast. There are fewer
+    // than 2^31 places.
+    let directed = |[from, to]: [u32; 2]| {
+        let [low, high] = [from.min(to), from.max(to)].map(u64::from);
+        low << 33 | high << 1 | u64::from(from > to)
+    };
+    let mut edges: Vec<u64> = edges.map(directed).collect();
+    edges.sort_unstable();
+    let sum = |walks: &[u64]| {
+        let [low, high] = [walks[0] >> 33, walks[0] << 31 >> 32];
+        let count = walks.iter().map(|walk| if walk & 1 == 0 { 1 } else { -1 }).sum::<i32>();
+        ([low, high].map(|end| u32::try_from(end).unwrap_or(u32::MAX)), count)
+    };
+    let sums = edges.chunk_by(|a, b| a >> 1 == b >> 1).map(sum);
+    let net = sums.filter(|([from, to], count)| *count != 0 && from != to).collect();
+    (!edges.is_empty()).then_some(net)
 }
 
 /// Each segment of an isoline keeps its v, each line is walked once from u = 0 to u = 1, no line is

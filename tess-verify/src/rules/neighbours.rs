@@ -13,7 +13,6 @@ use super::inside::inner_levels;
 use super::levels::{Level, is_minimum};
 use super::lines::Grid;
 use super::rings::Rings;
-use std::collections::HashMap;
 use tess_core::Domain;
 
 /// The position of a place on a line. Ring 0 is the outline, ring 1 the first line inside it.
@@ -24,8 +23,8 @@ struct Spot {
     index: usize,
 }
 
-/// The spots of each place. A corner has two; a centre has one for each edge.
-type Spots = HashMap<Place, Vec<Spot>>;
+/// The spots of each place, by its number. A corner has two; a centre has one for each edge.
+type Spots = Vec<Vec<Spot>>;
 
 /// Each triangle joins two neighbours on one line with a vertex of the next line. A patch is not
 /// judged if one of its lines has a wrong number of segments, or if vertices of its inside are on
@@ -51,34 +50,43 @@ pub(super) fn neighbours(answer: &Answer) -> Judged {
         }
         Domain::Triangle => {
             let n = Level::inner(case, 0)?.segments();
-            add_rings(&Rings::new(answer.inside(), n)?, &mut spots);
+            add_rings(answer, &Rings::new(answer.inside(), n)?, &mut spots);
             if n % 2 == 1 { n / 2 } else { 0 }
         }
     };
-    let is_right = |triangle: &[Place; 3]| {
-        let inside = triangle.map(|place| !answer.is_on_outline(place));
-        let is_cell =
-            case.domain() == Domain::Quad && inside == [true; 3] && in_cell(&grid, triangle);
+    let inside: Vec<bool> =
+        answer.places.iter().map(|place| !answer.is_on_outline(*place)).collect();
+    let is_right = |triangle: &[u32; 3]| {
+        let places = || triangle.map(|number| answer.places[number as usize]);
+        let is_cell = case.domain() == Domain::Quad
+            && triangle.iter().all(|number| inside[*number as usize])
+            && in_cell(&grid, &places());
         is_cell || between(&spots, triangle) || is_innermost(&spots, triangle, innermost)
     };
-    let wrong = answer.triangles().enumerate().find(|(_, triangle)| !is_right(triangle));
-    Some(wrong.map_or(Ok(()), |(number, [a, b, c])| {
-        let places = format!("{} {} {}", show(a), show(b), show(c));
+    let wrong = answer.numbered_triangles().enumerate().find(|(_, triangle)| !is_right(triangle));
+    Some(wrong.map_or(Ok(()), |(number, triangle)| {
+        let [a, b, c] = triangle.map(|number| show(answer.places[number as usize]));
         let rule = "two neighbours of one line with a vertex of the next line";
-        Err(format!("triangle {number} does not join {rule}: {places}"))
+        Err(format!("triangle {number} does not join {rule}: {a} {b} {c}"))
     }))
+}
+
+/// Adds a spot of a place.
+fn add(answer: &Answer, spots: &mut Spots, place: Place, spot: Spot) {
+    if let Ok(number) = answer.places.binary_search(&place) {
+        spots[number].push(spot);
+    }
 }
 
 fn outline(answer: &Answer) -> Spots {
     let domain = answer.case.domain();
-    let mut spots = Spots::new();
+    let mut spots = vec![Vec::new(); answer.places.len()];
     for edge in 0..domain.outer_factors() {
         let along = answer.along(edge);
-        for &place in &answer.places {
+        for (&place, spots) in answer.places.iter().zip(&mut spots) {
             let found =
                 distance_along(domain, edge, place).and_then(|x| along.binary_search(&x).ok());
-            let spot = found.map(|index| Spot { edge, ring: 0, index });
-            spots.entry(place).or_default().extend(spot);
+            spots.extend(found.map(|index| Spot { edge, ring: 0, index }));
         }
     }
     spots
@@ -97,18 +105,17 @@ fn rectangle(answer: &Answer, grid: &Grid, spots: &mut Spots) {
             [u == first_u, v == first_v, u == last_u, v == last_v].into_iter().enumerate()
         {
             if let (true, Ok(index)) = (is_on, along(edge).binary_search(&at(edge))) {
-                spots.entry(place).or_default().push(Spot { edge, ring: 1, index });
+                add(answer, spots, place, Spot { edge, ring: 1, index });
             }
         }
     }
 }
 
-fn add_rings(rings: &Rings, spots: &mut Spots) {
+fn add_rings(answer: &Answer, rings: &Rings, spots: &mut Spots) {
     for ring in &rings.rings {
         for (edge, vertices) in ring.edges.iter().enumerate() {
             for (index, (_, place)) in vertices.iter().enumerate() {
-                let spot = Spot { edge, ring: ring.number, index };
-                spots.entry(*place).or_default().push(spot);
+                add(answer, spots, *place, Spot { edge, ring: ring.number, index });
             }
         }
     }
@@ -125,8 +132,8 @@ fn in_cell(grid: &Grid, triangle: &[Place; 3]) -> bool {
 
 /// Whether two vertices of a triangle are neighbours on a line and the third is on an adjacent
 /// line.
-fn between(spots: &Spots, triangle: &[Place; 3]) -> bool {
-    let of = |k: usize| spots.get(&triangle[k]).map_or(&[][..], Vec::as_slice);
+fn between(spots: &[Vec<Spot>], triangle: &[u32; 3]) -> bool {
+    let of = |k: usize| spots[triangle[k] as usize].as_slice();
     (0..3).any(|first| {
         let [a, b, c] = [0, 1, 2].map(|k| of((first + k) % 3));
         let pairs = a.iter().flat_map(|one| b.iter().map(move |other| (one, other)));
@@ -141,10 +148,8 @@ fn between(spots: &Spots, triangle: &[Place; 3]) -> bool {
 
 /// Whether a triangle's vertices are three distinct ones of the innermost ring, if that is not a
 /// point.
-fn is_innermost(spots: &Spots, triangle: &[Place; 3], ring: u32) -> bool {
+fn is_innermost(spots: &[Vec<Spot>], triangle: &[u32; 3], ring: u32) -> bool {
     let [a, b, c] = *triangle;
-    let is_on = |place: &Place| {
-        spots.get(place).is_some_and(|spots| spots.iter().any(|spot| spot.ring == ring))
-    };
+    let is_on = |number: &u32| spots[*number as usize].iter().any(|spot| spot.ring == ring);
     ring > 0 && triangle.iter().all(is_on) && a != b && b != c && c != a
 }

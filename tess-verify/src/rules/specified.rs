@@ -8,7 +8,6 @@
 use super::Judged;
 use super::answer::{Answer, Place, show};
 use crate::strength::{Alternatives, Conversion};
-use std::collections::BTreeMap;
 use tess_core::Domain;
 
 /// The answer that Direct3D specifies for a case, if it is not empty.
@@ -68,19 +67,28 @@ pub(super) fn places(answer: &Answer, specified: Option<&Answer>) -> Judged {
     })
 }
 
-/// The number of times that each primitive occurs, by its vertices. A triangle starts with its
-/// smallest vertex.
-fn primitives_of(answer: &Answer) -> BTreeMap<Vec<Place>, usize> {
-    let mut times = BTreeMap::new();
-    for primitive in answer.vertices.chunks(answer.case.primitive_size()) {
-        let mut primitive = primitive.to_vec();
-        if let [a, b, c] = primitive[..] {
-            let turns = [[a, b, c], [b, c, a], [c, a, b]];
-            primitive = turns.into_iter().min().unwrap_or([a, b, c]).to_vec();
-        }
-        *times.entry(primitive).or_default() += 1;
-    }
-    times
+/// A primitive's vertices; the places of fewer than three are followed by zeros.
+type Primitive = [Place; 3];
+
+/// The primitives by their vertices, ascending. A triangle starts with its smallest vertex.
+fn primitives_of(answer: &Answer) -> Vec<Primitive> {
+    let of = |vertices: &[Place]| {
+        let mut primitive = Primitive::default();
+        primitive[..vertices.len()].copy_from_slice(vertices);
+        let [a, b, c] = primitive;
+        let turns = [[a, b, c], [b, c, a], [c, a, b]];
+        if vertices.len() == 3 { turns.into_iter().min().unwrap_or(primitive) } else { primitive }
+    };
+    let size = answer.case.primitive_size();
+    let mut primitives: Vec<_> = answer.vertices.chunks(size).map(of).collect();
+    primitives.sort_unstable();
+    primitives
+}
+
+/// How often a primitive occurs in an ascending list.
+fn times(list: &[Primitive], primitive: Primitive) -> usize {
+    let first = list.partition_point(|own| *own < primitive);
+    list[first..].iter().take_while(|own| **own == primitive).count()
 }
 
 /// The primitives are the specified ones, in any order; coinciding points may be merged. Lines of
@@ -91,24 +99,25 @@ pub(super) fn primitives(answer: &Answer, specified: Option<&Answer>) -> Judged 
     if answer.is_empty() || is_view {
         return None;
     }
+    // The same list needs no sorting.
+    if answer.vertices == specified.vertices {
+        return Some(Ok(()));
+    }
     let (own, right) = (primitives_of(answer), primitives_of(specified));
-    let times =
-        |of: &BTreeMap<Vec<Place>, usize>, primitive| of.get(primitive).copied().unwrap_or(0);
-    let text = |primitive: &Vec<Place>| {
-        primitive.iter().map(|place| show(*place)).collect::<Vec<_>>().join(" ")
+    let size = answer.case.primitive_size();
+    let text = |primitive: &Primitive| {
+        primitive[..size].iter().map(|place| show(*place)).collect::<Vec<_>>().join(" ")
     };
-    let extra = own.iter().find(|(primitive, n)| **n > times(&right, *primitive));
-    let missing = right.iter().find(|(primitive, n)| match times(&own, *primitive) {
+    let extra = own.iter().find(|one| times(&own, **one) > times(&right, **one));
+    let missing = right.iter().find(|one| match times(&own, **one) {
         0 => true,
-        found => found < **n && !answer.has_points(),
+        found => found < times(&right, **one) && !answer.has_points(),
     });
     Some(match (extra, missing) {
         (None, None) => Ok(()),
-        (Some((extra, _)), None) => Err(format!("{} comes more often than specified", text(extra))),
-        (None, Some((missing, _))) => {
-            Err(format!("{} comes less often than specified", text(missing)))
-        }
-        (Some((extra, _)), Some((missing, _))) => {
+        (Some(extra), None) => Err(format!("{} comes more often than specified", text(extra))),
+        (None, Some(missing)) => Err(format!("{} comes less often than specified", text(missing))),
+        (Some(extra), Some(missing)) => {
             Err(format!("{} is not specified, and {} is missing", text(extra), text(missing)))
         }
     })
