@@ -308,3 +308,41 @@ fn a_value_left_in_a_register_is_seen() {
     let different = different.filter(|(case, answer)| *answer != case.patch().tessellate());
     assert!(different.count() > 10, "level 1 shows it without its random cases");
 }
+
+/// Every number on an edge is asked with every number inside, of triangles and of quads, and quads
+/// are asked for each number in both directions, in each split order that is asked for.
+#[test]
+fn every_pair_of_numbers_is_asked_at_an_edge() {
+    for (split, orders) in [(None, 2), (Some(SplitOrder::Ruler), 1), (Some(SplitOrder::Centre), 1)]
+    {
+        let mut pairs: BTreeMap<(String, String), BTreeSet<[u32; 2]>> = BTreeMap::new();
+        let mut squares = BTreeSet::new();
+        for case in cases(split) {
+            let levels = levels(&case.to_string());
+            let (domain, _, order, _) = levels[0].0.clone();
+            let edges = outer_levels(&domain);
+            let is_drawn = levels[..edges].iter().all(|(_, level)| *level > 0.0);
+            let has_inside = levels.iter().all(|(_, level)| !level.is_nan())
+                && levels.iter().any(|(_, level)| *level > 1.0);
+            if domain == "isoline" || !is_drawn || !has_inside || case.primitive_size() != 3 {
+                continue;
+            }
+            let numbers: Vec<u32> = levels.iter().map(|(role, own)| segments(role, *own)).collect();
+            let own = pairs.entry((domain.clone(), order.clone())).or_default();
+            // A quad's edges u = 0 and u = 1 run along v, the others along u.
+            let inside = |edge: usize| match domain.as_str() {
+                "tri" => numbers[3],
+                _ => numbers[5 - edge % 2],
+            };
+            own.extend((0..edges).map(|edge| [numbers[edge], inside(edge)]));
+            if domain == "quad" && numbers[4] == numbers[5] {
+                squares.insert((order, numbers[4]));
+            }
+        }
+        assert_eq!(pairs.len(), 2 * orders, "{split:?}");
+        for (place, found) in pairs {
+            assert_eq!(found.len(), 64 * 63, "{place:?}: edges from 1, insides from 2");
+        }
+        assert_eq!(squares.len(), orders * 63, "{split:?}");
+    }
+}

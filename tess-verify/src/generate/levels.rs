@@ -128,7 +128,7 @@ fn beside_minimum(
 
 /// Every pair of an outer and an inside number of points of a partitioning, in each split order. If
 /// quads are selected too, triangles have each pair in only one of the orders.
-fn transitions(cases: &mut Vec<Case>, choices: &Choices) {
+pub(super) fn transitions(cases: &mut Vec<Case>, choices: &Choices) {
     let partitioning = choices.partitioning(&[Partitioning::Integer]);
     let counts = segments(partitioning);
     let [has_triangles, has_quads] =
@@ -194,7 +194,7 @@ fn quads_with(outer: &[f32], inside: f32, turn: usize) -> [QuadFactors; 4] {
 
 /// Pairs of inside factors on quads, and each inside factor on triangles. In fractional
 /// partitionings the factors are slightly lower. The split orders take turns.
-fn interiors(cases: &mut Vec<Case>, choices: &Choices, wanted: impl Fn(u8, u8) -> bool) {
+pub(super) fn interiors(cases: &mut Vec<Case>, choices: &Choices, wanted: impl Fn(u8, u8) -> bool) {
     for partitioning in choices.distinct_partitionings() {
         let shift = if partitioning.has_integer_factors() { 0 } else { 0x6000 };
         let factor = |n: u8| from_fixed((u32::from(n) << 16) - shift);

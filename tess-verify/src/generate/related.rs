@@ -8,12 +8,14 @@
 //! classes    split order x domain x spacing x role x every class of value        (classes.rs)
 //! families   split order x domain x spacing x role x a few levels, with a patch's relatives
 //! registers  role x class of value, and then each domain                         (registers.rs)
+//! stitches   split order x domain x number on an edge x number inside            (levels.rs)
 //! ```
 //!
 //! A role is a position of a factor. `rules/asked.rs` counts what was asked.
 
 use super::choices::Choices;
 use super::classes::classes;
+use super::levels::{interiors, transitions};
 use super::numbers::{numbers, powers_of_two};
 use super::registers::registers;
 use super::{from_fixed, pick};
@@ -56,8 +58,29 @@ pub(super) fn systematic(choices: &Choices) -> Vec<Case> {
         cases.extend(frames.map(|(_, case)| in_order(case)));
         changing_state(split, &mut cases);
         registers(&choices.domains, choices.registers(split), &mut cases);
+        stitches(split, choices, &mut cases);
     }
     cases
+}
+
+/// Every pair of a number on an edge and a number inside, and quads with every number of rings. A
+/// device may have a table of the triangles between two rows of points, and one entry may be wrong.
+///
+/// The triangles depend on the numbers only, so one spacing is enough. Only triangles show them.
+fn stitches(split: SplitOrder, choices: &Choices, cases: &mut Vec<Case>) {
+    let is_triangles = |output: &OutputPrimitive| {
+        matches!(output, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw)
+    };
+    if !choices.outputs.iter().any(is_triangles) {
+        return;
+    }
+    let partitionings = vec![choices.partitioning(&[Partitioning::Integer])];
+    let own = Choices { partitionings, splits: vec![split], ..choices.clone() };
+    transitions(cases, &own);
+    // Triangles with every number of rings are among `numbers`.
+    let domains = choices.domains.iter().copied().filter(|domain| *domain == Domain::Quad);
+    let quads = Choices { domains: domains.collect(), ..own };
+    interiors(cases, &quads, |u, v| u == v || u.max(v) <= 9);
 }
 
 /// The output that shows a patch's primitives.

@@ -1,7 +1,7 @@
 //! The levels about which a rule was asked, and those about which it was not.
 
 use super::rule::{Row, Rule};
-use super::scope::Kind;
+use super::scope::{Kind, Pair};
 use super::standard::Specification;
 use crate::case::Case;
 use crate::names::Named;
@@ -47,19 +47,26 @@ impl Place {
     }
 }
 
+/// The domains whose edges have triangles.
+const SURFACES: [Domain; 2] = [Domain::Triangle, Domain::Quad];
+
 /// How often a rule was asked about each number of segments and each class of value, in each role
-/// of each domain and spacing.
+/// of each domain and spacing, and about which pairs of numbers on an edge and inside.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Asked {
     rule: Rule,
     specification: Specification,
     counts: Arc<Vec<u32>>,
+    /// For each split order, domain of [`SURFACES`] and number on an edge: the numbers inside, as
+    /// bits.
+    pairs: Arc<Vec<u128>>,
 }
 
 impl Asked {
     pub(super) fn new(rule: Rule, specification: Specification) -> Self {
         let counts = Arc::new(vec![0; 2 * ROLES * 4 * Kind::COUNT]);
-        Self { rule, specification, counts }
+        let pairs = Arc::new(vec![0; 2 * SURFACES.len() * EDGE_NUMBERS]);
+        Self { rule, specification, counts, pairs }
     }
 
     /// Counts a judgement about the levels of a case in these positions, as bits.
@@ -73,6 +80,27 @@ impl Asked {
                 Kind::of(case, position).for_each(|kind| counts[first + kind.index()] += 1);
             }
         }
+        if scope.wants_pairs() {
+            let edges = (0..domain.outer_factors()).filter(|edge| positions >> edge & 1 == 1);
+            for pair in edges.filter_map(|edge| Pair::of(case, edge)) {
+                Arc::make_mut(&mut self.pairs)[pair_row(split, domain, pair)] |= 1 << pair.inside;
+            }
+        }
+    }
+
+    /// The pairs that the rule must be asked about in a split order and domain and was not; all
+    /// that it must be asked about are [`Pair::all`].
+    fn missing_pairs(&self, split: SplitOrder, domain: Domain) -> Vec<Pair> {
+        let is_missing =
+            |pair: &Pair| self.pairs[pair_row(split, domain, *pair)] >> pair.inside & 1 == 0;
+        Pair::all().filter(is_missing).collect()
+    }
+
+    /// The split orders and domains in which the rule must be asked about pairs.
+    fn places_of_pairs(&self) -> Vec<(SplitOrder, Domain)> {
+        let wants = Row::of(self.rule).scope.wants_pairs();
+        let splits = SplitOrder::ALL.into_iter().filter(|split| wants && self.has(*split));
+        splits.flat_map(|split| SURFACES.map(|domain| (split, domain))).collect()
     }
 
     /// The kinds that are wanted at a place, each with whether it was asked.
@@ -103,11 +131,17 @@ impl Asked {
 
     /// How many levels were asked of those that must be asked before the rule counts as held, and
     /// how many these are. A level is a number of segments or a class of value in a role, domain,
-    /// spacing, and split order if anything was asked in that order.
+    /// spacing, and split order if anything was asked in that order; or a pair of numbers, on an
+    /// edge and inside, in a domain and such a split order.
     #[must_use]
     pub fn levels(&self) -> [usize; 2] {
         let all = self.places().into_iter().flat_map(|place| self.wanted(place));
-        all.fold([0, 0], |[asked, wanted], (_, is)| [asked + usize::from(is), wanted + 1])
+        let levels =
+            all.fold([0, 0], |[asked, wanted], (_, is)| [asked + usize::from(is), wanted + 1]);
+        self.places_of_pairs().into_iter().fold(levels, |[asked, wanted], (split, domain)| {
+            let all = Pair::all().count();
+            [asked + all - self.missing_pairs(split, domain).len(), wanted + all]
+        })
     }
 
     /// Whether all of these were asked.
@@ -118,12 +152,12 @@ impl Asked {
     }
 
     /// The levels that were not asked, largest groups first: whole domains, their spacings and
-    /// roles, then single numbers and classes.
+    /// roles, then single numbers and classes, then pairs of numbers.
     #[must_use]
     pub fn missing(&self) -> Vec<String> {
         let places: Vec<_> = self.places().into_iter().map(|p| (p, self.wanted(p))).collect();
         let has_both = SplitOrder::ALL.into_iter().all(|split| self.has(split));
-        let mut texts: [Vec<String>; 4] = Default::default();
+        let mut texts: [Vec<String>; 5] = Default::default();
         for (place, kinds) in &places {
             if kinds.iter().all(|(_, is_asked)| *is_asked) {
                 continue;
@@ -154,8 +188,27 @@ impl Asked {
                 texts[group].push(text);
             }
         }
+        for (split, domain) in self.places_of_pairs() {
+            let order = if has_both { format!("{} ", split.name()) } else { String::new() };
+            let (name, missing) = (order + domain.name(), self.missing_pairs(split, domain));
+            let first = missing.first().filter(|_| !texts[0].contains(&name));
+            texts[4].extend(first.map(|Pair { outer, inside }| {
+                let pairs = format!("{} pairs of an edge and the inside", missing.len());
+                format!("{name}: {pairs}, such as {outer} segments and {inside}")
+            }));
+        }
         texts.concat()
     }
+}
+
+/// The numbers of segments of an edge, and 0, which none has.
+const EDGE_NUMBERS: usize = 65;
+
+/// The place of a pair's number on the edge among the rows of bits.
+fn pair_row(split: SplitOrder, domain: Domain, pair: Pair) -> usize {
+    let split = usize::from(split == SplitOrder::Centre);
+    let domain = usize::from(domain == Domain::Quad);
+    (split * SURFACES.len() + domain) * EDGE_NUMBERS + usize::from(pair.outer)
 }
 
 /// The kinds that were not asked: numbers in ranges, then the first class.
@@ -199,5 +252,35 @@ impl fmt::Display for Asked {
             0 => Ok(()),
             more => write!(f, "; and {more} more"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::{GenLevel, Selection};
+
+    /// Of triangles of integer spacing, with and without edges of 24 segments around 18.
+    fn missing(is_left_out: bool) -> Vec<String> {
+        let split = Some(SplitOrder::Ruler);
+        let domain = Some(Domain::Triangle);
+        let cases = Selection { split, domain, ..Selection::level(GenLevel::Rules, 1) }.cases();
+        let mut asked = Asked::new(Rule::Cover, Specification::D3d11);
+        let is_pair = |case: &Case| {
+            let pairs = (0..3).filter_map(|edge| Pair::of(case, edge));
+            pairs.into_iter().any(|pair| pair == Pair { outer: 24, inside: 18 })
+        };
+        let cases = cases.filter(|case| !(is_left_out && is_pair(case)));
+        cases.for_each(|case| asked.add(&case, u8::MAX));
+        asked.missing()
+    }
+
+    /// A rule is held only if every pair was asked, and a verdict names what was not.
+    #[test]
+    fn a_pair_that_was_not_asked_is_named() {
+        assert_eq!(missing(false), ["quad"], "all of triangles");
+        // The patch has 22 and 23 segments on its other edges.
+        let pairs = "tri: 3 pairs of an edge and the inside, such as 22 segments and 18";
+        assert_eq!(missing(true), ["quad", pairs]);
     }
 }

@@ -192,19 +192,19 @@ rules! {
     Cover = "cover" {
         demand: "Every edge within the domain is shared in both directions, and the outline is walked once.",
         sources: [MESH, OPENGL, Some("12.3 Area, 12.4 Manifold")],
-        scope: Scope::numbers().and_classes().of_surfaces(),
+        scope: Scope::numbers().and_classes().of_surfaces().and_pairs(),
         judge: Judge::One(|subject| mesh::cover(subject.answer)),
     }
     Neighbours = "neighbours" {
         demand: "A triangle joins two neighbours of one edge or ring with a vertex of the next one, or is half a cell of columns and rows, or the innermost ring.",
         sources: [MESH, OPENGL, None],
-        scope: Scope::numbers().of_surfaces(),
+        scope: Scope::numbers().of_surfaces().and_pairs(),
         judge: Judge::One(|subject| neighbours::neighbours(subject.answer)),
     }
     Orientation = "orientation" {
         demand: "No triangle turns the other way.",
         sources: [WINDING, OPENGL, None],
-        scope: Scope::numbers().and_classes().of_surfaces(),
+        scope: Scope::numbers().and_classes().of_surfaces().and_pairs(),
         judge: Judge::One(|subject| mesh::orientation(subject.answer)),
     }
     Isolines = "isolines" {
@@ -228,7 +228,7 @@ rules! {
     Counts = "counts" {
         demand: "There are as many primitives as the levels ask for, degenerate ones included; coinciding points may be merged.",
         sources: [None, None, Some("12.6 Counts")],
-        scope: Scope::numbers().and_classes(),
+        scope: Scope::numbers().and_classes().and_pairs(),
         judge: Judge::One(|subject| specified::counts(subject.answer, subject.specified)),
     }
     Places = "places" {
@@ -240,7 +240,7 @@ rules! {
     Primitives = "primitives" {
         demand: "Primitives are those of section 7, each as often, in any order, any vertex of a triangle first.",
         sources: [None, None, Some("7 Connectivity")],
-        scope: Scope::numbers().and_classes(),
+        scope: Scope::numbers().and_classes().and_pairs(),
         judge: Judge::One(|subject| specified::primitives(subject.answer, subject.specified)),
     }
 }

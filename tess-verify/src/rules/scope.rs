@@ -3,6 +3,7 @@
 //! ```text
 //! numbers   each number of segments in each role of each domain and spacing
 //! classes   each class of value in each role of each domain and spacing
+//! pairs     each number on an edge with each number inside, of each domain of surfaces
 //! ```
 //!
 //! A role is the position of a level. Not every rule can be asked about every level: an outer level
@@ -178,6 +179,36 @@ impl Kind {
     }
 }
 
+/// A number of segments on an edge and one inside, along that edge. The triangles between them
+/// depend on both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Pair {
+    pub(super) outer: u8,
+    pub(super) inside: u8,
+}
+
+impl Pair {
+    /// The pair at an edge of a case; `None` for isolines, patches without an inside, and NaN.
+    pub(super) fn of(case: &Case, edge: usize) -> Option<Self> {
+        let axis = match case.domain() {
+            _ if super::levels::is_minimum(case) => return None,
+            Domain::Isoline => return None,
+            Domain::Triangle => 0,
+            // The edges u0 and u1 run along v.
+            Domain::Quad => 1 - edge % 2,
+        };
+        let [outer, inside] = [Level::outer(case, edge)?, Level::inner(case, axis)?]
+            .map(|level| u8::try_from(level.segments()).ok());
+        Some(Self { outer: outer?, inside: inside? })
+    }
+
+    /// Every pair. An inside has at least two segments.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        let with = |outer| (2..=LARGEST).map(move |inside| Self { outer, inside });
+        (1..=LARGEST).flat_map(with)
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Classes {
     No,
@@ -196,6 +227,7 @@ pub(super) struct Scope {
     isolines: bool,
     surfaces: bool,
     details: bool,
+    pairs: bool,
     /// Only fractional spacings, and only numbers from this one.
     fractional: Option<u8>,
 }
@@ -211,6 +243,7 @@ impl Scope {
             isolines: true,
             surfaces: true,
             details: true,
+            pairs: false,
             fractional: None,
         }
     }
@@ -222,6 +255,10 @@ impl Scope {
 
     pub(super) const fn and_classes(self) -> Self {
         Self { classes: Classes::Drawn, ..self }
+    }
+
+    pub(super) const fn and_pairs(self) -> Self {
+        Self { pairs: true, ..self }
     }
 
     pub(super) const fn outer(self) -> Self {
@@ -256,6 +293,11 @@ impl Scope {
             && (if is_inner { self.inner } else { self.outer })
             && (self.details || !is_isoline || position == 0)
             && (self.fractional.is_none() || !is_isoline || position == 1)
+    }
+
+    /// Whether the rule must be asked about every [`Pair`].
+    pub(super) const fn wants_pairs(self) -> bool {
+        self.pairs
     }
 
     /// Whether the rule must be asked about a kind of level in a role.

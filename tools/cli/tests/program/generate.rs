@@ -142,7 +142,7 @@ fn headers_say_how_a_file_is_made() {
     let options = "--level 3 --seed 7 --count 40 --domain tri --partitioning pow2 --shard 2/3";
     let run = tess(&format!("gen {options}"));
     let header = run.stdout.lines().next().expect("a header");
-    let notes = "source=tess-core level=3 level-version=4 seed=7 random=40 domain=tri partitioning=pow2 shard=2/3";
+    let notes = "source=tess-core level=3 level-version=5 seed=7 random=40 domain=tri partitioning=pow2 shard=2/3";
     assert_eq!(header, format!("# tess-vectors 1 kind=patches count=13 {notes}"), "{options}");
     let noted: Vec<String> = header
         .split(' ')

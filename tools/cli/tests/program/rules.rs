@@ -137,7 +137,7 @@ fn rules_are_for_listings() {
     let rows = tess("gen --rules --domain isoline --count 3 --split ruler");
     rows.exits(0);
     let header = rows.stdout.lines().next().unwrap_or_default();
-    assert!(header.contains(" level=rules level-version=4 seed=1 random=3 "), "{header}");
+    assert!(header.contains(" level=rules level-version=5 seed=1 random=3 "), "{header}");
     let run = tess_with_input("check - --rules opengl", &rows.stdout);
     run.exits(2).prints_nothing().says("--rules judges listings");
     for words in

@@ -27,7 +27,7 @@ use tess_verify::vectors::{Header, Kind, write_cases};
 #[command(after_help = "\
 Level 1 has every boundary once and hits every coverage bin of the selected configurations; level 2 has every boundary in every position; level 3 is random. Each ends with --count random cases (500, 20000 and 1000000 by default).
 
---rules generates patches for `tess check --rules`: every number of segments and every class of value in every role and spacing, in each split order, and their relatives: pairs that differ in one level, exchanged levels, other outputs. A shard separates some families.
+--rules generates patches for `tess check --rules`: every number of segments and every class of value in every role and spacing, every number on an edge with every number inside, in each split order, and their relatives: pairs that differ in one level, exchanged levels, other outputs. A shard separates some families.
 
 Examples:
   tess gen --level 1 | tess check - --backend simd
