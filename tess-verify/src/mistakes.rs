@@ -39,6 +39,7 @@ mod rounding;
 mod scope;
 mod spacing;
 mod state;
+mod stitches;
 mod symmetries;
 mod tables;
 
@@ -66,11 +67,12 @@ pub struct Mistake {
 enum Effect {
     /// The device tessellates this case in place of the one that it was asked.
     Question(Box<Other>),
-    /// The device changes the right answer.
-    Answer(Box<Spoil>),
+    /// The device changes the right answer of those requests for which `may` is true.
+    Answer { may: Box<May>, spoil: Box<Spoil> },
 }
 
 type Other = dyn Fn(&Request) -> Case + Send + Sync;
+type May = dyn Fn(&Request) -> bool + Send + Sync;
 type Spoil = dyn Fn(&Request, &mut Tessellation) + Send + Sync;
 
 /// A sentence by which a standard allows a mistake.
@@ -131,14 +133,14 @@ impl Mistake {
     pub fn case(&self, request: &Request) -> Case {
         match &self.effect {
             Effect::Question(other) => other(request),
-            Effect::Answer(_) => request.case,
+            Effect::Answer { .. } => request.case,
         }
     }
 
     /// Changes the output of the case that the device tessellated; a mistake of the question
     /// changes nothing more.
     pub fn spoil(&self, request: &Request, output: &mut Tessellation) {
-        if let Effect::Answer(spoil) = &self.effect {
+        if let Effect::Answer { spoil, .. } = &self.effect {
             spoil(request, output);
         }
     }
@@ -154,7 +156,8 @@ impl Mistake {
                 }
                 case.patch().tessellate()
             }
-            Effect::Answer(spoil) => {
+            Effect::Answer { may, .. } if !may(request) => return None,
+            Effect::Answer { spoil, .. } => {
                 let mut answer = right.clone();
                 spoil(request, &mut answer);
                 answer
@@ -199,6 +202,7 @@ pub fn all() -> &'static [Mistake] {
             rounding::all(),
             spacing::all(),
             tables::all(),
+            stitches::all(),
             state::all(),
             symmetries::all(),
             geometry::all(),

@@ -53,7 +53,24 @@ impl Family {
         variant: impl Into<String>,
         spoil: impl Fn(&Request, &mut Tessellation) + Send + Sync + 'static,
     ) -> Self {
-        self.variants.push((variant.into(), Effect::Answer(Box::new(spoil))));
+        let effect = Effect::Answer { may: Box::new(|_| true), spoil: Box::new(spoil) };
+        self.variants.push((variant.into(), effect));
+        self
+    }
+
+    /// A device that changes right answers of some cases. `may` is false for cases whose answers
+    /// are right; it spares the others' copies.
+    pub(super) fn answers_some(
+        mut self,
+        variant: impl Into<String>,
+        may: impl Fn(&Case) -> bool + Send + Sync + 'static,
+        spoil: impl Fn(&Case, &mut Tessellation) + Send + Sync + 'static,
+    ) -> Self {
+        let effect = Effect::Answer {
+            may: Box::new(move |request| may(&request.case)),
+            spoil: Box::new(move |request, output| spoil(&request.case, output)),
+        };
+        self.variants.push((variant.into(), effect));
         self
     }
 
