@@ -35,7 +35,11 @@ fn groups_decide() {
     let mesh = octahedron();
     let with = |groups: &[Option<u32>]| is_flat(&mesh, &Creases { groups, ..Creases::NONE });
     assert!(with(&[Some(0); 8]), "group 0 is flat");
-    assert!(with(&[1, 2, 3, 4, 5, 6, 7, 8].map(Some)), "groups of their own");
+    let own = [1, 2, 3, 4, 5, 6, 7, 8].map(Some);
+    assert!(with(&own), "groups of their own");
+    let apart = Creases { groups: &own, ..Creases::NONE };
+    let model = Model::creased(mesh.clone(), Style::PointNormal, &apart).expect("a right mesh");
+    assert_eq!(model.creases(), [], "no edge is hard for its angle");
     assert!(!with(&[Some(1); 8]), "one group is smooth");
     assert!(!with(&[None; 8]), "nothing is said");
     let angle = Creases { least_cosine: 0.9, groups: &[Some(3); 8] };
@@ -55,9 +59,35 @@ fn narrow_faces_around_a_corner() {
     let next = |k: u32| if k == u32::from(count) { 1 } else { k + 1 };
     let faces: Vec<[u32; 3]> = (1..=u32::from(count)).map(|k| [0, k, next(k)]).collect();
     let faces: Vec<&[u32]> = faces.iter().map(|face| &face[..]).collect();
-    let of = |faces: &[&[u32]], creases| normals(&crate::models::mesh(&positions, faces), creases);
+    let of = |faces: &[&[u32]], creases: &Creases<'_>| {
+        normals(&crate::models::mesh(&positions, faces), creases)
+    };
     let alone: Vec<Vec3> = faces.chunks(1).flat_map(|face| of(face, &Creases::NONE)).collect();
     assert_eq!(of(&faces, &Creases { least_cosine: 0.99, ..Creases::NONE }), alone, "by the angle");
     let groups: Vec<Option<u32>> = (1..=u32::from(count)).map(Some).collect();
     assert_eq!(of(&faces, &Creases { groups: &groups, ..Creases::NONE }), alone, "by groups");
+    let turns: Vec<Option<u32>> = (0..u32::from(count)).map(|k| Some(1 + k % 2)).collect();
+    let in_turn = of(&faces, &Creases { groups: &turns, ..Creases::NONE });
+    assert_eq!(in_turn, alone, "two groups in turn: hard edges separate faces of one group");
+}
+
+/// Two neighbours with a hard edge, and a face that has only a corner in common with them: it joins
+/// the one in its group, and none if it has another.
+#[test]
+fn groups_decide_about_faces_that_touch_in_a_corner() {
+    let positions = [
+        [0.0, 0.0, 0.0f32],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.3],
+        [0.0, 1.0, 0.0],
+        [-1.0, 0.0, 0.1],
+        [-1.0, -1.0, 0.0],
+    ];
+    let faces: [&[u32]; 3] = [&[0, 1, 2], &[0, 2, 3], &[0, 4, 5]];
+    let of = |faces: &[&[u32]], groups: &[Option<u32>]| {
+        normals(&crate::models::mesh(&positions, faces), &Creases { groups, ..Creases::NONE })
+    };
+    let alone: Vec<Vec3> = faces.chunks(1).flat_map(|face| of(face, &[])).collect();
+    assert_eq!(of(&faces, &[1, 2, 3].map(Some)), alone, "three groups");
+    assert_ne!(of(&faces, &[1, 2, 1].map(Some)), alone, "the third joins the first");
 }
