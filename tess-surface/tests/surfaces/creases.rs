@@ -91,3 +91,16 @@ fn groups_decide_about_faces_that_touch_in_a_corner() {
     assert_eq!(of(&faces, &[1, 2, 3].map(Some)), alone, "three groups");
     assert_ne!(of(&faces, &[1, 2, 1].map(Some)), alone, "the third joins the first");
 }
+
+/// A face keeps the normals that it has, also beside hard edges.
+#[test]
+fn given_normals_are_kept() {
+    let mut mesh = octahedron();
+    mesh.normals = vec![Vec3::X];
+    let face = &mut mesh.faces[0];
+    face.normals = Some(face.positions.map(|_| 0));
+    let hard = Creases { least_cosine: 0.9, ..Creases::NONE };
+    let [smooth, hard] = [&Creases::NONE, &hard].map(|creases| normals(&mesh, creases));
+    assert_eq!(hard[..3], smooth[..3], "the face with normals");
+    assert_ne!(hard[3..], smooth[3..], "the others have hard edges");
+}
