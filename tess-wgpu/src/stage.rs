@@ -19,6 +19,7 @@ mod own_group;
 mod passes;
 mod program;
 mod room;
+mod shaders;
 pub(crate) mod source;
 mod user_groups;
 mod vertex;
@@ -30,6 +31,7 @@ pub use choices::{Factors, Overflow, PatchCount, Points, Room};
 pub use feedback::Feedback;
 pub use frame::Frame;
 pub use material::{Material, MaterialBuilder};
+pub use shaders::{FixedShaders, ShaderParts, UserShaders};
 pub use vertex::VertexLayout;
 
 use crate::Tessellator;

@@ -16,6 +16,7 @@ use crate::error::Error;
 use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
+use tess_core::Domain;
 use tess_gpu::Capacity;
 use wgpu::BufferUsages as Usage;
 
@@ -156,18 +157,28 @@ fn check(
         factor_pass::check(given, needed)?;
     }
     check_vertices(vertices, &limits)?;
-    let domain = builder.setup().domain;
-    source::check_names(program.source, &source::own_of_passes(domain))?;
     let declared = wgsl::declarations(program.source);
-    if entries.contains(&"hull") {
-        mistakes::check_hull(&declared, domain)?;
+    let of = (program.source, builder.setup().domain, *points);
+    check_text(&declared, of, entries.contains(&"hull"))?;
+    program.check(&declared, &entries)
+}
+
+/// Refuses a text that the stage cannot run, as far as that is seen without a compiler and without
+/// bind groups. `has_hull` is whether the stage runs `hull`.
+pub(super) fn check_text(
+    declared: &[Declaration<'_>],
+    (text, domain, points): (&str, Domain, Points),
+    has_hull: bool,
+) -> Result<(), StageError> {
+    source::check_names(text, &source::own_of_passes(domain))?;
+    if has_hull {
+        mistakes::check_hull(declared, domain)?;
     }
     // The passes need no `domain` unless points are evaluated, but a wrong one in their text would
     // be reported in the compiler's words.
-    mistakes::check_domain(&declared)?;
-    mistakes::check_derivatives(&declared, &["hull", "domain"])?;
-    check_draws(&declared, *points)?;
-    program.check(&declared, &entries)
+    mistakes::check_domain(declared)?;
+    mistakes::check_derivatives(declared, &["hull", "domain"])?;
+    check_draws(declared, points)
 }
 
 /// Refuses vertices that the device cannot load.

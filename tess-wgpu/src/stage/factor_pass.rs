@@ -65,8 +65,7 @@ impl FactorPass {
         };
         own.push((&given, Access::Read));
         let (layout, own) = passes::bind(tessellator, "copy factors", &own)?;
-        let text = include_str!("../../shaders/copy_factors.wgsl")
-            .replace("FACTORS", &format!("{}u", setup.factors()));
+        let text = source::of_copying(setup);
         let (layouts, constants) = (vec![layout], Vec::new());
         let key = PipelineKey { text, entry_point: "copy_factors", layouts, constants };
         let text = key.text.clone();

@@ -104,7 +104,7 @@ const STATE_BYTES: u64 = 4 * (4 + 4 * 33);
     clippy::cast_possible_truncation,
     reason = "any descending ladder would do; it only has to be the same in every pass"
 )]
-fn ladder() -> Vec<f32> {
+pub(crate) fn ladder() -> Vec<f32> {
     let mut scale = 1.0;
     let mut all = vec![1.0];
     for _ in 1..STEPS {

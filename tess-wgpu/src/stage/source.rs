@@ -10,6 +10,7 @@ use tess_gpu::{Pull, Setup};
 
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
 const HELPERS: &str = tess_gpu::surfaces::HELPERS;
+const COPY_FACTORS: &str = include_str!("../../shaders/copy_factors.wgsl");
 const HULL: &str = include_str!("../../shaders/hull.wgsl");
 const UNPACK: &str = include_str!("../../shaders/unpack.wgsl");
 const EVALUATE: &str = include_str!("../../shaders/evaluate.wgsl");
@@ -30,12 +31,22 @@ pub(crate) fn of_hull(user: &str, domain: Domain, group: u32) -> String {
 
 /// The text after the types and helpers in the hull's module.
 fn own_of_hull(domain: Domain, group: u32) -> String {
+    in_group(&hull_part(domain), group)
+}
+
+/// The same with `GROUP` for the number of the bind group.
+pub(crate) fn hull_part(domain: Domain) -> String {
     let write = match domain {
         Domain::Isoline => include_str!("../../shaders/hull_isoline.wgsl"),
         Domain::Triangle => include_str!("../../shaders/hull_triangle.wgsl"),
         Domain::Quad => include_str!("../../shaders/hull_quad.wgsl"),
     };
-    HULL.replace("GROUP", &group.to_string()) + "\n" + write
+    HULL.to_owned() + "\n" + write
+}
+
+/// A part of the stage's text with this number of the stage's own bind group.
+fn in_group(part: &str, group: u32) -> String {
+    part.replace("GROUP", &group.to_string())
 }
 
 /// The module whose entry point `tess_evaluate` runs the user's domain function over all points.
@@ -45,7 +56,19 @@ pub(crate) fn of_evaluation(user: &str, domain: Domain, group: u32) -> String {
 }
 
 fn own_of_evaluation(group: u32) -> String {
-    UNPACK.to_owned() + "\n" + &EVALUATE.replace("GROUP", &group.to_string())
+    in_group(&evaluation_part(), group)
+}
+
+/// The text after the types and helpers in the evaluation's module, with `GROUP` for the number of
+/// the bind group.
+pub(crate) fn evaluation_part() -> String {
+    UNPACK.to_owned() + "\n" + EVALUATE
+}
+
+/// The text after the types and helpers in the vertex shader, where points are stored and where
+/// they are evaluated, with words for the user's choices.
+pub(crate) fn vertex_parts() -> [String; 2] {
+    [UNPACK.to_owned() + "\n" + STORED, EVALUATED.to_owned()]
 }
 
 /// The parameters of the vertex shader's text, apart from the user's text.
@@ -86,9 +109,10 @@ impl VertexShader<'_> {
         let Self { setup, group, .. } = self;
         let pull = || Pull { group, first_binding: 0 }.source_for_drawing(setup);
         let [loaded, vertex] = self.vertices.loads();
+        let [stored, evaluated] = vertex_parts();
         match self.points {
-            Points::Stored => UNPACK.to_owned() + "\n" + STORED,
-            Points::Evaluated => EVALUATED.replace("LOADED", &loaded).replace("VERTEX", &vertex),
+            Points::Stored => stored,
+            Points::Evaluated => evaluated.replace("LOADED", &loaded).replace("VERTEX", &vertex),
             Points::Pull => with_own_names(&(pull() + PULLED)),
             Points::PullWithoutIndices => with_own_names(&(pull() + UNINDEXED)),
         }
@@ -96,7 +120,7 @@ impl VertexShader<'_> {
 }
 
 /// Functions that return a value of the draw, and the builtin that holds it.
-const OF_DRAWS: [(&str, &str); 2] =
+pub(crate) const OF_DRAWS: [(&str, &str); 2] =
     [("tess_instance", "instance_index"), ("tess_view", "view_index")];
 
 /// Whether a text has this word.
@@ -109,28 +133,46 @@ pub(crate) fn uses(text: &str, word: &str) -> bool {
 fn of_draws(user: &str, domain: Domain, group: u32) -> String {
     let mut text = String::new();
     if uses(user, "tess_factors") {
-        let read = match domain {
-            Domain::Isoline => include_str!("../../shaders/factors_isoline.wgsl"),
-            Domain::Triangle => include_str!("../../shaders/factors_triangle.wgsl"),
-            Domain::Quad => include_str!("../../shaders/factors_quad.wgsl"),
-        };
-        let kind = "var<storage, read> tess_drawn_factors: array<f32>";
-        text += &format!("@group({group}) @binding({FACTORS_BINDING}) {kind};\n{read}");
+        text += &in_group(&factors_part(domain), group);
     }
     for (function, _) in OF_DRAWS {
         if uses(user, function) {
-            let value = format!("{function}_value");
-            text += &format!(
-                "var<private> {value}: u32;\nfn {function}() -> u32 {{ return {value}; }}\n"
-            );
+            text += &draw_part(function);
         }
     }
     text
 }
 
+/// `tess_factors` and its binding, with `GROUP` for the number of the bind group.
+pub(crate) fn factors_part(domain: Domain) -> String {
+    let read = match domain {
+        Domain::Isoline => include_str!("../../shaders/factors_isoline.wgsl"),
+        Domain::Triangle => include_str!("../../shaders/factors_triangle.wgsl"),
+        Domain::Quad => include_str!("../../shaders/factors_quad.wgsl"),
+    };
+    let kind = "var<storage, read> tess_drawn_factors: array<f32>";
+    format!("@group(GROUP) @binding({FACTORS_BINDING}) {kind};\n{read}")
+}
+
+/// One of the functions of [`OF_DRAWS`].
+pub(crate) fn draw_part(function: &str) -> String {
+    let value = format!("{function}_value");
+    format!("var<private> {value}: u32;\nfn {function}() -> u32 {{ return {value}; }}\n")
+}
+
 /// The user's text, then the types and helpers that it may use, then `own`.
 pub(crate) fn joined(user: &str, own: &str) -> String {
-    [user, TYPES, HELPERS, own].join("\n")
+    [user, &shared(), own].join("\n")
+}
+
+/// The types and helpers of every module.
+pub(crate) fn shared() -> String {
+    [TYPES, HELPERS].join("\n")
+}
+
+/// The module whose entry point `copy_factors` copies factors of the host or of a buffer.
+pub(crate) fn of_copying(setup: Setup) -> String {
+    COPY_FACTORS.replace("FACTORS", &format!("{}u", setup.factors()))
 }
 
 /// The text of the compute passes of a stage, apart from the user's text.

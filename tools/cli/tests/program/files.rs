@@ -244,6 +244,50 @@ fn shaders_replace_only_shaders() {
     assert_eq!((names(&folder), names(&folder.join("out"))), (vec!["out".into()], written));
 }
 
+/// `--stage` writes modules for the user's WGSL, or parts; `--force` replaces them too.
+#[test]
+#[cfg(all(feature = "gpu", feature = "shaders"))]
+fn shaders_of_a_stage() {
+    let folder = directory("shaders_of_a_stage");
+    let write = |options: &str| {
+        shell(&format!("$TESS shaders --target wgsl --domain quad {options} -o out"), &folder)
+    };
+    let wgsl = "struct Vertex { @builtin(position) position: vec4f }\n\
+                fn hull(number: u32) -> QuadFactors { return tess_quad_factors(vec4f(2.0)); }\n\
+                fn domain(number: u32, uv: vec2f) -> Vertex { return Vertex(vec4f(uv, 0.0, 1.0)); }\n";
+    fs::write(folder.join("user.wgsl"), wgsl).expect("the user's WGSL");
+    done(&write("--stage user.wgsl --evaluate"));
+    let read = |name: &str| fs::read_to_string(folder.join("out").join(name)).expect(name);
+    for (name, entry) in
+        [("hull", "tess_hull"), ("evaluate", "tess_evaluate"), ("vertex", "tess_vertex")]
+    {
+        let text = read(&format!("stage_{name}.wgsl"));
+        assert!(text.starts_with(wgsl), "{name}: the user's lines come first");
+        assert!(text.contains(&format!("fn {entry}(")), "{name}");
+    }
+    done(&write("--force --stage"));
+    let manifest = read("stage.json");
+    assert!(manifest.contains("\"parts\""), "{manifest:.400}");
+    let modules = |name: &String| name.starts_with("stage_");
+    assert!(!names(&folder.join("out")).iter().any(modules), "no module is left");
+    done(&write("--force"));
+    assert!(!names(&folder.join("out")).contains(&"stage.json".into()), "nothing of the stage is");
+    fs::write(folder.join("wrong.wgsl"), wgsl.replace("-> QuadFactors", "-> TriFactors"))
+        .expect("a wrong text");
+    fs::write(folder.join("broken.wgsl"), wgsl.to_owned() + "fn f() -> f32 { return 1u; }\n")
+        .expect("another");
+    for (options, says) in [
+        ("--stage wrong.wgsl", "wrong.wgsl: line 2 of your WGSL"),
+        ("--stage broken.wgsl", "broken.wgsl: "),
+        ("--stage none.wgsl", "cannot read none.wgsl"),
+        ("--stage user.wgsl --project seen", "seen"),
+        ("--stage user.wgsl --points f32", "--stage needs --target wgsl, packed points"),
+        ("--stage --evaluate", "name its file, as in --stage FILE"),
+    ] {
+        write(&format!("--force {options}")).exits(2).says(says);
+    }
+}
+
 /// Several files need a folder, and stdout is not one.
 #[test]
 fn folders_are_not_stdout() {

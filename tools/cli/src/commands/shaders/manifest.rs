@@ -4,7 +4,7 @@
 use super::plan::{Variant, resource_name, resources};
 use super::structures::Structure;
 use super::translation::Translation;
-use super::{INDEX_TYPES, NUMBERINGS, POINTS, surfaces};
+use super::{INDEX_TYPES, NUMBERINGS, POINTS, stage_files, surfaces};
 use crate::args::{ORDERS, name_in};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -42,7 +42,8 @@ pub(super) fn files_of(folder: &Path) -> Vec<String> {
     match serde_json::from_str::<Written>(&text) {
         Ok(written) if written.format == FORMAT => {
             let own = [FILE, TABLES_FILE, HEADER_FILE, surfaces::FOLDER].map(str::to_owned);
-            own.into_iter().chain(written.stages.into_iter().map(|stage| stage.file)).collect()
+            let stages = written.stages.into_iter().map(|stage| stage.file);
+            own.into_iter().chain(stages).chain(stage_files()).collect()
         }
         _ => Vec::new(),
     }
@@ -169,7 +170,7 @@ impl Manifest {
 }
 
 impl Described {
-    fn new(setup: Setup) -> Self {
+    pub(super) fn new(setup: Setup) -> Self {
         Self {
             domain: setup.domain.name(),
             partitioning: setup.config.partitioning.name(),

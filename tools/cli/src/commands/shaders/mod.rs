@@ -6,6 +6,8 @@ mod header;
 mod languages;
 mod manifest;
 mod plan;
+#[cfg(feature = "gpu")]
+mod stage;
 mod structures;
 mod surfaces;
 #[cfg(test)]
@@ -39,6 +41,7 @@ hlsl; no Metal compiler has seen msl.
 Examples:
   tess shaders --target spirv --domain quad -o shaders/
   tess shaders --target hlsl --domain tri --partitioning fractional_odd --points f32 -o shaders/
+  tess shaders --target wgsl --domain quad --stage terrain.wgsl --evaluate -o shaders/
   tess shaders --target spirv --checks none -o shaders/   faster; see docs/performance.md
   tess shaders --target wgsl --index-order cache --force -o build/shaders/   as a step of a build")]
 pub(crate) struct ShadersCommand {
@@ -77,6 +80,20 @@ pub(crate) struct ShadersCommand {
     /// Whether the shaders check every access and every loop
     #[arg(long, value_name = "WHICH", default_value = "full")]
     checks: Checks,
+    /// With --target wgsl: also write the tessellation stage, complete for the functions hull and
+    /// domain in FILE, or, without FILE, in parts that a host joins to WGSL when it runs
+    #[cfg(feature = "gpu")]
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    stage: Option<Option<PathBuf>>,
+    /// With --stage FILE: call domain once for each point, in a pass, instead of for each vertex of
+    /// each draw
+    #[cfg(feature = "gpu")]
+    #[arg(long, requires = "stage")]
+    evaluate: bool,
+    /// With --stage FILE: the function of the WGSL that each draw calls for each vertex
+    #[cfg(feature = "gpu")]
+    #[arg(long, requires = "stage", value_name = "FUNCTION")]
+    project: Option<String>,
     /// Replace the folder and everything in it, if this command wrote it or it is empty
     #[arg(long)]
     force: bool,
@@ -107,6 +124,8 @@ pub(crate) fn run(args: &ShadersCommand) -> Result<Exit, Failure> {
     let setup = args.setup();
     let translation = Translation { target: args.target, checks: args.checks };
     let shaders = Shaders::new(setup, translation)?;
+    #[cfg(feature = "gpu")]
+    let stage = args.stage(setup)?;
     let write = || {
         let new = match (is_ours(&args.folder), args.force) {
             (true, true) => NewFolder::replacing(&args.folder)?,
@@ -117,10 +136,46 @@ pub(crate) fn run(args: &ShadersCommand) -> Result<Exit, Failure> {
             (false, _) => NewFolder::create(&args.folder)?,
         };
         shaders.write(new.path())?;
+        #[cfg(feature = "gpu")]
+        stage.as_ref().map_or(Ok(()), |stage| stage.write(new.path()))?;
         new.finish()
     };
     write().map_err(|error| Failure::write(&args.folder, error))?;
     Ok(Exit::Done)
+}
+
+#[cfg(feature = "gpu")]
+impl ShadersCommand {
+    /// The stage, if it was asked for.
+    ///
+    /// # Errors
+    /// An option does not go with it, or the user's WGSL is not valid with it.
+    fn stage(&self, setup: Setup) -> Result<Option<stage::Stage>, Failure> {
+        let Some(file) = &self.stage else { return Ok(None) };
+        let given = Setup { order: setup.order, ..Setup::new(setup.domain, setup.config) };
+        if self.target != Target::Wgsl || setup != given {
+            return Err(Failure::bad_input(
+                "--stage needs --target wgsl, packed points, and 32-bit indices that count from the batch's first point",
+            ));
+        }
+        if file.is_none() && (self.evaluate || self.project.is_some()) {
+            return Err(Failure::bad_input(
+                "--evaluate and --project choose for a text: name its file, as in --stage FILE",
+            ));
+        }
+        let (evaluate, project) = (self.evaluate, self.project.as_deref());
+        let asked = stage::Asked { file: file.as_ref(), evaluate, project };
+        stage::Stage::new(setup, &asked).map(Some)
+    }
+}
+
+/// The names of the stage's files.
+fn stage_files() -> impl Iterator<Item = String> {
+    #[cfg(feature = "gpu")]
+    let files = stage::FILES;
+    #[cfg(not(feature = "gpu"))]
+    let files: [&str; 0] = [];
+    files.into_iter().map(str::to_owned)
 }
 
 /// Whether a folder is empty or has only files that this command wrote, according to its manifest.
