@@ -48,9 +48,10 @@ export class Tessellator {
   tessellate(factors: ArrayLike<number>): Promise<Output>;
   /**
    * Makes buffers that you keep for many frames, by default with room for one point and one primitive. Throws a
-   * `RangeError` if a number is not whole, or if the batch or its room is too large.
+   * `RangeError` if a number is not whole, or if the batch or its room is too large. Buffers in `given` are used instead of
+   * new ones, by the names of `Batch.buffers`, and stay yours to free.
    */
-  batch(patches: number, room?: Room): Batch;
+  batch(patches: number, room?: Room, given?: Readonly<Record<string, GPUBuffer>>): Batch;
 }
 
 export interface Batch {

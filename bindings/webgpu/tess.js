@@ -1,28 +1,13 @@
 // Runs the shaders next to this file on a WebGPU device. tess.d.ts documents the interface, docs/shaders.md the manifest.
 
+import { SHADERS, bindingType, get, need, needArray, needEncoder, refuse, value } from "./common.js";
+
 export const unpackWgsl = `
 struct TessPoint { uv: vec2f, of_patch: u32 }
 fn tess_point(packed: vec2u) -> TessPoint {
     let v = (packed.x >> 17u) | ((packed.y & 3u) << 15u);
     return TessPoint(vec2f(vec2u(packed.x & 0x1ffffu, v)) / 65536.0, packed.y >> 2u);
 }`;
-
-// The value of a formula of the manifest. A constant formula is a number.
-function value(formula, numbers) {
-  if (typeof formula === "number") return formula;
-  const { constant, terms, multiple } = formula;
-  const sum = terms.reduce((sum, { times, of, per }) => sum + times * Math.ceil(numbers[of] / per), constant);
-  return Math.ceil(sum / multiple) * multiple;
-}
-
-const SHADERS = new URL("./shaders/", import.meta.url);
-
-// A file in the folder of shaders.
-async function get(name, base) {
-  const response = await fetch(new URL(name, base));
-  if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
-  return response;
-}
 
 export async function openDevice() {
   const adapter = await globalThis.navigator?.gpu?.requestAdapter();
@@ -41,19 +26,6 @@ export async function surfacesWgsl(names, base = SHADERS) {
   return (await Promise.all(texts)).join("\n");
 }
 
-function refuse(what, value, choices) {
-  throw new RangeError(`there is no ${what} ${JSON.stringify(value)}; choose ${choices.join(", ")}`);
-}
-
-// Refuses an argument that is not of this type, which the browser would report by the name of a member.
-function need(is, message) {
-  if (!is) throw new TypeError(message);
-}
-
-function needArray(call, list, example) {
-  need(Array.isArray(list), `${call} takes an array of names, such as ${example}, not ${JSON.stringify(list)}`);
-}
-
 const DOMAINS = ["isoline", "tri", "quad"];
 const PARTITIONINGS = ["integer", "pow2", "fractional_odd", "fractional_even"];
 
@@ -67,7 +39,7 @@ export class Tessellator {
     const words = await (await get("tables.bin", base)).arrayBuffer();
     const tables = device.createBuffer({ size: words.byteLength, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
     device.queue.writeBuffer(tables, 0, words);
-    const type = ({ kind, is_written }) => kind === "uniform" ? kind : is_written ? "storage" : "read-only-storage";
+    const type = ({ kind, is_written }) => kind === "uniform" ? kind : bindingType(is_written);
     const pipeline = async ({ name, file, entry_point: entryPoint, bindings }) => {
       // An explicit layout, because some stages do not use all of their bindings.
       const entries = bindings.map((entry) =>
@@ -80,8 +52,8 @@ export class Tessellator {
     return Object.assign(new Tessellator(), { device, manifest, tables, pipelines });
   }
 
-  batch(patches, room = { points: 1, primitives: 1 }) {
-    return new Batch(this, patches, room);
+  batch(patches, room = { points: 1, primitives: 1 }, given = {}) {
+    return new Batch(this, patches, room, given);
   }
 
   async tessellate(factors) {
@@ -115,7 +87,7 @@ export class Tessellator {
 }
 
 class Batch {
-  constructor({ device, manifest, tables, pipelines }, patches, { points, primitives }) {
+  constructor({ device, manifest, tables, pipelines }, patches, { points, primitives }, given) {
     for (const [name, count] of Object.entries({ patches, points, primitives })) {
       if (!Number.isInteger(count)) throw new RangeError(`batch takes a whole number of ${name}, not ${count}`);
     }
@@ -130,8 +102,11 @@ class Batch {
     const also = { job: UNIFORM, arguments: INDIRECT, points: VERTEX, indices: INDEX };
     const large = plan.buffers.find(({ bytes }) => of(bytes) > most);
     if (large) throw new RangeError(`${large.resource} has ${of(large.bytes)} bytes; the device binds ${most}`);
-    this.buffers = Object.fromEntries(plan.buffers.map(({ resource, bytes }) => [resource, resource === "tables" ? tables
-      : device.createBuffer({ label: resource, size: of(bytes), usage: STORAGE | COPY_DST | COPY_SRC | also[resource] })]));
+    const make = (label, size) => device.createBuffer({ label, size, usage: STORAGE | COPY_DST | COPY_SRC | also[label] });
+    // The caller's and the tessellator's buffers are not this batch's to free.
+    this.kept = { tables, ...given };
+    this.buffers = Object.fromEntries(plan.buffers.map(({ resource, bytes }) =>
+      [resource, this.kept[resource] ?? make(resource, of(bytes))]));
     const stride = manifest.job_stride / 4;
     const words = new Uint32Array(stride * plan.jobs.length);
     plan.jobs.forEach((job, number) => words.set(job.map(of), stride * number));
@@ -149,7 +124,7 @@ class Batch {
   }
 
   encode(encoder) {
-    need(encoder?.beginComputePass, "encode takes a GPUCommandEncoder; `device.createCommandEncoder()` makes one");
+    needEncoder("encode", encoder);
     const pass = encoder.beginComputePass();
     for (const { pipeline, group, at, rows } of this.dispatches) {
       pass.setPipeline(pipeline);
@@ -184,6 +159,6 @@ class Batch {
   }
 
   destroy() {
-    for (const [name, buffer] of Object.entries(this.buffers)) if (name !== "tables") buffer.destroy();
+    for (const [name, buffer] of Object.entries(this.buffers)) if (!this.kept[name]) buffer.destroy();
   }
 }

@@ -1,16 +1,19 @@
-// Tests the package in pages that have nothing else: node try.mjs FOLDER CASES. FOLDER has the package in node_modules and
-// the README's page as index.html. The output must equal the recorded cases in the file CASES, bit for bit, and factors
-// must equal those of factors.json next to this file.
+// Tests the package in pages that have nothing else: node try.mjs FOLDER CASES. FOLDER has the package and three.js in
+// node_modules, and the README's pages. The output must equal the recorded cases in the file CASES, bit for bit, and factors
+// must equal those of factors.json next to this file. TESS_PROGRAM is the program `tess`.
 
 import { createRequire } from "node:module";
-import { readFileSync, readdirSync } from "node:fs";
+import { mkdirSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { model, tryJoining, tryRoom, tryStage, tryThree } from "./try-stage.mjs";
 
 const [folder, cases] = process.argv.slice(2);
 const packed = join(folder, "node_modules/tess-webgpu");
 const { chromium } = createRequire(join(process.env.EXPLORER_MODULES, "/"))("playwright-core");
 const PAGE = "http://localhost/";
+const IMPORTS = `<script type="importmap">{ "imports": {
+  "three/webgpu": "/build/three.webgpu.js", "three/tsl": "/build/three.tsl.js" } }</script>`;
 
 // Numbers that are no floats and round to this one: a page computes in doubles. Zero and infinity stay as they are.
 const above = (x) => x * (1 + 0.9 * 2 ** -25);
@@ -119,14 +122,19 @@ async function compare([domain, partitioning, batch]) {
   return { problems, points: expected.patches.length };
 }
 
-// The share of a picture's pixels (PNG, in base64) with full blue, which the README's triangle has.
-async function share(picture) {
+// The pixels of a picture (PNG, in base64), four numbers each.
+async function pixels(picture) {
   const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${picture}`)).blob());
   const copy = new OffscreenCanvas(image.width, image.height).getContext("2d");
   copy.drawImage(image, 0, 0);
-  const { data } = copy.getImageData(0, 0, image.width, image.height);
-  const filled = data.filter((value, i) => i % 4 === 2 && value === 255 && data[i - 2] + data[i - 1] < 500).length;
-  return filled / (image.width * image.height);
+  return [...copy.getImageData(0, 0, image.width, image.height).data];
+}
+
+// The share of a picture's pixels for which `is` holds.
+function share(data, is) {
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) count += is(data[i], data[i + 1], data[i + 2], i) ? 1 : 0;
+  return count / (data.length / 4);
 }
 
 // A page without WebGPU is told so.
@@ -147,24 +155,65 @@ async function openWithoutGpu(page) {
   console.log("test pages without WebGPU ... ok");
 }
 
-// Opens the README's page, and checks its text and the picture that it draws.
-async function openReadmePage(page) {
+// Opens a page of the README, changed by `change`, and returns its text and the pixels of its canvas. The picture is kept.
+async function openReadmePage(browser, name, change = (text) => text, picture = name) {
+  const page = await browser.newPage();
   const errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   await page.route(PAGE + "**", (route) => {
-    const name = new URL(route.request().url()).pathname.slice(1);
-    return route.fulfill(name === "favicon.ico" ? { status: 204 } : { path: join(folder, name || "index.html") });
+    const file = new URL(route.request().url()).pathname.slice(1);
+    if (file === "favicon.ico") return route.fulfill({ status: 204 });
+    if (file !== "") return route.fulfill({ path: join(folder, file) });
+    return route.fulfill({ contentType: "text/html", body: change(readFileSync(join(folder, name), "utf8")) });
   });
   await page.goto(PAGE);
-  await page.waitForFunction(() => document.querySelector("p").textContent !== "", null, { timeout: 60_000 });
+  try {
+    await page.waitForFunction(() => document.querySelector("p").textContent !== "", null, { timeout: 120_000 });
+  } catch (error) {
+    throw new Error(`${name}: ${errors.join("\n") || error.message}`);
+  }
   const text = await page.textContent("p");
-  if (errors.length > 0 || text !== "19 points, 29 triangles") throw new Error(`the README's page: ${text} ${errors.join("\n")}`);
-  const picture = (await page.locator("canvas").screenshot()).toString("base64");
-  const filled = await page.evaluate(share, picture);
-  // The triangle covers half of the square.
-  if (Math.abs(filled - 0.5) > 0.02) throw new Error(`the README's page fills ${filled} of its canvas, not half`);
+  // The frame of the page's first request is drawn by now, and one more.
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 1000)))));
+  const path = join(SCREENSHOTS, `${picture.replace(".html", "")}.png`);
+  const shot = await page.locator("canvas").screenshot({ path });
+  if (errors.length > 0) throw new Error(`${name}: ${errors.join("\n")}`);
+  const data = await page.evaluate(pixels, shot.toString("base64"));
+  await page.close();
+  return { text, data };
+}
+
+function check(name, is, what) {
+  if (!is) throw new Error(`the README's page ${name}: ${what}`);
+}
+
+async function openReadmePages(browser) {
+  const triangle = await openReadmePage(browser, "index.html");
+  const filled = share(triangle.data, (r, g, b) => b === 255 && r + g < 500);
+  check("index.html", triangle.text === "19 points, 29 triangles", triangle.text);
+  check("index.html", Math.abs(filled - 0.5) < 0.02, `the triangle fills ${filled} of its canvas, not half`);
   console.log("test the README's page ... ok");
+
+  const stage = await openReadmePage(browser, "stage.html");
+  const columns = Array.from({ length: 16 }, (_, number) => 2 << number % 4);
+  const { indices } = model(columns.map((left) => [left, left, 2 * left, left, left, 1.5 * left]));
+  check("stage.html", stage.text === `${indices.length / 3} triangles`, `${stage.text}, not ${indices.length / 3}`);
+  const colours = new Set();
+  const drawn = share(stage.data, (r, g, b) => { colours.add(r << 16 | g << 8 | b); return b > 0; });
+  check("stage.html", drawn > 0.4 && drawn < 0.7 && colours.size > 1000, `${drawn} of it is drawn in ${colours.size} colours`);
+  console.log("test the README's page of the stage ... ok");
+
+  const lit = await openReadmePage(browser, "three.html");
+  check("three.html", parseInt(lit.text) > 2000, lit.text);
+  const green = share(lit.data, (r, g, b) => g > 1.2 * b && g > r && g > 20);
+  check("three.html", green > 0.3, `only ${green} of it is green`);
+  const noShadow = (text) => text.replace("ball.castShadow = true", "ball.castShadow = false");
+  const plain = await openReadmePage(browser, "three.html", noShadow, "three-without-shadow");
+  const shadow = share(lit.data, (r, g, b, i) => g + 20 < plain.data[i + 1]);
+  const lighter = share(lit.data, (r, g, b, i) => g > plain.data[i + 1] + 20);
+  check("three.html", shadow > 0.002 && lighter < 0.001, `the ball darkens ${shadow} of it, and lightens ${lighter}`);
+  console.log(`test the README's page of three.js ... ok (${lit.text}; the ball's shadow is ${(100 * shadow).toFixed(1)} % of it)`);
 }
 
 const folders = readdirSync(join(packed, "shaders"));
@@ -176,19 +225,28 @@ const drawing = [
 ];
 const open = (args) => chromium.launch({ executablePath: "/usr/bin/chromium", args });
 
+const SCREENSHOTS = join(process.env.EXPLORER_MODULES, "screenshots");
+mkdirSync(SCREENSHOTS, { recursive: true });
+
 await compareFactors();
+await tryRoom(packed);
+await tryJoining(packed);
 const showing = await open(drawing);
-await openReadmePage(await showing.newPage());
+await openReadmePages(showing);
 await showing.close();
 const browser = await open(args);
 const page = await browser.newPage();
 await page.route(PAGE + "**", (route) => {
   const name = new URL(route.request().url()).pathname.slice(1);
-  return name === "" ? route.fulfill({ contentType: "text/html", body: "<!doctype html>" }) : route.fulfill({ path: join(packed, name) });
+  if (name === "") return route.fulfill({ contentType: "text/html", body: `<!doctype html>${IMPORTS}` });
+  const built = /^build\/(.*)/.exec(name);
+  return route.fulfill({ path: built ? join(folder, "node_modules/three/build", built[1]) : join(packed, name) });
 });
 await page.goto(PAGE);
 await openWithoutGpu(page);
-let compared = 0, passed = 3;
+await tryStage(page);
+await tryThree(page);
+let compared = 0, passed = 10;
 for (const [setup, batch] of Object.entries(recorded())) {
   if (!folders.includes(setup)) throw new Error(`the package has no ${setup}`);
   const [domain, partitioning] = setup.split("-");

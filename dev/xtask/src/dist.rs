@@ -78,7 +78,10 @@ fn try_it(release: &Release, part: &str) -> Result<(), String> {
     let mut script = Command::new("sh");
     script.arg("-eu").arg(workspace().join("dev/xtask/src/dist/try.sh")).arg(part);
     script.current_dir(&folder).env("OUT", &release.out).env("ROOT", workspace());
-    script.env_remove("PYTHONPATH").envs(modules.map(|modules| ("EXPLORER_MODULES", modules)));
+    script.env_remove("PYTHONPATH");
+    if let Some(modules) = modules {
+        script.env("EXPLORER_MODULES", modules).env("TESS_PROGRAM", tess()?.get_program());
+    }
     command::run(&mut script)?;
     fs::remove_dir_all(&folder).map_err(|error| in_file(&folder, &error))
 }

@@ -30,17 +30,11 @@ const BROWSER: &[Need] = &[
 /// # Errors
 /// A step fails, or the page is too large to load quickly.
 pub(crate) fn build() -> Result<(), String> {
-    setup::target(TARGET)?;
-    let mut library = cargo("build --package tess-explorer --profile wasm --target");
-    command::run(cargo("fetch --locked --target").arg(TARGET))?;
-    // Every browser with WebGPU has SIMD, and so has every other one since 2023.
-    let flags = command::flags_without_folders("-Ctarget-feature=+simd128")?;
-    command::run(library.arg(TARGET).env("CARGO_ENCODED_RUSTFLAGS", flags))?;
     let page = page();
     if page.exists() {
         fs::remove_dir_all(&page).map_err(|error| in_file(&page, &error))?;
     }
-    bind("wasm/tess_explorer.wasm", &page)?;
+    library("tess-explorer", &page)?;
     for file in files(&source().join("web"))? {
         let to = page.join(file.file_name().unwrap_or_default());
         fs::copy(&file, &to).map_err(|error| in_file(&file, &error))?;
@@ -52,6 +46,21 @@ pub(crate) fn build() -> Result<(), String> {
         return Err(format!("the page has {bytes} bytes; it may have {LARGEST}"));
     }
     Ok(())
+}
+
+/// Builds a package for WebAssembly, and writes it with its JavaScript module into a folder.
+///
+/// # Errors
+/// A step fails.
+pub(crate) fn library(package: &str, folder: &Path) -> Result<(), String> {
+    setup::target(TARGET)?;
+    command::run(cargo("fetch --locked --target").arg(TARGET))?;
+    let mut library = cargo("build --profile wasm --package");
+    library.arg(package).arg("--target").arg(TARGET);
+    // Every browser with WebGPU has SIMD, and so has every other one since 2023.
+    let flags = command::flags_without_folders("-Ctarget-feature=+simd128")?;
+    command::run(library.env("CARGO_ENCODED_RUSTFLAGS", flags))?;
+    bind(&format!("wasm/{}.wasm", package.replace('-', "_")), folder)
 }
 
 /// Writes the JavaScript module for a WebAssembly file of the target folder.

@@ -4,6 +4,7 @@
 use super::pack::{Release, copy_tracked};
 use super::{VERSION, readme, tess};
 use crate::command::{self, in_file, workspace};
+use crate::explorer;
 use std::fs;
 use std::path::Path;
 
@@ -12,14 +13,14 @@ const DOMAINS: [(&str, &str); 3] =
     [("isoline", "line"), ("tri", "triangle_cw"), ("quad", "triangle_cw")];
 const PARTITIONINGS: [&str; 4] = ["integer", "pow2", "fractional_odd", "fractional_even"];
 
-/// Writes a folder per setup into `to`.
-fn write(language: &str, to: &Path) -> Result<(), String> {
+/// Writes a folder per setup into `to`; `options` are further options of the command.
+fn write(language: &str, options: &[&str], to: &Path) -> Result<(), String> {
     fs::create_dir_all(to).map_err(|error| in_file(to, &error))?;
     for (domain, output) in DOMAINS {
         for partitioning in PARTITIONINGS {
             let mut shaders = tess()?;
             shaders.args(["shaders", "--target", language, "--domain", domain, "--output", output]);
-            shaders.args(["--partitioning", partitioning, "-o"]);
+            shaders.args(["--partitioning", partitioning]).args(options).arg("-o");
             command::output(shaders.arg(to.join(format!("{domain}-{partitioning}"))))?;
         }
     }
@@ -74,7 +75,8 @@ pub(super) fn pack(release: &Release) -> Result<(), String> {
     copy_tracked("bindings/vulkan", &stage.join("vulkan"))?;
     let shared = stage.join("tables.bin");
     for language in LANGUAGES {
-        write(language, &stage.join(language))?;
+        let options: &[&str] = if language == "wgsl" { &["--stage"] } else { &[] };
+        write(language, options, &stage.join(language))?;
         share_tables(&stage.join(language), &shared, |own| fs::hard_link(&shared, own))?;
     }
     share_surfaces(&stage.join("wgsl"), &stage.join("surfaces"))?;
@@ -84,17 +86,38 @@ pub(super) fn pack(release: &Release) -> Result<(), String> {
     release.archive(&stage, &format!("{name}.tar.gz"))
 }
 
+/// The modules of the package for browsers, and the declarations of those that users import.
+const MODULES: [&str; 15] = [
+    "tess.js",
+    "tess.d.ts",
+    "stage.js",
+    "stage.d.ts",
+    "three.js",
+    "three.d.ts",
+    "three-cpu.js",
+    "three-gpu.js",
+    "factors.js",
+    "factors.d.ts",
+    "common.js",
+    "compose.js",
+    "feedback.js",
+    "material.js",
+    "room.js",
+];
+
 pub(super) fn pack_npm(release: &Release) -> Result<(), String> {
     let stage = release.stage("package")?;
-    for file in ["tess.js", "tess.d.ts", "factors.js", "factors.d.ts"] {
+    for file in MODULES {
         copy_tracked(&format!("bindings/webgpu/{file}"), &stage.join(file))?;
     }
+    // The CPU backend, for renderers without WebGPU.
+    explorer::library("tess-webgpu-cpu", &stage.join("cpu"))?;
     let description = workspace().join("bindings/webgpu/package.json");
     let text = command::read(&description)?;
     fs::write(stage.join("package.json"), text.replace("@VERSION@", VERSION))
         .map_err(|error| in_file(&stage, &error))?;
     let shaders = stage.join("shaders");
-    write("wgsl", &shaders)?;
+    write("wgsl", &["--stage"], &shaders)?;
     // npm does not unpack links, and the host takes the tables from here.
     share_tables(&shaders, &shaders.join("tables.bin"), |own| {
         fs::remove_file(own.with_file_name("tess_shaders.h"))

@@ -41,12 +41,22 @@ shaders)
     for file in glsl/*/*.comp; do glslangValidator -G "$file"; done ;;
 npm)
     follow tess-webgpu-*.tgz
-    npm install --no-audit --no-fund typescript@5 @webgpu/types@0.1
+    npm install --no-audit --no-fund typescript@5 @webgpu/types@0.1 @types/three@0.1
     cat > program.mts <<'END'
 import { Tessellator, surfacesWgsl, type Output } from "tess-webgpu";
+import { Stage, type Feedback } from "tess-webgpu/stage";
+import { TessellatedGeometry } from "tess-webgpu/three";
+import { Mesh } from "three";
 export const text: Promise<string> = surfacesWgsl(["factors"]);
 export const run = async (device: GPUDevice): Promise<Output> =>
   (await Tessellator.load(device, { domain: "tri", partitioning: "integer" })).tessellate([1, 2, 3, 4]);
+export const room = async (device: GPUDevice): Promise<Feedback> =>
+  (await Stage.load(device, { domain: "tri", partitioning: "pow2", patches: 1, vertex: { position: "vec4f" } })).makeRoom();
+export const mesh = async (renderer: object): Promise<Mesh> => {
+  const ground = await TessellatedGeometry.load(renderer, { domain: "quad", partitioning: "integer", patches: 1 });
+  ground.update({ factors: [1, 2, 3, 4, 5, 6] });
+  return new Mesh(ground);
+};
 END
     node_modules/.bin/tsc --strict --noEmit --module nodenext --target es2022 program.mts
     unnamed node_modules/tess-webgpu
