@@ -60,7 +60,8 @@ export class CpuSource {
     need(instances === 1, "with WebGL 2, draw instances with an `InstancedMesh`");
     const each = FACTORS[this.domain];
     if (factors) {
-      if (factors.length > patches * each) throw new RangeError(`${factors.length / each} patches; the geometry was made for ${this.patches}`);
+      need(Number.isInteger(factors.length / each) && typeof factors !== "string", `factors are an array of numbers, ${each} for each patch`);
+      if (factors.length > this.factors.length) throw new RangeError(`${factors.length / each} patches; the geometry was made for ${this.patches}`);
       this.factors.set(factors);
     }
     const all = this.factors;

@@ -33,6 +33,7 @@ export interface GeometryValues {
  * what the GPU made.
  */
 export class TessellatedGeometry extends BufferGeometry {
+  private constructor();
   /** Waits for the renderer's device, then loads and compiles everything. */
   static load(renderer: object, options: GeometryOptions): Promise<TessellatedGeometry>;
   /** Tessellates on the GPU; call it before `renderer.render` whenever something has changed. */
