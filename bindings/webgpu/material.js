@@ -7,9 +7,12 @@ export class Material {
   static async make(stage, { wgsl, project, fragment, targets = [], layouts = [], primitive, ...state } = {}) {
     const { device, manifest, evaluate, layout } = stage;
     need(!layout || layout.isDrawable, "to draw with a material, `vertex` needs the member position: \"vec4f\", in clip space");
+    // It would be drawn in another place than the others, mostly out of sight.
+    const other = project === undefined && [...stage.projects][0];
+    need(!other, `another material of this stage calls \`${other}\`: give this one its \`project\`, or null if it needs none`);
     const user = stage.text(wgsl);
     const { parts } = manifest, own = layouts.length;
-    const code = vertexModule(parts, user, own, { project, vertex: evaluate ? layout : undefined });
+    const code = vertexModule(parts, user, own, { project: project ?? "", vertex: evaluate ? layout : undefined });
     const needs = "fn domain(number: u32, uv: vec2f) -> Vertex";
     const module = await compile(device, "material", code, user, needs);
     const factors = uses(user, "tess_factors") ? Material.#factors(stage) : undefined;
@@ -22,6 +25,7 @@ export class Material {
       fragment: targets.length > 0 ? { module, entryPoint: fragment, targets } : undefined,
       primitive: { ...primitive, topology: domain === "isoline" ? "line-list" : "triangle-list" },
     });
+    if (project) stage.projects.add(project);
     return Object.assign(new Material(), { stage, pipeline, own, factors: factors?.group });
   }
 

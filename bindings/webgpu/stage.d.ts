@@ -76,7 +76,10 @@ export interface FrameOptions {
 export class Stage {
   /** Loads and compiles everything. Rejects with the line of your WGSL that is wrong. */
   static load(device: GPUDevice, options: StageOptions): Promise<Stage>;
-  /** Sets the factors of the first patches, as `Tessellator.tessellate` takes them, for a stage without `hull`. */
+  /**
+   * Sets the factors of the first patches, as `Tessellator.tessellate` takes them, for a stage without `hull`. All frames
+   * that are submitted afterwards have them.
+   */
   setFactors(factors: ArrayLike<number>): void;
   /** Records the passes of a frame. Submit the encoder before or with the one that draws. */
   prepare(encoder: GPUCommandEncoder, options?: FrameOptions): Frame;
@@ -101,8 +104,11 @@ export class Stage {
 export interface MaterialOptions extends Omit<GPURenderPipelineDescriptor, "layout" | "vertex" | "fragment"> {
   /** By default the stage's WGSL. */
   wgsl?: string;
-  /** The name of a function `fn name(vertex: Vertex) -> Vertex` that each draw calls, such as one with a camera. */
-  project?: string;
+  /**
+   * The name of a function `fn name(vertex: Vertex) -> Vertex` that each draw calls, such as one with a camera. If another
+   * material of the stage has one, a material without is refused; null says that it needs none.
+   */
+  project?: string | null;
   /** The fragment shader's name, if the WGSL has several. */
   fragment?: string;
   /** The colour targets; without them nothing but depth is drawn. */

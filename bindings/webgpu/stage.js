@@ -29,7 +29,7 @@ export class Stage {
     const manifest = await (await get(`${domain}-${partitioning}/stage.json`, base)).json();
     const stage = Object.assign(new Stage(), {
       device, tessellator, manifest, patches, layouts, evaluate, isCoarser: overflow === "coarser",
-      layout: vertex && vertexOf(vertex), wgsl, hasHull: /\bfn\s+hull\b/.test(wgsl),
+      layout: vertex && vertexOf(vertex), wgsl, projects: new Set(), hasHull: /\bfn\s+hull\b/.test(wgsl),
     });
     await stage.#make(budget);
     return stage;

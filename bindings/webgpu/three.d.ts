@@ -27,7 +27,7 @@ export interface GeometryValues {
 }
 
 /**
- * An indexed geometry for a `Mesh` of three.js's `WebGPURenderer`. With WebGPU a compute shader makes the triangles and the
+ * An indexed geometry for a `Mesh` of three.js's `WebGPURenderer`, or, with the domain `isoline`, for `LineSegments`. With WebGPU a compute shader makes the triangles and the
  * draw is indirect. With WebGL 2 the CPU makes them, without `wgsl` and `uniforms`. `dispose` frees everything. Its
  * `boundingSphere` is infinite, so that nothing is culled; set a better one if you know it. Rays of `Raycaster` do not hit
  * what the GPU made.
@@ -36,7 +36,10 @@ export class TessellatedGeometry extends BufferGeometry {
   private constructor();
   /** Waits for the renderer's device, then loads and compiles everything. */
   static load(renderer: object, options: GeometryOptions): Promise<TessellatedGeometry>;
-  /** Tessellates on the GPU; call it before `renderer.render` whenever something has changed. */
+  /**
+   * Tessellates. Call it before `renderer.render` whenever something has changed; before the first call nothing is drawn. If
+   * the room for the points has to grow, which a later call learns, the picture is coarser until then.
+   */
   update(values?: GeometryValues): void;
   /** Runs a frame and makes the room that it needs, for a first picture that is exact; `update` does not wait. */
   makeRoom(values?: GeometryValues): Promise<Feedback>;

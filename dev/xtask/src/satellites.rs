@@ -43,6 +43,7 @@ const SATELLITES: &[Satellite] = &[
         uses: &[
             "tools/explorer",
             "bindings/webgpu",
+            "tools/cli/src/commands/shaders",
             "tess-core",
             "tess-level",
             "tess-simd",
