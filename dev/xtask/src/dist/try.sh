@@ -41,7 +41,7 @@ shaders)
     for file in glsl/*/*.comp; do glslangValidator -G "$file"; done ;;
 npm)
     follow tess-webgpu-*.tgz
-    npm install --no-audit --no-fund typescript@5 @webgpu/types@0.1 @types/three@0.1
+    npm install --no-audit --no-fund typescript@5 @webgpu/types@0.1 @types/three@0.187
     cat > program.mts <<'END'
 import { Tessellator, surfacesWgsl, type Output } from "tess-webgpu";
 import { Stage, type Feedback } from "tess-webgpu/stage";
