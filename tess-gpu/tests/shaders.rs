@@ -13,16 +13,18 @@ use tess_testkit::shader_faults;
 
 #[test]
 #[ignore = "slow: 480 setups"]
-fn every_shader_is_valid_in_every_setup() {
+fn every_shader_of_every_setup_is_sound() {
     let setups = all_setups();
     assert_eq!(
         setups.len(),
         96 * (2 * 2 + 1),
         "domains x partitionings x outputs x splits, formats x numberings and 16-bit indices"
     );
-    for (_, source, module) in stages() {
-        common::validate(source, module);
-    }
+    let all = modules(&setups);
+    all.iter().for_each(|(_, source, module)| common::validate(source, module));
+    has_no_floats(&all);
+    has_the_bindings(&all);
+    keeps_to_the_default_limits(&all);
     let pull = Pull { group: 0, first_binding: 0 };
     let others = setups.into_iter().flat_map(|setup| {
         let library = [
@@ -37,19 +39,56 @@ fn every_shader_is_valid_in_every_setup() {
     }
 }
 
-/// The distinct sources of all stages in all setups, and their modules.
+/// The distinct sources of all stages in these setups, and their modules.
+fn modules(setups: &[Setup]) -> Vec<(Stage, String, Module)> {
+    let of_stage = |stage: Stage| setups.iter().map(move |&setup| (stage.source(setup), stage));
+    let distinct: BTreeMap<String, Stage> = Stage::ALL.into_iter().flat_map(of_stage).collect();
+    let with_module = |(source, stage): (String, Stage)| {
+        let module = parse(&source);
+        (stage, source, module)
+    };
+    distinct.into_iter().map(with_module).collect()
+}
+
+/// The modules of every seventh setup, in which every two values of two options occur together.
 fn stages() -> &'static [(Stage, String, Module)] {
     static STAGES: LazyLock<Vec<(Stage, String, Module)>> = LazyLock::new(|| {
-        let setups = all_setups();
-        let of_stage = |stage: Stage| setups.iter().map(move |&setup| (stage.source(setup), stage));
-        let distinct: BTreeMap<String, Stage> = Stage::ALL.into_iter().flat_map(of_stage).collect();
-        let with_module = |(source, stage): (String, Stage)| {
-            let module = parse(&source);
-            (stage, source, module)
-        };
-        distinct.into_iter().map(with_module).collect()
+        let some: Vec<Setup> = all_setups().into_iter().step_by(7).collect();
+        modules(&some)
     });
     &STAGES
+}
+
+#[test]
+fn every_pair_of_options_is_in_a_seventh_of_the_setups() {
+    let options = |setup: Setup| {
+        let Config { partitioning, output, split } = setup.config;
+        let formats = (setup.point_format, setup.index_type);
+        [
+            format!("{:?}", setup.domain),
+            format!("{partitioning:?}"),
+            format!("{output:?}"),
+            format!("{split:?}"),
+            format!("{formats:?}"),
+            format!("{:?}", setup.numbering),
+        ]
+    };
+    let mut missing = BTreeSet::new();
+    for setup in all_setups() {
+        missing.extend(pairs(&options(setup)));
+    }
+    for setup in all_setups().into_iter().step_by(7) {
+        for pair in pairs(&options(setup)) {
+            missing.remove(&pair);
+        }
+    }
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
+/// Every two of the texts, in their order.
+fn pairs(texts: &[String]) -> Vec<[String; 2]> {
+    let later = |at: usize| texts[at + 1..].iter().map(move |other| [&texts[at], other]);
+    (0..texts.len()).flat_map(later).map(|pair| pair.map(String::clone)).collect()
 }
 
 /// A planted fault changes a shader, but the shader stays valid: the comparison has to notice the
@@ -72,7 +111,11 @@ fn every_fault_can_be_planted() {
 /// The rule of the project: no float arithmetic, and not even a float type.
 #[test]
 fn no_stage_knows_floats() {
-    for (stage, _, module) in stages() {
+    has_no_floats(stages());
+}
+
+fn has_no_floats(stages: &[(Stage, String, Module)]) {
+    for (stage, _, module) in stages {
         let found = float_types(module);
         assert!(found.is_empty(), "{}: {found:?}", stage.entry_point());
     }
@@ -120,7 +163,11 @@ fn float_types(module: &Module) -> Vec<String> {
 
 #[test]
 fn bindings_are_those_of_the_shaders() {
-    for (stage, _, module) in stages() {
+    has_the_bindings(stages());
+}
+
+fn has_the_bindings(stages: &[(Stage, String, Module)]) {
+    for (stage, _, module) in stages {
         let mut found: Vec<(u32, Access, bool)> = module
             .global_variables
             .iter()
@@ -321,7 +368,11 @@ fn structure<'a>(module: &'a Module, name: &str) -> &'a TypeInner {
 /// WebGPU guarantees 16 KiB of workgroup memory and 256 invocations.
 #[test]
 fn workgroups_keep_to_the_default_limits() {
-    for (stage, _, module) in stages() {
+    keeps_to_the_default_limits(stages());
+}
+
+fn keeps_to_the_default_limits(stages: &[(Stage, String, Module)]) {
+    for (stage, _, module) in stages {
         let mut layouter = naga::proc::Layouter::default();
         layouter.update(module.to_ctx()).expect("types have layouts");
         let shared: u32 = module
