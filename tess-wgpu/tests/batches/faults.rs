@@ -8,6 +8,7 @@ use tess_testkit::shader_faults;
 use tess_verify::generate::SplitMix64;
 
 #[test]
+#[ignore = "slow: a pipeline for each planted fault"]
 fn planted_faults_are_seen() {
     let mut machine = Machine::open();
     for (domain, partitioning, faults) in FAULTS {

@@ -33,23 +33,40 @@ pub(crate) fn scene(domain: Domain, partitioning: Partitioning) -> Scene {
     Scene::new(domain, config, some_factors(domain))
 }
 
+/// Each way with each domain and each partitioning.
 #[test]
+fn ways_to_draw_give_the_models_triangles() {
+    for (way, points) in WAYS.into_iter().enumerate() {
+        let other = (way + 1) % 2;
+        is_drawn(DOMAINS[0], PARTITIONINGS[way % 2], points);
+        is_drawn(DOMAINS[1], PARTITIONINGS[other], points);
+    }
+}
+
+#[test]
+#[ignore = "slow: every way with every domain in every partitioning"]
 fn every_way_to_draw_gives_the_models_triangles() {
-    for domain in [Domain::Triangle, Domain::Quad] {
-        for partitioning in [Partitioning::Integer, Partitioning::FractionalOdd] {
-            let scene = scene(domain, partitioning);
-            let expected = scene.pixels(&scene.patches);
-            for points in WAYS {
-                let mut stage = scene.build(scene.builder().points(points));
-                let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
-                assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}, {domain:?}");
-            }
+    for domain in DOMAINS {
+        for partitioning in PARTITIONINGS {
+            WAYS.into_iter().for_each(|points| is_drawn(domain, partitioning, points));
         }
     }
 }
 
+const DOMAINS: [Domain; 2] = [Domain::Triangle, Domain::Quad];
+const PARTITIONINGS: [Partitioning; 2] = [Partitioning::Integer, Partitioning::FractionalOdd];
+
+fn is_drawn(domain: Domain, partitioning: Partitioning, points: Points) {
+    let scene = scene(domain, partitioning);
+    let mut stage = scene.build(scene.builder().points(points));
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    let expected = scene.pixels(&scene.patches);
+    assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}, {domain:?}, {partitioning:?}");
+}
+
 /// Folded patches, in which rings overlap, so that their order decides which triangle is seen.
 #[test]
+#[ignore = "slow: every way in every order"]
 fn a_given_order_is_that_of_every_way_to_draw() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
     let unfolded = "place(number) + uv;";

@@ -20,35 +20,47 @@ fn with_factors(domain: Domain) -> String {
     text.replace(returned, &format!("uv, bitcast<u32>(tess_factors(number).{first}));"))
 }
 
+/// Each way with each domain and each room.
 #[test]
 fn domain_sees_the_factors_that_are_drawn() {
+    for (way, points) in WAYS.into_iter().enumerate() {
+        sees_its_factors(Domain::Triangle, points, ROOMS[way % 2]);
+        sees_its_factors(Domain::Quad, points, ROOMS[(way + 1) % 2]);
+    }
+}
+
+#[test]
+#[ignore = "slow: every way with every domain in every room"]
+fn domain_sees_its_factors_in_every_way() {
     for domain in [Domain::Triangle, Domain::Quad] {
-        let scene = scene(domain, Partitioning::FractionalOdd);
-        let text = with_factors(domain);
         for points in WAYS {
-            // The second room is too small, so the factors are scaled down.
-            for room in [Room::WorstCase, Room::Exactly(Capacity { points: 300, primitives: 350 })]
-            {
-                let mut stage = scene.build(scene.builder_of(&text).points(points).room(room));
-                let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
-                let scale = stage.feedback().expect("the frame ran").scale;
-                assert_eq!(scale < 1.0, room != Room::WorstCase, "{scale} in {room:?}");
-                let patches = scaled(&scene.patches, domain, scale);
-                let first: Vec<u32> = patches
-                    .iter()
-                    .map(|patch| patch.iter().next().expect("a factor").to_bits())
-                    .collect();
-                let expected = scene.pixels(&patches).into_iter().map(|pixel| {
-                    pixel.map(|[u, v, number, is_drawn]| match is_drawn {
-                        1 => [u, v, first[number as usize], 1],
-                        _ => [0; 4],
-                    })
-                });
-                let expected: Vec<_> = expected.collect();
-                assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}, {room:?}");
-            }
+            ROOMS.into_iter().for_each(|room| sees_its_factors(domain, points, room));
         }
     }
+}
+
+/// The second room is too small, so the factors are scaled down.
+const ROOMS: [Room; 2] =
+    [Room::WorstCase, Room::Exactly(Capacity { points: 300, primitives: 350 })];
+
+fn sees_its_factors(domain: Domain, points: Points, room: Room) {
+    let scene = scene(domain, Partitioning::FractionalOdd);
+    let text = with_factors(domain);
+    let mut stage = scene.build(scene.builder_of(&text).points(points).room(room));
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    let scale = stage.feedback().expect("the frame ran").scale;
+    assert_eq!(scale < 1.0, room != Room::WorstCase, "{scale} in {room:?}");
+    let patches = scaled(&scene.patches, domain, scale);
+    let first: Vec<u32> =
+        patches.iter().map(|patch| patch.iter().next().expect("a factor").to_bits()).collect();
+    let expected = scene.pixels(&patches).into_iter().map(|pixel| {
+        pixel.map(|[u, v, number, is_drawn]| match is_drawn {
+            1 => [u, v, first[number as usize], 1],
+            _ => [0; 4],
+        })
+    });
+    let expected: Vec<_> = expected.collect();
+    assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}, {domain:?}, {room:?}");
 }
 
 /// The first four patches, with each instance one row lower.

@@ -118,6 +118,7 @@ fn functions_that_do_not_go_with_the_stage_are_reported_with_their_line() {
 }
 
 #[test]
+#[ignore = "slow: a stage for each mistake"]
 fn functions_of_other_types_are_answered_with_the_right_line() {
     let scene = quads();
     let right = source(Domain::Quad);
