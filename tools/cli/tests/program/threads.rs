@@ -14,6 +14,7 @@ fn with_threads(threads: u32, words: &str, folder: &Folder) -> Run {
 }
 
 #[test]
+#[ignore = "slow: every command, with every number of threads"]
 fn commands_run_without_threads() {
     let folder = directory("commands_run_without_threads");
     let anybody = "chmod 777 . && umask 000 && mkdir out && chmod 777 out";
