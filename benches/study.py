@@ -96,7 +96,7 @@ def clocks(cpu, gpu, batches, drawn, circuit):
     shaders = max(batches["rows"], key=lambda row: row["triangles_per_s"])
     stage = max(drawn["rows"], key=lambda row: row["stage_alone"])
     per_clock = circuit_pace(circuit)
-    (at,) = re.findall(r"^\| clock, seed 1 \|.* ([\d.]+) MHz \|$", circuit, re.MULTILINE)
+    (at,) = re.findall(r"^\| clock with seeds 1, 2, 3 \|.*\| ([\d.]+), [\d.]+, [\d.]+ MHz \|$", circuit, re.MULTILINE)
 
     def row(name, rate, clock, of):
         """`rate` in billions of triangles per second, `clock` in GHz."""
