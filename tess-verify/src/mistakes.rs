@@ -140,7 +140,9 @@ impl Mistake {
     /// Changes the output of the case that the device tessellated; a mistake of the question
     /// changes nothing more.
     pub fn spoil(&self, request: &Request, output: &mut Tessellation) {
-        if let Effect::Answer { spoil, .. } = &self.effect {
+        if let Effect::Answer { may, spoil } = &self.effect
+            && may(request)
+        {
             spoil(request, output);
         }
     }

@@ -58,8 +58,8 @@ impl Family {
         self
     }
 
-    /// A device that changes right answers of some cases. `may` is false for cases whose answers
-    /// are right; it spares the others' copies.
+    /// A device that changes right answers of the cases for which `may` is true. The answers of
+    /// others are not even copied.
     pub(super) fn answers_some(
         mut self,
         variant: impl Into<String>,

@@ -84,13 +84,11 @@ fn wrong(
             entry.label(),
             move |case| entry.is_in(case),
             move |case, output| {
-                if entry.is_in(case) {
-                    stitch_again(case, output, |stitch, steps| {
-                        if Entry::of(stitch) == Some(entry) {
-                            change(steps);
-                        }
-                    });
-                }
+                stitch_again(case, output, |stitch, steps| {
+                    if Entry::of(stitch) == Some(entry) {
+                        change(steps);
+                    }
+                });
             },
         )
     })
