@@ -125,6 +125,15 @@ pub(super) fn copy_tree(patterns: &[&str], to: &Path) -> Result<(), String> {
     Ok(())
 }
 
+/// Copies the tracked files of a pattern (`rtl/*.sv`) into a folder, by their names.
+pub(super) fn copy_flat(pattern: &str, to: &Path) -> Result<(), String> {
+    let names = tracked(&format!(":(glob){pattern}"))?;
+    names.iter().try_for_each(|name| {
+        let (_, file) = name.rsplit_once('/').unwrap_or(("", name));
+        copy(name, &to.join(file))
+    })
+}
+
 /// The tracked files of a folder or pattern of the workspace; there must be at least one.
 fn tracked(pattern: &str) -> Result<Vec<String>, String> {
     let mut list = Command::new("git");

@@ -1,7 +1,7 @@
 //! The shaders of the common setups: in every language for hosts without Rust, and as WGSL with a
 //! host for browsers.
 
-use super::pack::{Release, copy_tracked};
+use super::pack::{Release, copy_flat, copy_tracked};
 use super::{VERSION, readme, tess};
 use crate::command::{self, in_file, workspace};
 use crate::explorer;
@@ -86,29 +86,11 @@ pub(super) fn pack(release: &Release) -> Result<(), String> {
     release.archive(&stage, &format!("{name}.tar.gz"))
 }
 
-/// The modules of the package for browsers, and the declarations of those that users import.
-const MODULES: [&str; 15] = [
-    "tess.js",
-    "tess.d.ts",
-    "stage.js",
-    "stage.d.ts",
-    "three.js",
-    "three.d.ts",
-    "three-cpu.js",
-    "three-gpu.js",
-    "factors.js",
-    "factors.d.ts",
-    "common.js",
-    "compose.js",
-    "feedback.js",
-    "material.js",
-    "room.js",
-];
-
 pub(super) fn pack_npm(release: &Release) -> Result<(), String> {
     let stage = release.stage("package")?;
-    for file in MODULES {
-        copy_tracked(&format!("bindings/webgpu/{file}"), &stage.join(file))?;
+    // All modules, with the declarations of those that users import.
+    for pattern in ["*.js", "*.d.ts"] {
+        copy_flat(&format!("bindings/webgpu/{pattern}"), &stage)?;
     }
     // The CPU backend, for renderers without WebGPU.
     explorer::library("tess-webgpu-cpu", &stage.join("cpu"))?;
