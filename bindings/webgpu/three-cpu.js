@@ -3,35 +3,26 @@
 import { BufferAttribute } from "three/webgpu";
 import { need } from "./common.js";
 
-const FACTORS = { isoline: 2, tri: 4, quad: 6 };
-
 export class CpuSource {
   static async load(_, { wgsl = "", uniforms, domain, partitioning, patches }) {
     need(wgsl === "" && !uniforms, "the renderer draws with WebGL 2, which runs no WGSL: leave out `wgsl` and `uniforms`, give " +
       "the factors to `update`, and move the points in the material's `positionNode`; or use a browser that has WebGPU");
     const cpu = await import("./cpu/tess_webgpu_cpu.js");
     await cpu.default({ module_or_path: new URL("./cpu/tess_webgpu_cpu_bg.wasm", import.meta.url) });
-    const source = Object.assign(new CpuSource(), { cpu, domain, partitioning, patches, frame: 0 });
-    // Culled patches, so that mistakes in the names are reported here.
-    source.factors = new Float32Array(FACTORS[domain] ?? 0);
-    source.output = source.#tessellate();
-    source.factors = new Float32Array(patches * FACTORS[domain]);
-    return source;
+    const tessellator = new cpu.CpuTessellator(domain, partitioning);
+    const each = tessellator.factors_per_patch();
+    return Object.assign(new CpuSource(), { tessellator, domain, patches, each, frame: 0, factors: new Float32Array(patches * each) });
   }
 
-  #tessellate() {
-    const output = this.cpu.tessellate(this.domain, this.partitioning, this.factors);
-    const [positions, indices] = [output.positions(), output.indices()];
-    output.free();
-    return { positions, indices };
-  }
-
+  // Before the first `update` there are no points.
   attach(geometry) {
-    this.#fill(geometry);
+    this.#fill(geometry, 0);
   }
 
-  #fill(geometry) {
-    const { positions, indices } = this.output;
+  // Fills the attributes with these first patches, and returns the numbers of points and indices.
+  #fill(geometry, patches) {
+    this.tessellator.tessellate(this.factors.subarray(0, patches * this.each));
+    const [positions, indices] = [this.tessellator.positions(), this.tessellator.indices()];
     const uv = new Float32Array(positions.length / 3 * 2);
     for (let i = 0; i < uv.length / 2; i++) uv.set(positions.subarray(3 * i, 3 * i + 2), 2 * i);
     // WebGL 2 has no indirect draw and buffers of a fixed size, so attributes that are too small are replaced.
@@ -52,26 +43,22 @@ export class CpuSource {
     put("uv", uv, 2);
     put("index", indices, 1);
     geometry.setDrawRange(0, indices.length);
+    return [positions.length / 3, indices.length];
   }
 
   update(geometry, { factors, patches = this.patches, instances = 1, ...values }) {
     const [unknown] = Object.keys(values);
     need(unknown === undefined, `there is no uniform \`${unknown}\``);
     need(instances === 1, "with WebGL 2, draw instances with an `InstancedMesh`");
-    const each = FACTORS[this.domain];
+    const { each } = this;
     if (factors) {
       need(Number.isInteger(factors.length / each) && typeof factors !== "string", `factors are an array of numbers, ${each} for each patch`);
       if (factors.length > this.factors.length) throw new RangeError(`${factors.length / each} patches; the geometry was made for ${this.patches}`);
       this.factors.set(factors);
     }
-    const all = this.factors;
-    this.factors = all.subarray(0, patches * each);
-    this.output = this.#tessellate();
-    this.factors = all;
-    this.#fill(geometry);
-    const { indices, positions } = this.output;
-    const primitives = indices.length / (this.domain === "isoline" ? 2 : 3);
-    this.feedback = { frame: this.frame++, points: positions.length / 3, primitives, drawn: primitives, scale: 1 };
+    const [points, indices] = this.#fill(geometry, patches);
+    const primitives = indices / (this.domain === "isoline" ? 2 : 3);
+    this.feedback = { frame: this.frame++, points, primitives, drawn: primitives, scale: 1 };
   }
 
   async makeRoom(geometry, values) {
@@ -79,5 +66,6 @@ export class CpuSource {
     return this.feedback;
   }
 
+  // A disposed geometry may be updated again, so the tessellator is left to the garbage collector.
   destroy() {}
 }

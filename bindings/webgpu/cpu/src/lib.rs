@@ -7,58 +7,67 @@ use tess_verify::Named;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Points and indices of a batch.
+/// A tessellator with the output of the batch before, whose memory the next one reuses.
 #[wasm_bindgen]
 #[derive(Debug)]
-pub struct CpuOutput {
-    positions: Vec<f32>,
-    indices: Vec<u32>,
+pub struct CpuTessellator {
+    domain: Domain,
+    tessellator: Tessellator,
+    output: Output<[f32; 2], u32>,
+    patches: usize,
 }
 
 #[wasm_bindgen]
-impl CpuOutput {
+impl CpuTessellator {
+    /// # Errors
+    /// An unknown name.
+    #[wasm_bindgen(constructor)]
+    pub fn new(domain: &str, partitioning: &str) -> Result<Self, JsError> {
+        let (domain, partitioning) =
+            (Domain::from_name(domain)?, Partitioning::from_name(partitioning)?);
+        let output = match domain {
+            Domain::Isoline => OutputPrimitive::Line,
+            Domain::Triangle | Domain::Quad => OutputPrimitive::TriangleCw,
+        };
+        let tessellator = Tessellator::new(Config::new(partitioning, output));
+        Ok(Self { domain, tessellator, output: Output::new(), patches: 0 })
+    }
+
+    /// The number of factors of a patch.
+    pub fn factors_per_patch(&self) -> usize {
+        self.domain.factors()
+    }
+
+    /// Tessellates patches with these factors, one patch after another.
+    ///
+    /// # Errors
+    /// Factors that are not whole patches; an output that is too large.
+    pub fn tessellate(&mut self, factors: &[f32]) -> Result<(), JsError> {
+        let each = self.domain.factors();
+        let of_patch = |factors| PatchFactors::from_slice(self.domain, factors);
+        let patches: Option<Vec<_>> = factors.chunks(each).map(of_patch).collect();
+        let patches = patches.ok_or_else(|| {
+            JsError::new(&format!("{} factors; a patch of this domain has {each}", factors.len()))
+        })?;
+        let numbering = Numbering::PerBatch { base_vertex: 0 };
+        self.tessellator.tessellate(&patches[..], numbering, &mut self.output)?;
+        self.patches = patches.len();
+        Ok(())
+    }
+
     /// u, v and the patch's number of each point.
     pub fn positions(&self) -> Vec<f32> {
-        self.positions.clone()
+        let of_patch = |number| {
+            let (points, _) = self.output.patch(number)?;
+            Some(points.iter().flat_map(move |&[u, v]| [u, v, float(number)]))
+        };
+        (0..self.patches).filter_map(of_patch).flatten().collect()
     }
 
     /// The indices of lines or clockwise triangles, from the batch's first point.
     pub fn indices(&self) -> Vec<u32> {
-        self.indices.clone()
+        self.output.indices().to_vec()
     }
-}
-
-/// Tessellates patches with these factors, one patch after another.
-///
-/// # Errors
-/// An unknown name; factors that are not whole patches; an output that is too large.
-#[wasm_bindgen]
-pub fn tessellate(domain: &str, partitioning: &str, factors: &[f32]) -> Result<CpuOutput, JsError> {
-    let (domain, partitioning) =
-        (Domain::from_name(domain)?, Partitioning::from_name(partitioning)?);
-    let output = match domain {
-        Domain::Isoline => OutputPrimitive::Line,
-        Domain::Triangle | Domain::Quad => OutputPrimitive::TriangleCw,
-    };
-    let each = domain.factors();
-    let patches: Option<Vec<_>> =
-        factors.chunks(each).map(|patch| PatchFactors::from_slice(domain, patch)).collect();
-    let patches = patches.ok_or_else(|| {
-        JsError::new(&format!("{} factors; a patch of this domain has {each}", factors.len()))
-    })?;
-    let mut output_of: Output<[f32; 2], u32> = Output::new();
-    let numbering = Numbering::PerBatch { base_vertex: 0 };
-    Tessellator::new(Config::new(partitioning, output)).tessellate(
-        &patches[..],
-        numbering,
-        &mut output_of,
-    )?;
-    let mut positions = Vec::new();
-    for number in 0..patches.len() {
-        let Some((points, _)) = output_of.patch(number) else { continue };
-        positions.extend(points.iter().flat_map(|&[u, v]| [u, v, float(number)]));
-    }
-    Ok(CpuOutput { positions, indices: output_of.indices().to_vec() })
 }
 
 /// The number of a patch as the attribute holds it, exact up to 2^24.
