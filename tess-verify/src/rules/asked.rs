@@ -283,4 +283,39 @@ mod tests {
         let pairs = "tri: 3 pairs of an edge and the inside, such as 22 segments and 18";
         assert_eq!(missing(true), ["quad", pairs]);
     }
+
+    /// A pair is asked in its own split order and domain only.
+    #[test]
+    fn pairs_are_counted_apart() {
+        for split in SplitOrder::ALL {
+            for (domain, inside) in
+                [(Domain::Triangle, "40c00000"), (Domain::Quad, "40c00000 40c00000")]
+            {
+                let edges = if domain == Domain::Quad {
+                    "40800000 40800000 40800000 40800000"
+                } else {
+                    "40800000 40800000 40800000"
+                };
+                let line = format!(
+                    "case {} integer triangle_cw {} {edges} {inside}",
+                    domain.name(),
+                    split.name()
+                );
+                let mut asked = Asked::new(Rule::Cover, Specification::D3d11);
+                asked.add(&line.parse().expect("a case"), u8::MAX);
+                for own in SplitOrder::ALL {
+                    for surface in SURFACES {
+                        let is_it = (own, surface) == (split, domain);
+                        let missing = asked.missing_pairs(own, surface).len();
+                        let all = Pair::all().count();
+                        assert_eq!(
+                            missing,
+                            all - usize::from(is_it),
+                            "{line}: {own:?} {surface:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
 }

@@ -304,3 +304,22 @@ fn triangles(triangles: impl Iterator<Item = [Place; 3]>) -> u64 {
     let hash = |triangle| sorted(triangle).into_iter().fold(0, mix);
     triangles.map(hash).fold(0, u64::wrapping_add)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A digest depends on every triangle and on how often it occurs, and on no order.
+    #[test]
+    fn triangles_have_a_digest() {
+        let [a, b, c, d] = [[0, 0], [1, 0], [0, 1], [1, 1]];
+        let of = |list: &[[Place; 3]]| triangles(list.iter().copied());
+        let both = of(&[[a, b, c], [b, c, d]]);
+        assert_eq!(both, of(&[[c, d, b], [c, a, b]]), "another order");
+        for other in [&[[a, b, c]][..], &[[a, b, c], [b, a, d]], &[[a, b, c], [b, c, d], [b, c, d]]]
+        {
+            assert_ne!(both, of(other), "{other:?}");
+        }
+        assert_ne!(of(&[[a, b, c]; 3]), of(&[[a, b, c]]), "three of them");
+    }
+}

@@ -350,6 +350,17 @@ impl Scope {
 mod tests {
     use super::*;
 
+    /// Edges u0 and u1 run along v, so the second inner level is theirs.
+    #[test]
+    fn pairs_are_of_the_level_along_the_edge() {
+        let levels = "40800000 40a00000 40400000 40000000 40a00000 40c00000";
+        let line = format!("case quad integer triangle_cw ruler {levels}");
+        let case: Case = line.parse().expect("a case");
+        let pairs = [0, 1, 2, 3].map(|edge| Pair::of(&case, edge));
+        let pair = |outer, inside| Some(Pair { outer, inside });
+        assert_eq!(pairs, [pair(4, 6), pair(5, 5), pair(3, 6), pair(2, 5)]);
+    }
+
     /// Both ends of each class.
     #[test]
     fn values_have_classes() {

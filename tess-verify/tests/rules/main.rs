@@ -162,6 +162,48 @@ fn sources_are_where_rules_stand() {
     }
 }
 
+/// Rules judge primitives in any order, a triangle from any of its vertices, and no point that no
+/// primitive has.
+#[test]
+fn order_and_unused_points_are_free() {
+    for specification in [Specification::D3d11, VULKAN, Specification::OpenGl] {
+        for line in [TRI, QUAD, LINES] {
+            let (case, right) = model(case(line));
+            let mut other = right.clone();
+            let size = if line == LINES { 2 } else { 3 };
+            let primitives = right.indices.chunks(size).rev().enumerate();
+            other.indices = primitives
+                .flat_map(|(number, vertices)| {
+                    let mut turned = vertices.to_vec();
+                    turned.rotate_left(if size == 3 { number % 3 } else { 0 });
+                    turned
+                })
+                .collect();
+            // On no triangle, and on no line, which ends below v = 1.
+            other.points.push(DomainPoint::from_bits(ONE, ONE));
+            let [of_model, of_other] = [right, other].map(|output| {
+                let report = judge(specification, [(case, output)]);
+                rules(&report, Verdict::Broken)
+            });
+            assert_eq!(of_other, of_model, "{}, {line}", specification.name());
+        }
+    }
+}
+
+/// A triangle two of whose vertices coincide covers nothing, and walks an edge both ways.
+#[test]
+fn a_triangle_without_area_covers_nothing() {
+    for specification in [Specification::D3d11, VULKAN] {
+        let (case, mut output) = model(case(TRI));
+        // The last triangle is the innermost.
+        let [a, b, _] = *output.indices.as_chunks::<3>().0.last().expect("triangles");
+        output.indices.extend([a, a, b]);
+        let report = judge(specification, [(case, output)]);
+        let RuleRow { judged, broken, .. } = row(&report, Rule::Cover);
+        assert_eq!((*judged, *broken), (1, 0), "{}: {report}", specification.name());
+    }
+}
+
 /// Known faults of the model, each with the rule that shows it (specification, sections 11 and 12).
 #[test]
 fn findings_about_the_model() {
