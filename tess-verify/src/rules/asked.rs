@@ -194,7 +194,7 @@ impl Asked {
             let first = missing.first().filter(|_| !texts[0].contains(&name));
             texts[4].extend(first.map(|Pair { outer, inside }| {
                 let pairs = format!("{} pairs of an edge and the inside", missing.len());
-                format!("{name}: {pairs}, such as {outer} segments and {inside}")
+                format!("{name}: {pairs}, such as {outer} and {inside} segments")
             }));
         }
         texts.concat()
@@ -280,7 +280,7 @@ mod tests {
     fn a_pair_that_was_not_asked_is_named() {
         assert_eq!(missing(false), ["quad"], "all of triangles");
         // The patch has 22 and 23 segments on its other edges.
-        let pairs = "tri: 3 pairs of an edge and the inside, such as 22 segments and 18";
+        let pairs = "tri: 3 pairs of an edge and the inside, such as 22 and 18 segments";
         assert_eq!(missing(true), ["quad", pairs]);
     }
 

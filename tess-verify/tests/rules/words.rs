@@ -396,7 +396,7 @@ fn a_verdict_names_what_was_not_asked() {
     let [asked, wanted] = segments.asked.levels();
     assert!(0 < asked && asked < wanted, "{asked} of {wanted}");
     // Edges of 4, 5 and 3 segments, and 5 inside.
-    let pairs = "tri: 4029 pairs of an edge and the inside, such as 1 segments and 2";
+    let pairs = "tri: 4029 pairs of an edge and the inside, such as 1 and 2 segments";
     let missing = row(&report, Rule::Cover).asked.missing();
     assert_eq!(missing.last().map(String::as_str), Some(pairs), "{missing:?}");
     assert!(segments.asked.missing().iter().all(|text| !text.contains("pairs")), "not about pairs");
