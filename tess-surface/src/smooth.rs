@@ -44,8 +44,9 @@ pub(crate) fn smooth_normals(
     for (vertex, face, corner) in corners(mesh, vertices) {
         sums[vertex as usize] += angle_weighted(&mesh.corners(face), corner);
     }
-    // If the normals cancel out, any direction will do: such places are mixed.
-    let normals: Vec<Vec3> = sums.iter().map(|&sum| unit(sum).unwrap_or(Vec3::Z)).collect();
+    // Where the normals cancel out there is none, and none is needed: such places are mixed, so
+    // their faces get own normals.
+    let normals: Vec<Vec3> = sums.iter().map(|&sum| unit(sum).unwrap_or_default()).collect();
     let mut is_mixed = vec![false; mesh.positions.len()];
     for (vertex, face, corner) in corners(mesh, vertices) {
         let agrees =
@@ -158,7 +159,7 @@ impl<'a> Sheets<'a> {
                 own: corners.iter().map(|&slot| weighted_normal(mesh, slot)).collect(),
                 faces: corners.iter().map(|&slot| HalfEdge::of_slot(slot).patch).collect(),
             };
-            let of_corners = corners.normals(self.creases);
+            let of_corners = corners.normals(mesh, self.creases);
             normals.extend(place.iter().zip(of_corners).map(|(&(_, slot), normal)| (slot, normal)));
         }
         normals.sort_unstable_by_key(|&(slot, _)| slot);
@@ -241,7 +242,7 @@ struct SheetCorners {
 
 impl SheetCorners {
     /// The unit normal of each corner.
-    fn normals(&self, creases: &Creases<'_>) -> Vec<Vec3> {
+    fn normals(&self, mesh: &PolygonMesh, creases: &Creases<'_>) -> Vec<Vec3> {
         let Self { fans, umbrellas, own, faces } = self;
         let mut sums = vec![Vec3::ZERO; fans.len()];
         fans.iter().zip(own).for_each(|(&fan, &normal)| sums[fan] += normal);
@@ -250,9 +251,10 @@ impl SheetCorners {
         // A fan joins the first sheet whose sum so far points its way, else it begins one. The
         // order is that of the corners, so equal meshes get equal normals.
         for fan in (0..fans.len()).filter(|&fan| fans[fan] == fan) {
-            let direction = unit(sums[fan]).unwrap_or(Vec3::ZERO);
+            // A sum of zero has no direction, and is near nothing.
+            let direction = unit(sums[fan]).unwrap_or_default();
             let is_near = |sum: Vec3, of_sheet: &[usize]| {
-                let cosine = unit(sum).map_or(-1.0, |sum| sum.dot(direction));
+                let cosine = unit(sum).unwrap_or_default().dot(direction);
                 let is_apart = |other: usize| {
                     umbrellas[other] == umbrellas[fan]
                         || creases.hardness(faces[other], faces[fan], cosine) != Hardness::Smooth
@@ -267,11 +269,12 @@ impl SheetCorners {
                 None => sheets.push((sums[fan], Vec::from([fan]))),
             }
         }
-        // Where the faces of a sheet cancel out, a corner keeps the normal of its own face.
+        // Where the faces of a sheet cancel out, and at a straight corner, whose edges span no
+        // plane, a corner keeps the normal of its own face.
         let normal_of = |at: usize| {
             let sheet = sheets.iter().find(|(_, of_sheet)| of_sheet.contains(&fans[at]));
             let shared = sheet.and_then(|(sum, _)| unit(*sum));
-            shared.or_else(|| unit(own[at])).unwrap_or(Vec3::Z)
+            shared.unwrap_or_else(|| mesh.face_normal(&mesh.faces[faces[at]]))
         };
         (0..fans.len()).map(normal_of).collect()
     }

@@ -104,3 +104,22 @@ fn given_normals_are_kept() {
     assert_eq!(hard[..3], smooth[..3], "the face with normals");
     assert_ne!(hard[3..], smooth[3..], "the others have hard edges");
 }
+
+/// A hard edge between a face with normals and one without: the second keeps the normal of its
+/// plane, whichever comes first.
+#[test]
+fn a_hard_edge_beside_a_face_with_normals() {
+    let positions = [[0.0, 0.0, 0.0f32], [0.0, 1.0, 0.0], [1.0, 0.0, 1.0], [-1.0, 0.0, 1.0]];
+    let plane = [Vec3::new(-1.0, 0.0, 1.0), Vec3::new(1.0, 0.0, 1.0)].map(Vec3::normalize);
+    for given in [0, 1] {
+        let mut mesh = crate::models::mesh(&positions, &[&[1, 0, 2], &[0, 1, 3]]);
+        mesh.normals = vec![Vec3::Z];
+        let face = &mut mesh.faces[given];
+        face.normals = Some(face.positions.map(|_| 0));
+        let other = 1 - given;
+        let found = normals(&mesh, &Creases { least_cosine: 0.5, ..Creases::NONE });
+        for normal in &found[3 * other..][..3] {
+            assert!(normal.distance(plane[other]) < 1e-6, "{given}: {normal}");
+        }
+    }
+}

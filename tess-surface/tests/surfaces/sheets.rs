@@ -210,24 +210,134 @@ fn normals_at_corners(model: &Model) -> Vec<(Vec3, Vec3)> {
     (0..model.len()).flat_map(places).collect()
 }
 
-/// A ridge may be sharp: faces are folded onto each other only if their corners say so too. The
-/// normals of this roof have a cosine of -0.8.
-#[test]
-fn a_sharp_ridge_is_one_sheet() {
-    let third = 1.0 / 3.0;
+/// Two quads that meet in a ridge of height 1, along x; each is `half_width` wide.
+fn ridge(half_width: f32) -> PolygonMesh {
     let points = [
-        [0., -third, 0.],
-        [4., -third, 0.],
+        [0., -half_width, 0.],
+        [4., -half_width, 0.],
         [4., 0., 1.],
         [0., 0., 1.],
-        [0., third, 0.],
-        [4., third, 0.],
+        [0., half_width, 0.],
+        [4., half_width, 0.],
     ];
-    let found = normals_at_corners(&rounded(mesh(&points, &[&[0, 1, 2, 3], &[4, 3, 2, 5]])));
-    let ridge: Vec<_> = found.iter().filter(|(position, _)| position.z > 0.9).collect();
-    assert_eq!(ridge.len(), 4, "two corners of each face: {found:?}");
-    for (position, normal) in ridge {
-        assert!(normal.distance(Vec3::Z) < 1e-6, "{position}: {normal}");
+    mesh(&points, &[&[0, 1, 2, 3], &[4, 3, 2, 5]])
+}
+
+/// A ridge may be sharp: faces that have not each other's corners are folded onto each other only
+/// if they are nearly parallel. The normals of these have cosines of -0.8, -0.99989 and -0.99992.
+#[test]
+fn a_sharp_ridge_is_one_sheet() {
+    for (half_width, is_one_sheet) in [(1.0 / 3.0, true), (0.0075, true), (0.0065, false)] {
+        let found = normals_at_corners(&rounded(ridge(half_width)));
+        let ridge: Vec<_> = found.iter().filter(|(position, _)| position.z > 0.9).collect();
+        assert_eq!(ridge.len(), 4, "two corners of each face: {found:?}");
+        for (at, (position, normal)) in ridge.into_iter().enumerate() {
+            let own = if at < 2 { -Vec3::Y } else { Vec3::Y };
+            let expected = if is_one_sheet { Vec3::Z } else { own };
+            let near = normal.distance(expected) < 0.01;
+            assert!(near, "{half_width}: {position}: {normal}, not {expected}");
+        }
+    }
+}
+
+/// A bumpy front of two quads, and a back of triangles one of which has corners of both quads: at
+/// the border the back's corners are those of the front's faces, and not the other way round.
+#[test]
+fn a_side_whose_faces_have_corners_of_two_others() {
+    let points =
+        [[0., 0., 0.], [1., -0.5, 0.3], [2., 0., 0.], [0., 1., 0.3], [1., 1.5, 0.], [2., 1., 0.3]];
+    let front: [&[u32]; 2] = [&[0, 1, 4, 3], &[1, 2, 5, 4]];
+    let back: [&[u32]; 4] = [&[1, 0, 5], &[2, 1, 5], &[5, 0, 3], &[5, 3, 4]];
+    let alone = [&front[..], &back].map(|side| normals_at_corners(&rounded(mesh(&points, side))));
+    for (both, expected) in [
+        ([&front[..], &back].concat(), [&alone[0][..], &alone[1]].concat()),
+        ([&back[..], &front].concat(), [&alone[1][..], &alone[0]].concat()),
+    ] {
+        let found = normals_at_corners(&rounded(mesh(&points, &both)));
+        for ((position, found), (_, expected)) in found.iter().zip(&expected) {
+            let near = found.distance(*expected) < 1e-5;
+            assert!(near, "{both:?}: {position}: {found}, not {expected}");
+        }
+    }
+}
+
+/// Eight faces around a place, whose normals are +z twice, +y twice, -z twice and -y twice, are one
+/// sheet without a direction: each keeps its own normal, and a face that touches there keeps its.
+#[test]
+fn normals_that_cancel_out() {
+    let rays = [Vec3::X, Vec3::Y, -Vec3::X, Vec3::Z, Vec3::X, -Vec3::Y, -Vec3::X, -Vec3::Z];
+    let around: Vec<Vec3> = rays.iter().zip(1u8..).map(|(&ray, k)| ray * f32::from(k)).collect();
+    let fan: Vec<[u32; 3]> = (0..8).map(|k| [0, k + 1, (k + 1) % 8 + 1]).collect();
+    let own: Vec<Vec3> = (0..8).map(|k| rays[k].cross(rays[(k + 1) % 8])).collect();
+    for normal in [Vec3::X, Vec3::Y, Vec3::Z] {
+        let (a, b) = normal.any_orthonormal_pair();
+        let points = [&[Vec3::ZERO], &around[..], &[a * 20.0, b * 20.0]].concat();
+        let points: Vec<[f32; 3]> = points.iter().map(|point| point.to_array()).collect();
+        for touching_is_first in [false, true] {
+            let mut faces: Vec<&[u32]> = fan.iter().map(|face| &face[..]).collect();
+            let at = if touching_is_first { 0 } else { 8 };
+            faces.insert(at, &[0, 9, 10]);
+            let model = rounded(mesh(&points, &faces));
+            let centres = (0..9).map(|number| model.patch(number).normal([1.0, 0.0]));
+            let mut centres: Vec<Vec3> = centres.collect();
+            assert!(centres.remove(at).distance(normal) < 1e-6, "{normal}: the face that touches");
+            assert_eq!(centres, own, "{normal}: the faces around");
+        }
+    }
+}
+
+/// The edges at a straight corner span no plane: its normal is that of its face.
+#[test]
+fn a_straight_corner() {
+    for turn in 0..4 {
+        let mut points = [[0., 0., 0.], [1., 0., 0.], [2., 0., 0.], [1., 0., 2.]];
+        points.rotate_left(turn);
+        for (position, normal) in normals_at_corners(&rounded(mesh(&points, &[&[0, 1, 2, 3]]))) {
+            assert!(normal.distance(-Vec3::Y) < 1e-6, "turn {turn}, {position}: {normal}");
+        }
+    }
+}
+
+/// Three faces at an edge, whose normals are within 90 degrees of their sum, are a seam all the
+/// same: each keeps its own normal.
+#[test]
+fn faces_of_a_seam_that_agree() {
+    let turned = |degrees: f32| {
+        let (s, c) = (libm::sinf(degrees.to_radians()), libm::cosf(degrees.to_radians()));
+        ([0.0, c, s], Vec3::new(0.0, -s, c))
+    };
+    let sides = [-70.0, 0.0, 70.0].map(turned);
+    let points = [[0., 0., 0.], [1., 0., 0.], sides[0].0, sides[1].0, sides[2].0];
+    let model = rounded(mesh(&points, &[&[0, 1, 2], &[0, 1, 3], &[0, 1, 4]]));
+    assert_eq!(model.seams().len(), 1, "a seam");
+    for (number, (_, normal)) in sides.into_iter().enumerate() {
+        for sample in samples(&model.patch(number)) {
+            assert!(sample.normal.distance(normal) < 1e-6, "{number}: {sample:?}, not {normal}");
+        }
+    }
+}
+
+/// Equal positions are one place, whichever of them a face refers to.
+#[test]
+fn faces_with_positions_of_their_own() {
+    let cone = mesh(
+        &[[0., 0., 1.], [1., 0., 0.], [0., 1., 0.], [-1., 0., 0.], [0., -1., 0.], [0., 0., 4.]],
+        &[&[0, 1, 2], &[0, 2, 3], &[0, 3, 4], &[0, 4, 1], &[0, 5, 1]],
+    );
+    for shared in [hills(), leaf(), fin(), square(), ridge(0.0065), cone] {
+        let mut own = PolygonMesh::default();
+        for face in &shared.faces {
+            let corners = shared.corners(face);
+            let first = u32::try_from(own.positions.len()).expect("few corners");
+            own.positions.extend(corners.as_slice());
+            let numbers: Vec<u32> = (first..).take(corners.as_slice().len()).collect();
+            own.faces.push(crate::models::face(&numbers));
+        }
+        assert_eq!(
+            normals_at_corners(&rounded(own)),
+            normals_at_corners(&rounded(shared)),
+            "equal"
+        );
     }
 }
 
