@@ -259,13 +259,14 @@ impl QuadShape {
         let normal = (c - a).cross(d - b);
         let crosses = [[d, a, b], [a, b, c], [b, c, d], [c, d, a]]
             .map(|[before, here, after]| (here - before).cross(after - here));
-        // For a straight corner, rounding decides the sign.
-        let is_against = |cross: DVec3, normal: DVec3| {
-            cross.dot(normal) < -1e-6 * cross.length() * normal.length()
-        };
+        // For a straight corner, rounding decides the sign. It is small beside the whole quad, not
+        // beside the corner's own edges, of which one may be short.
+        let size = (c - a).length() * (d - b).length();
+        let is_against =
+            |cross: DVec3, normal: DVec3| cross.dot(normal) < -1e-6 * size * normal.length();
         // The diagonals of a crossed quad may be parallel; then there is no normal to compare with,
         // but two corners turn against the first.
-        let reference = if normal.length() > 1e-6 * (c - a).length() * (d - b).length() {
+        let reference = if normal.length() > 1e-6 * size {
             normal
         } else {
             crosses.into_iter().fold(DVec3::ZERO, |largest, cross| {
@@ -346,8 +347,74 @@ mod tests {
             Err(NoInside::Flat),
             "a line"
         );
+        let there_and_back =
+            [0, 1, 2, 3, 2, 1].map(|k: u8| Vec3::new(0.1, 0.3, 0.7) * f32::from(k));
+        assert_eq!(cut(&there_and_back), Err(NoInside::Flat), "a line, but for rounding");
+        // Two corners above each other, twice: the plane that fits is that of x and y.
+        let folded =
+            [[0., 0., 0.], [4., 0., 1.], [4., 0., -1.], [4., 4., 0.], [0., 4., 1.], [0., 4., -1.]];
+        assert_eq!(cut(&folded.map(Vec3::from_array)), Err(NoInside::Crossed), "folded");
         let bow = points(&[[0., 0.], [2., 2.], [2., 0.], [0., 3.], [-1., 1.]]);
         assert_eq!(cut(&bow), Err(NoInside::Crossed), "it crosses itself");
+    }
+
+    /// The area of a polygon's triangles, all of which run its way.
+    fn cut_area(corners: &[Vec3]) -> f32 {
+        let triangles = cut(corners).expect("it does not cross itself");
+        let areas = triangles.iter().map(|t| area(&t.map(|corner| corners[corner])));
+        let areas: Vec<f32> = areas.collect();
+        let whole = area(corners);
+        let is_right = |area: &f32| *area != 0.0 && (*area > 0.0) == (whole > 0.0);
+        assert!(areas.iter().all(is_right), "{corners:?}: {areas:?}");
+        areas.iter().sum()
+    }
+
+    /// One place may be there with both zeros, and twice in a row.
+    #[test]
+    fn places_that_are_repeated() {
+        let hole = [[0., 0.], [4., 0.], [4., 4.], [0., 4.], [-0.0, -0.0], [1., 1.], [1., 3.]];
+        let hole = points(&[&hole[..], &[[3., 3.], [3., 1.], [1., 1.]]].concat());
+        assert!((cut_area(&hole) - 12.0).abs() < 1e-4, "a hole, reached from zeros of two signs");
+        let twice =
+            points(&[[0., 0.], [2., 0.], [2., 0.], [3., 2.], [1., 3.], [1., 3.], [-1., 2.]]);
+        let once = points(&[[0., 0.], [2., 0.], [3., 2.], [1., 3.], [-1., 2.]]);
+        assert!((cut_area(&twice) - area(&once)).abs() < 1e-4, "corners in a row");
+    }
+
+    /// Skylines whose corners are as high as the middles of triangles, and their holes' mirror
+    /// images; in the plane of x and y nothing is rounded.
+    #[test]
+    fn skylines_of_whole_numbers() {
+        let mut state = 1u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            3.0 * f32::from(u8::try_from(state >> 28).expect("four bits"))
+        };
+        for _ in 0..200 {
+            let mut skyline = vec![[0., -3.], [63., -3.]];
+            for k in (0..21u8).rev() {
+                let (high, right) = (next(), 3.0 * f32::from(k));
+                skyline.extend([[right + 3.0, high], [right, high]]);
+            }
+            skyline.dedup();
+            let corners: Vec<Vec3> = skyline.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
+            assert!((cut_area(&corners) - area(&corners)).abs() < 1e-2, "{skyline:?}");
+        }
+    }
+
+    /// The size of a polygon does not matter, nor a coordinate that is nearly zero.
+    #[test]
+    fn tiny_and_huge_polygons() {
+        for scale in [1e-12f32, 1e-6, 1e6, 1e12] {
+            let comb =
+                [[0., 0.], [5., 0.], [5., 3.], [4., 1.], [3., 3.], [2., 1.], [1., 3.], [0., 1.]];
+            let corners: Vec<Vec3> = points(&comb).iter().map(|&at| at * scale).collect();
+            let found = cut_area(&corners) / area(&corners);
+            assert!((found - 1.0).abs() < 1e-4, "{scale}: {found}");
+        }
+        let high = [[0., 0.], [1e4, 1e-40], [1e4, 1e4], [5e3, 1.5e4], [0., 1e4]];
+        let corners = high.map(|[x, y]| Vec3::new(x, y, 0.0));
+        assert!((cut_area(&corners) / 1.25e8 - 1.0).abs() < 1e-4, "a coordinate of 1e-40");
     }
 
     /// The polygon of the picture above: the edge between two holes is passed three times.
@@ -408,6 +475,13 @@ mod tests {
                 turned.rotate_left(turn);
                 assert_eq!(QuadShape::of(turned), expected, "{quad:?} from corner {turn}");
             }
+        }
+        // Straight, but for rounding.
+        let (a, c, d) =
+            (Vec3::new(0.1, 0.7, -0.3), Vec3::new(2.3, 1.9, 5.7), Vec3::new(4., -3., 1.));
+        for k in 1..100u8 {
+            let b = a + (c - a) * (f32::from(k) / 100.0);
+            assert_eq!(QuadShape::of([a, b, c, d]), QuadShape::Convex, "straight at {k}");
         }
     }
 }

@@ -71,3 +71,21 @@ fn beginning(json: &Value, room: usize, length: u64) -> io::Result<Vec<u8>> {
     out.extend(b"BIN\0");
     Ok(out)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_length_and_the_next() {
+        let all = u64::from(u32::MAX) - (HEADERS + 4) as u64;
+        let length_of = |length| beginning(&Value::Array(Vec::new()), 4, length);
+        let file = length_of(all).expect("4 GiB less one byte").len();
+        assert_eq!(file, HEADERS + 4, "all before the binary part");
+        let message = length_of(all + 1).expect_err("4 GiB").to_string();
+        assert_eq!(message, "more than 4 GiB, which GLB cannot hold; write .gltf");
+        let long = Value::from("longer than four bytes");
+        let message = beginning(&long, 4, 0).expect_err("no room").to_string();
+        assert_eq!(message, "the JSON is larger than the room kept for it");
+    }
+}

@@ -82,7 +82,9 @@ impl GltfOptions<'_> {
         let images: u64 = images.map(|(_, bytes)| bytes.len() as u64 + 4).sum();
         let wide = totals.vertices > 65535 || self.indices == IndexWidth::Bits32;
         let index = if wide { 4 } else { 2 };
-        totals.vertices * (32 + stride) + totals.indices * index + images
+        // The indices of each part, and the end, are padded to four bytes.
+        let parts = self.parts.map_or(1, |parts| parts.list.len().max(1)) as u64;
+        totals.vertices * (32 + stride) + totals.indices * index + images + 4 * (parts + 1)
     }
 }
 

@@ -119,3 +119,14 @@ fn faces_that_are_turned_over_are_noted() {
     let turned = CUBE.replace("f 1 3 4 2", "f 2 4 3 1");
     has_note(&obj(&turned), "4 edges along which both faces run the same way");
 }
+
+/// Angles above 90 degrees: the normals of a tetrahedron's faces are 109.5 degrees apart.
+#[test]
+fn creases_of_more_than_a_right_angle() {
+    let text = "v 1 1 1\nv 1 -1 -1\nv -1 1 -1\nv -1 -1 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+    for (crease, hard) in [(100.0, 6), (109.0, 6), (110.0, 0), (180.0, 0)] {
+        let options = LoadOptions { crease, ..LoadOptions::default() };
+        let found = obj_with(text, &options).expect("read").model.creases().len();
+        assert_eq!(found, hard, "{crease} degrees");
+    }
+}

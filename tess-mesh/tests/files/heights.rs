@@ -48,3 +48,13 @@ fn no_step_at_the_date_line() {
     let ends = [0.0, 1.0].map(|u| step.sample(Vec2::new(u, 0.5)).0);
     assert_eq!(ends, [0.0, 1.0], "a clamped image has a step there");
 }
+
+/// A surface closes along u only where v goes on.
+#[test]
+fn a_seam_that_turns_is_not_closed() {
+    let text = "s off\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 1\nv 0 -1 1\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 0.5\n\
+        f 1/1 2/2 3/3\nf 1/4 4/2 5/3\n";
+    assert_eq!(obj(text).address, [Address::Clamp; 2], "one place, half the image apart");
+    let closed = text.replace("vt 1 0.5", "vt 1 0");
+    assert_eq!(obj(&closed).address, [Address::Repeat, Address::Clamp], "one place, once around");
+}

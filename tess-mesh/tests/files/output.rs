@@ -4,10 +4,8 @@
 use crate::edges::CUBE;
 use crate::support::{Gltf, floats_of, obj, written};
 use serde_json::{Value, json};
-use std::io;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use tess_mesh::tess_surface::{Address, FactorRule};
-use tess_mesh::write::{Glb, GltfOptions, IndexWidth, Obj, WriteAt};
+use tess_mesh::write::Obj;
 use tess_mesh::{Job, Loaded};
 
 fn obj_of(loaded: &Loaded, factor: f32) -> String {
@@ -167,6 +165,17 @@ fn obj_keeps_names_and_colours() {
     assert!(colors.contains(&vec![0.5, 0.5, 0.0, 1.0]), "{colors:?}");
 }
 
+/// Each object and group of an OBJ file is a node of glTF.
+#[test]
+fn objects_become_nodes() {
+    let text =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\no a\nf 1 2 3\no b\nf 1 3 2\no a\nf 2 3 1\ng c\nf 3 2 1\n";
+    let (document, _) = written(&obj(text), 1.0);
+    let nodes = document["nodes"].as_array().expect("nodes").iter();
+    let names: Vec<&Value> = nodes.map(|node| &node["name"]).collect();
+    assert_eq!(names, [&json!("a"), &json!("b"), &json!("a")], "a, b, and group c of a");
+}
+
 /// A closed smooth surface has as many vertices as a mesh with shared vertices.
 #[test]
 fn vertices_are_shared() {
@@ -191,45 +200,4 @@ fn seams_stay() {
     assert_eq!(count(&obj_of(&obj(text), 3.0), "v "), 32, "two squares of 16");
     let joined = text.replace("f 2/1 5/2 6/3 3/4", "f 2/2 5/1 6/4 3/3");
     assert_eq!(count(&obj_of(&obj(&joined), 3.0), "v "), 28, "four are shared");
-}
-
-/// A disk on which one write fails.
-struct Full {
-    writes: AtomicUsize,
-    failing: usize,
-}
-
-impl WriteAt for Full {
-    fn write_at(&self, _: &[u8], _: u64) -> io::Result<()> {
-        match self.writes.fetch_add(1, Ordering::Relaxed) == self.failing {
-            true => Err(io::Error::other("the disk is full")),
-            false => Ok(()),
-        }
-    }
-}
-
-/// Whichever write fails, the error is told.
-#[test]
-fn write_errors_are_not_lost() {
-    let loaded = rich().loaded();
-    let mut failed = 0;
-    for failing in 0.. {
-        let options = GltfOptions {
-            up: loaded.up,
-            indices: IndexWidth::Auto,
-            parts: Some(&loaded.parts),
-            image_prefix: "",
-        };
-        let mut glb = Glb::new(Full { writes: AtomicUsize::new(0), failing }, options);
-        let job = Job {
-            parts: Some(&loaded.parts),
-            ..Job::new(&loaded.model, FactorRule::Uniform(40.0))
-        };
-        let done = job.run(&mut glb, &mut ()).and_then(|_| glb.finish());
-        let Err(error) = done else { break };
-        assert_eq!(error.to_string(), "the disk is full", "write {failing}");
-        failed += 1;
-    }
-    // Vertices in two parts, indices, the image, the padding, and the header with the JSON.
-    assert_eq!(failed, 6, "every write");
 }

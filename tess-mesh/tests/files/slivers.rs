@@ -100,3 +100,112 @@ fn places_after_repairs() {
         assert!(note.is_some_and(|note| note.contains(&format!("line {line})"))), "{notes:#?}");
     }
 }
+
+/// All ways to cut the row of corners from `first` to `last` into faces without area.
+fn cuts(first: usize, last: usize) -> Vec<Vec<Vec<usize>>> {
+    let mut all = Vec::new();
+    if last - first < 2 {
+        return vec![Vec::new()];
+    }
+    // The face at the edge from the first corner to the last has one or two corners between.
+    for a in first + 1..last {
+        for (before, after) in pairs(&cuts(first, a), &cuts(a, last)) {
+            all.push([vec![vec![first, a, last]], before, after].concat());
+        }
+        for b in a + 1..last {
+            for (before, rest) in pairs(&cuts(first, a), &cuts(a, b)) {
+                for after in cuts(b, last) {
+                    let rest = [before.clone(), rest.clone(), after].concat();
+                    all.push([vec![vec![first, a, b, last]], rest].concat());
+                }
+            }
+        }
+    }
+    all
+}
+
+fn pairs<T: Clone>(one: &[T], other: &[T]) -> Vec<(T, T)> {
+    one.iter().flat_map(|a| other.iter().map(|b| (a.clone(), b.clone()))).collect()
+}
+
+/// A box with three corners in one edge, of which one of the edge's faces knows nothing: the faces
+/// between have no area. However these are cut and turned, and in whichever order they come, the box
+/// stays closed, and texture coordinates stay with their places.
+#[test]
+fn every_row_of_slivers() {
+    // The top face of the cube has the corners 9, 10 and 11 on its edge 5-6.
+    let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n\
+        v 0.25 0 1\nv 0.5 0 1\nv 0.75 0 1\n";
+    let row = [5, 9, 10, 11, 6];
+    let top = [[5, 9, 7], [9, 10, 7], [10, 11, 8], [11, 6, 8], [10, 8, 7]];
+    let sides = [[1, 3, 4, 2], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]];
+    let all = cuts(0, 4);
+    assert_eq!(all.len(), 10, "five of triangles, five with a quad");
+    for (number, cut) in all.iter().enumerate() {
+        for turn in 0..8 {
+            let slivers = cut.iter().map(|sliver| {
+                let mut sliver: Vec<usize> = sliver.iter().map(|&at| row[at]).collect();
+                let count = sliver.len();
+                sliver.rotate_left((turn + number) % count);
+                if turn % 2 == 1 {
+                    sliver.reverse();
+                }
+                sliver
+            });
+            let whole = top.iter().map(|f| f.to_vec()).chain(sides.iter().map(|f| f.to_vec()));
+            let mut faces: Vec<Vec<usize>> = whole.chain(slivers).collect();
+            match turn / 2 {
+                0 => {}
+                1 => faces.reverse(),
+                2 => faces[10..].reverse(),
+                _ => faces.rotate_right(3),
+            }
+            stays_closed(points, &faces);
+        }
+    }
+}
+
+fn stays_closed(points: &str, faces: &[Vec<usize>]) {
+    let corner = |at: &usize| format!(" {at}/{at}");
+    let lines =
+        faces.iter().map(|face| format!("f{}\n", face.iter().map(corner).collect::<String>()));
+    let coordinates = points.replace("v ", "vt ");
+    let text = format!("s off\n{points}{coordinates}{}", lines.collect::<String>());
+    let loaded = obj(&text);
+    let triangles = tessellated(&loaded, 3.0);
+    assert_eq!(triangles.open_edges(), 0, "{text}");
+    assert!((triangles.volume() - 1.0).abs() < 1e-5, "{text}: {}", triangles.volume());
+    let mesh = loaded.model.mesh().expect("polygons");
+    for face in &mesh.faces {
+        let places = mesh.corners(face);
+        let texcoords = face.texcoords.expect("they stay").map(|at| mesh.texcoords[at as usize]);
+        for (place, texcoord) in places.as_slice().iter().zip(texcoords.as_slice()) {
+            assert!(texcoord.distance(place.truncate()) < 1e-6, "{place}: {texcoord}: {text}");
+        }
+    }
+}
+
+/// A quad with two corners in one place becomes a triangle with the values that it has.
+#[test]
+fn quads_that_become_triangles() {
+    let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0.6 0.8\n";
+    for face in ["1 1 2 3", "1 2 2 3", "1 2 3 3", "1 2 3 1"] {
+        let corners = face.split(' ').map(|at| format!(" {at}/{at}/1")).collect::<String>();
+        let loaded = obj(&format!("{points}f{corners}\n"));
+        has_note(&loaded, "1 quad with corners in the same place: made triangles");
+        let mesh = loaded.model.mesh().expect("polygons");
+        let [face] = &mesh.faces[..] else { panic!("one face") };
+        assert_eq!(face.normals.map(|at| at.as_slice().to_vec()), Some(vec![0; 3]), "its normal");
+        let texcoords = face.texcoords.expect("it has some");
+        assert_eq!(texcoords, face.positions, "its texture coordinates");
+    }
+}
+
+/// A normal of zero is no normal.
+#[test]
+fn normals_that_are_none() {
+    for normal in ["0 0 0", "nan 0 1", "inf 0 0"] {
+        let loaded = obj(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn {normal}\nf 1//1 2//1 3//1\n"));
+        has_note(&loaded, "1 face with a normal that is zero, NaN or infinite");
+    }
+}

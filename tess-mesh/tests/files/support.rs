@@ -184,6 +184,21 @@ impl WriteAt for Memory {
     }
 }
 
+impl Memory {
+    /// The document and the binary part of a GLB file.
+    pub(crate) fn glb(self) -> (Value, Vec<u8>) {
+        let file = self.0.into_inner().expect("no thread panics");
+        let word = |at: usize| {
+            u32::from_le_bytes(file[at..at + 4].try_into().expect("four bytes")) as usize
+        };
+        assert_eq!(word(8), file.len(), "the length in the header");
+        let end = 20 + word(12);
+        assert_eq!(word(end), file.len() - end - 8, "the length of the binary part");
+        let document = serde_json::from_slice(&file[20..end]).expect("JSON");
+        (document, file[end + 8..].to_vec())
+    }
+}
+
 /// An empty folder for a test.
 pub(crate) fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -204,13 +219,7 @@ pub(crate) fn written(loaded: &Loaded, factor: f32) -> (Value, Vec<u8>) {
     let job =
         Job { parts: Some(&loaded.parts), ..Job::new(&loaded.model, FactorRule::Uniform(factor)) };
     job.run(&mut glb, &mut ()).expect("it is written");
-    let file = glb.finish().expect("it is whole").0.into_inner().expect("no thread panics");
-    let word =
-        |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().expect("four bytes")) as usize;
-    assert_eq!(word(8), file.len(), "the length in the header");
-    let end = 20 + word(12);
-    let document = serde_json::from_slice(&file[20..end]).expect("JSON");
-    (document, file[end + 8..].to_vec())
+    glb.finish().expect("it is whole").glb()
 }
 
 /// The numbers of an accessor of floats.
@@ -227,4 +236,20 @@ pub(crate) fn floats_of(document: &Value, bytes: &[u8], accessor: &Value) -> Vec
         words.iter().map(|&word| f32::from_le_bytes(word)).collect()
     };
     (0..number(&accessor["count"])).map(element).collect()
+}
+
+/// The numbers of an accessor of indices.
+pub(crate) fn numbers_of(document: &Value, bytes: &[u8], accessor: &Value) -> Vec<usize> {
+    let number = |value: &Value| value.as_u64().expect("a number") as usize;
+    let accessor = &document["accessors"][number(accessor)];
+    let view = &document["bufferViews"][number(&accessor["bufferView"])];
+    let size = if accessor["componentType"] == 5123 { 2 } else { 4 };
+    let start = number(&view["byteOffset"]);
+    assert!(start.is_multiple_of(4), "aligned: {view}");
+    let own = &bytes[start..start + number(&view["byteLength"])];
+    assert_eq!(own.len(), size * number(&accessor["count"]), "as long as its view: {view}");
+    let elements = own.chunks_exact(size);
+    elements
+        .map(|bytes| bytes.iter().rev().fold(0, |n, &byte| n << 8 | usize::from(byte)))
+        .collect()
 }

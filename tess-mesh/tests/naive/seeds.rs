@@ -135,7 +135,7 @@ fn floats(numbers: &[f32]) -> Vec<u8> {
 #[allow(clippy::too_many_lines, reason = "a table of files; fuzz targets have no such limit")]
 pub(crate) fn gltf() -> Vec<Vec<u8>> {
     let bytes = [0u8, 1, 2, 0, 2, 3];
-    let shorts: Vec<u8> = bytes.iter().flat_map(|&byte| [byte, 0]).collect();
+    let narrow: Vec<u8> = bytes.iter().flat_map(|&byte| [byte, 0]).collect();
     let words: Vec<u8> = bytes.iter().flat_map(|&byte| [byte, 0, 0, 0]).collect();
     let small = || Builder::new().indices(&bytes, 5121, 1);
     let normals = |b: &mut Builder| {
@@ -209,6 +209,36 @@ pub(crate) fn gltf() -> Vec<Vec<u8>> {
         b.attribute("JOINTS_1", joints);
         b.attribute("WEIGHTS_1", weights);
     };
+    // The second joint mirrors: it turns the triangles that begin at a vertex of it inside out. The
+    // third is not there, and moves nothing.
+    let mirrored = |b: &mut Builder| {
+        let joints = b.accessor(&[0, 7, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0], 5121, "VEC4", 4);
+        let weights = b.accessor(&floats(&[1.0, 0.0, 0.0, 0.0].repeat(4)), 5126, "VEC4", 4);
+        b.attribute("JOINTS_0", joints);
+        b.attribute("WEIGHTS_0", weights);
+        let indices = b.accessor(&[0, 1, 2, 2, 1, 0], 5121, "SCALAR", 6);
+        b.document["meshes"][0]["primitives"][0]["indices"] = json!(indices);
+        b.document["skins"] = json!([{"joints": [1, 2]}, {"joints": [2, 1]}]);
+        b.document["nodes"] = json!([
+            {"mesh": 0, "skin": 0, "children": [3]}, {"translation": [1, 2, 3]},
+            {"scale": [1, -1, 1]}, {"mesh": 0, "skin": 1},
+        ]);
+        b.document["scenes"] = json!([{"nodes": [0, 1, 2]}]);
+    };
+    // Weights of a node are stronger than those of its mesh.
+    let own_weights = |b: &mut Builder| b.document["nodes"][0]["weights"] = json!([2, -1]);
+    let shorts = |b: &mut Builder| {
+        let data: Vec<u8> = [1i16, -2, 32767, 0, -32768, 300, -5, 0, 7, 8, -9, 0, 1, 1, 1, 0]
+            .iter()
+            .flat_map(|number| number.to_le_bytes())
+            .collect();
+        let number = b.accessor(&data, 5122, "VEC3", 4);
+        let view = b.document["accessors"][number]["bufferView"].as_u64().unwrap_or(0) as usize;
+        b.document["bufferViews"][view]["byteStride"] = json!(8);
+        b.document["accessors"][number]["normalized"] = json!(true);
+        b.document["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+        b.attribute("NORMAL", number);
+    };
     let sparse_offsets = small().with(|b| {
         let indices = b.view(&[9, 9, 1, 0, 3, 0]);
         let values = [&[0xFF; 4][..], &floats(&[9.0, 8.0, 7.0, 6.0, 5.0, 4.0])].concat();
@@ -260,7 +290,7 @@ pub(crate) fn gltf() -> Vec<Vec<u8>> {
     });
     vec![
         small().text(),
-        Builder::new().indices(&shorts, 5123, 2).with(normals).text(),
+        Builder::new().indices(&narrow, 5123, 2).with(normals).text(),
         Builder::new().indices(&words, 5125, 4).with(normals).binary(),
         small()
             .with(|b| {
@@ -284,6 +314,9 @@ pub(crate) fn gltf() -> Vec<Vec<u8>> {
         small().with(normals).with(moved).text(),
         small().with(normals).with(moved).with(skinned).text(),
         small().with(normals).with(skinned).with(skinned_twice).text(),
+        small().with(mirrored).text(),
+        small().with(normals).with(moved).with(own_weights).text(),
+        small().with(shorts).text(),
         sparse_offsets.text(),
         modes(5).text(),
         modes(6).binary(),
