@@ -9,7 +9,7 @@ use tess_core::{
     Config, Domain, DomainPoint, MAX_INDICES, MAX_POINTS, OutputPrimitive, Partitioning, Patch,
     PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
-use tess_simd::{ExactOutput, Level, Numbering, OwnedBatch, Tessellator};
+use tess_simd::{Batch, ExactOutput, Level, Numbering, OwnedBatch, Tessellator};
 
 fn levels() -> impl Iterator<Item = Level> {
     Level::ALL.into_iter().filter(|level| level.is_available())
@@ -47,7 +47,7 @@ fn one_by_one(domain: Domain, base: f32) -> Vec<PatchFactors> {
 /// and of a large one.
 const BASES: [f32; 5] = [1.0, 2.0, 3.5, 17.0, 40.0];
 
-/// Checks one call for each patch, and one batch of all.
+/// Checks one call for each patch, and a batch of all in each form of a batch.
 fn check(config: Config, level: Level, patches: &[PatchFactors]) {
     let mut tessellator = Tessellator::with_level(config, level).expect("an available level");
     let mut points = vec![DomainPoint::default(); MAX_POINTS];
@@ -60,19 +60,28 @@ fn check(config: Config, level: Level, patches: &[PatchFactors]) {
         assert!(equal, "{level}, {config:?}: a call with {patch:?}");
     }
     let batch = OwnedBatch::try_from(patches).expect("patches of one domain");
-    let mut output = ExactOutput::new();
-    let written = tessellator.tessellate(batch.batch(), Numbering::PerPatch, &mut output);
-    written.expect("the output is no larger than memory");
-    let (mut points, mut indices) = (output.points(), output.indices());
-    for (number, expected) in all.iter().enumerate() {
-        let own =
-            (points.split_at(expected.points.len()), indices.split_at(expected.indices.len()));
-        let ((own_points, more_points), (own_indices, more_indices)) = own;
-        let equal = (own_points, own_indices) == (&expected.points[..], &expected.indices[..]);
-        assert!(equal, "{level}, {config:?}: patch {number} of a batch, {:?}", patches[number]);
-        (points, indices) = (more_points, more_indices);
+    let domain = patches[0].domain();
+    let column = |place| -> Vec<f32> {
+        patches.iter().filter_map(|patch| patch.iter().nth(place)).collect()
+    };
+    let columns: Vec<Vec<f32>> = (0..domain.factors()).map(column).collect();
+    let columns = PatchFactors::from_fn(domain, |place| &columns[place][..]);
+    for batch in [batch.batch(), Batch::from(patches), Batch::from(columns)] {
+        let mut output = ExactOutput::new();
+        let written = tessellator.tessellate(batch, Numbering::PerPatch, &mut output);
+        written.expect("the output is no larger than memory");
+        let of = format!("{level}, {config:?}");
+        let (mut points, mut indices) = (output.points(), output.indices());
+        for (number, expected) in all.iter().enumerate() {
+            let own;
+            (own, points) = points.split_at(expected.points.len());
+            assert_eq!(own, expected.points, "{of}: patch {number}, {:?}", patches[number]);
+            let own;
+            (own, indices) = indices.split_at(expected.indices.len());
+            assert_eq!(own, expected.indices, "{of}: patch {number}, {:?}", patches[number]);
+        }
+        assert!(points.is_empty() && indices.is_empty(), "{of}: more output");
     }
-    assert!(points.is_empty() && indices.is_empty(), "{level}, {config:?}: more output");
 }
 
 #[test]
