@@ -215,15 +215,15 @@ fn a_material_is_made_between_groups_and_their_frame() {
             Use { stage },
             Give { seed: 4, is_dropped: false },
             MakeRoom { count: 8 },
-            // Patches 0, 1, 2, 3 to 5, and the rest: the second instance of each but the last has a
-            // place in the lower row.
+            // Patches 0, 1, 2, 3 to 5, and the rest: the second instance of each but the last is in
+            // the lower row.
             Group { groups: 5 },
             StageCall::Paint { shows_factors: true },
             StageCall::Repeat { instances: 2 },
             frame(Draw::OneByAnother(2)),
             Again { draw: Draw::One(1) },
             Again { draw: Draw::Everything },
-            // Factors that need more room, and other groups: each replaces an output that was drawn.
+            // Factors that need more room, and other groups: both replace a drawn output.
             Give { seed: 7, is_dropped: false },
             frame(Draw::ByAnother),
             frame(Draw::ByAnother),
