@@ -130,8 +130,7 @@ fn pairs<T: Clone>(one: &[T], other: &[T]) -> Vec<(T, T)> {
 
 /// A box with three corners in one edge, of which one of the edge's faces knows nothing: the faces
 /// between have no area. However these are cut and turned, and in whichever order they come, the
-/// box
-/// stays closed, and texture coordinates stay with their places.
+/// box stays closed, and texture coordinates stay with their places.
 #[test]
 fn every_row_of_slivers() {
     // The top face of the cube has the corners 9, 10 and 11 on its edge 5-6.

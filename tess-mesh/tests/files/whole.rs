@@ -305,17 +305,17 @@ impl Write for &Full {
     }
 }
 
-/// Has every operation fail once, and checks that each error is told.
-fn each_error_is_told(write: impl Fn(&Full) -> io::Result<()>) {
+/// Has every operation fail once, and checks that each error is told. Returns their number.
+fn each_error_is_told(write: impl Fn(&Full) -> io::Result<()>) -> usize {
     let all = Full { failing: usize::MAX, ..Full::default() };
     write(&all).expect("nothing fails");
-    let count = all.done.into_inner();
-    assert!(count > 3, "{count} operations");
-    for failing in 0..count {
+    let operations = all.done.into_inner();
+    for failing in 0..operations {
         let told = write(&Full { failing, ..Full::default() });
         let message = told.map_err(|error| error.to_string());
-        assert_eq!(message, Err("the disk is full".to_owned()), "operation {failing} of {count}");
+        assert_eq!(message, Err("the disk is full".to_owned()), "operation {failing}");
     }
+    operations
 }
 
 #[test]
@@ -323,18 +323,20 @@ fn write_errors_of_every_format_are_told() {
     let text = "mtllib a.mtl\no a\ng b\nusemtl c\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvt 0 0\n\
         f 1/1 2/1 3/1\no d\nf 1 3 2\n";
     let loaded = obj(text);
-    each_error_is_told(|full| {
+    let lines = each_error_is_told(|full| {
         let mut obj = Obj::new(full).with_parts(&loaded.parts, "");
         job(&loaded, 1.0).run(&mut obj, &mut ())?;
         obj.finish().map(drop)
     });
-    each_error_is_told(|full| {
+    assert!(lines > 12, "{lines} operations: each line takes one");
+    let pieces = each_error_is_told(|full| {
         let options = options(&loaded, IndexWidth::Auto);
         let uri = "a.bin".to_owned();
         let mut gltf = tess_mesh::write::Gltf::new(full, full, uri, options);
         job(&loaded, 1.0).run(&mut gltf, &mut ())?;
         gltf.finish().map(drop)
     });
+    assert!(pieces > 3, "{pieces} operations: of the binary file, and of the JSON");
     // With an image, and vertices in several pieces.
     let mut image = Gltf::triangle();
     image.primitive()["material"] = json!(0);
@@ -344,9 +346,11 @@ fn write_errors_of_every_format_are_told() {
     let view = image.view(b"no PNG");
     image.document["images"] = json!([{"bufferView": view, "mimeType": "image/png"}]);
     let image = image.loaded();
-    each_error_is_told(|full| {
+    let image_pieces = each_error_is_told(|full| {
         let mut glb = Glb::new(full, options(&image, IndexWidth::Auto));
         job(&image, 60.0).run(&mut glb, &mut ())?;
         glb.finish().map(drop)
     });
+    // Vertices in two parts, indices, the image, the padding, and the header with the JSON.
+    assert_eq!(image_pieces, 6, "operations of a GLB file");
 }
