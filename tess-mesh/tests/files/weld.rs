@@ -189,6 +189,18 @@ fn values_are_linear((document, bytes): &(Value, Vec<u8>), place: Space, seed: u
     }
 }
 
+/// A corner 0.09 beside a long edge splits it. One of the halves is then within reach of another
+/// corner, which was 0.13 beside the whole edge.
+#[test]
+fn edges_that_a_split_brings_near() {
+    let text = "v 0 0 0\nv 2 -2 0\nv 4 0 0\nv 1 0.13 0\nv 2 0.09 0\nv 0.5 2 0\nv 1.5 2 0\nv 3 2 0\n\
+        f 1 2 3\nf 1 4 6\nf 4 5 7\nf 5 3 8\n";
+    let loaded = welded(text, Some(0.1));
+    has_note(&loaded, "1 corner on another face's edge: the edge is split there");
+    // The long edge is three now, each with a neighbour; two edges of each triangle have none.
+    assert_eq!(tessellated(&loaded, 1.0).open_edges(), 8, "{:?}", loaded.notes);
+}
+
 /// A new corner's normal is between those of the ends, whatever their lengths.
 #[test]
 fn normals_of_new_corners() {
