@@ -3,7 +3,7 @@
 
 use super::{budgets, sources};
 use crate::command::{self, in_file, target, workspace};
-use crate::{satellites, setup};
+use crate::{digest, setup};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -90,7 +90,7 @@ fn documentation() -> Result<String, String> {
 
 /// What is wrong if docs/rtl.md has figures of other files or tools.
 fn stale() -> Result<Option<String>, String> {
-    let digest = satellites::digest_of(&PLACED.map(str::to_owned))?;
+    let digest = digest::of_files(&PLACED.map(str::to_owned))?;
     let text = documentation()?;
     let version = |tool: &str| tool.split("==").nth(1).unwrap_or_default().to_owned();
     let parts = [format!("| design `{}` |", &digest[..12]), version(TOOLS[0]), version(TOOLS[1])];
