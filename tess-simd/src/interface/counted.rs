@@ -18,6 +18,7 @@ use crate::threads::Workspaces;
 use crate::threads::part::{Job, Part};
 use crate::threads::sizes::Slicing;
 use crate::threads::slices::Share;
+use tess_core::PatchFactors;
 use tess_level::Level;
 
 /// A counted batch, made by [`Tessellator::count`](crate::Tessellator::count). It can be written
@@ -51,6 +52,8 @@ pub struct Counted<'a> {
     pub(super) total: PartCounts,
     /// The packets of the whole batch, if they were kept.
     pub(super) kept: Option<&'a [Packet; Chunk::PACKETS]>,
+    /// The patch, if there is only one.
+    pub(super) one: Option<PatchFactors>,
 }
 
 impl<'a> Counted<'a> {
@@ -150,10 +153,17 @@ impl<'a> Counted<'a> {
         self.check_indices::<I>(numbering)?;
         let counts = self.counts();
         let ranges = ranges.map(|ranges| first(ranges, BatchBuffer::Ranges, counts.patches, 0));
-        let ranges = Ranges::new(ranges.transpose()?);
+        let mut ranges = Ranges::new(ranges.transpose()?);
         let points = points.first(counts.points, 0)?;
         let indices = first(indices, BatchBuffer::Indices, counts.indices, 0)?;
-        let Self { level, settings, batch, slicing, slices, kept, .. } = *self;
+        let Self { level, settings, batch, slicing, slices, kept, one, .. } = *self;
+        if let Some(patch) = &one {
+            let (how, workspace) = ((level, settings), self.workspaces.one());
+            let of = workspace.emit_counted(how, (numbering, patch), points, indices)?;
+            let range = PatchRange { points: of.points, indices: of.indices, ..Default::default() };
+            ranges.next_or(&mut [PatchRange::default()])[0] = range;
+            return Ok(counts);
+        }
         let first = Offsets::default();
         let part = Part { batch, points, indices, ranges, first, run: slices[0].run };
         let share = Share { part, slice: slicing.patches, counts: slices };

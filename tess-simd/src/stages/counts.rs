@@ -23,6 +23,13 @@ pub(crate) struct PartCounts {
     pub(crate) run: usize,
 }
 
+impl From<Counts> for PartCounts {
+    /// The counts of a part of one patch.
+    fn from(Counts { points, indices, .. }: Counts) -> Self {
+        Self { points: points.into(), indices: indices.into(), largest: points, run: 1 }
+    }
+}
+
 impl PartCounts {
     /// The counts of all parts together.
     pub(crate) fn sum(parts: &[Self]) -> Self {

@@ -134,15 +134,48 @@ impl Workspace {
             return Ok(counts);
         }
         // Too little room, culled, or not compact. Nothing was written yet.
-        let mut points = points.first(counts.points as usize, MORE)?;
+        let points = points.first(counts.points as usize, MORE)?;
         let indices = first(indices, BatchBuffer::Indices, counts.indices as usize, MORE)?;
-        if counts.points != 0 {
-            let (first, numbering) = (Offsets::default(), Numbering::PerPatch);
-            let (packets, ranges) = (from_ref(one.packet()), &mut [PatchRange::default()]);
-            let packets = Packets { packets, first, numbering, ranges };
-            levels::emit(level, settings, packets, (points.writer(), indices), caches, lookup);
-        }
+        self.emit_kept((level, settings), Numbering::PerPatch, points, indices);
         Ok(counts)
+    }
+
+    /// Writes a batch of one patch, which [`Self::count_one`] has just counted, into buffers of
+    /// exactly its size.
+    ///
+    /// # Errors
+    /// None if the buffers have that size.
+    pub(crate) fn emit_counted<I: IndexFormat>(
+        &mut self,
+        how: (Level, &Settings),
+        (numbering, factors): (Numbering, &PatchFactors),
+        points: impl PointRoom,
+        indices: &mut [I],
+    ) -> Result<Counts, Error> {
+        // The kernel of one patch has no base vertex: calls for one patch number from 0.
+        if numbering.base(0) == 0 {
+            return self.emit_one::<I, 0>(how, factors, points, indices);
+        }
+        self.emit_kept(how, numbering, points, indices);
+        Ok(self.memory().one.counts())
+    }
+
+    /// Writes the patch that went through the front end last, with the kernel of batches. The
+    /// buffers have room for it.
+    fn emit_kept<I: IndexFormat>(
+        &mut self,
+        (level, settings): (Level, &Settings),
+        numbering: Numbering,
+        mut points: impl PointRoom,
+        indices: &mut [I],
+    ) {
+        let WorkspaceMemory { one, lookup, caches, .. } = self.memory();
+        if one.counts().points == 0 {
+            return;
+        }
+        let (first, ranges) = (Offsets::default(), &mut [PatchRange::default()]);
+        let packets = Packets { packets: from_ref(one.packet()), first, numbering, ranges };
+        levels::emit(level, settings, packets, (points.writer(), indices), caches, lookup);
     }
 }
 
