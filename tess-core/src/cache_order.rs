@@ -121,22 +121,40 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
     /// the specification's order and are not sent.
     pub fn runs(&self, mut emit: impl FnMut(Range<u32>)) {
         let firsts = self.firsts();
-        for (edge, sector) in self.sectors.iter().enumerate() {
-            // The border at which each ring's part of the column before ended.
-            let mut borders = [0; MAX_RINGS];
-            for column in 1..=sector.columns() {
-                for ((ring, firsts), begin) in (1..sector.end).zip(&firsts).zip(&mut borders) {
-                    let end = sector.border(ring, column);
-                    // A ring begins one cell further from the corner than the one outside of it, so
-                    // the rings further in have no triangles in this column either.
-                    if *begin == end {
-                        break;
-                    }
-                    emit(firsts[edge] + *begin..firsts[edge] + end);
-                    *begin = end;
+        for edge in 0..EDGES {
+            for column in self.columns(edge) {
+                for (ring, steps) in self.column(edge, column) {
+                    let first = firsts[ring as usize - 1][edge];
+                    emit(first + steps.start..first + steps.end);
                 }
             }
         }
+    }
+
+    /// The columns along an outer edge. The whole order is edge by edge, column by column.
+    ///
+    /// # Panics
+    /// If `edge` is not below `EDGES`.
+    #[inline(always)]
+    #[must_use]
+    pub const fn columns(&self, edge: usize) -> Range<u32> {
+        0..self.sectors[edge].columns()
+    }
+
+    /// The triangles of a column along an outer edge, in this order: for each ring, 1 first, the
+    /// steps of its stitch that the column has. No range is empty.
+    ///
+    /// # Panics
+    /// If `edge` is not below `EDGES`.
+    #[inline(always)]
+    pub fn column(&self, edge: usize, column: u32) -> impl Iterator<Item = (u32, Range<u32>)> {
+        let sector = self.sectors[edge];
+        let steps = move |ring| sector.border(ring, column)..sector.border(ring, column + 1);
+        // A ring begins one cell further from the corner than the one outside of it, so if a ring
+        // has no triangles in this column, the rings further in have none either.
+        (1..sector.end)
+            .map(move |ring| (ring, steps(ring)))
+            .take_while(|(_, steps)| !steps.is_empty())
     }
 
     /// The number of each stitch's first triangle in the specification's order, which goes ring by
@@ -175,6 +193,7 @@ impl Sector {
     /// ring `k` begins `k` cells from the corner. A ring stitch has two triangles per cell after
     /// its first triangle. The number of a transition's triangles depends on its outer edge, so it
     /// is cut in proportion.
+    #[inline(always)]
     fn border(&self, ring: u32, column: u32) -> u32 {
         let regular = (2 * COLUMN * column + 1).saturating_sub(2 * ring);
         if ring > 1 {

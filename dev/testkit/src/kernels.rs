@@ -131,7 +131,7 @@ pub const TABLE: &[Entry] = &[
     patches("stages/connect/triangle", K::ConnectU32, &[Triangle], Regular, the::indices_u32),
     patches("stages/connect/quad", K::ConnectU32, &[Quad], Regular, the::indices_u32),
     patches("stages/connect, u16", K::ConnectU16, ALL, Regular, the::indices_u16),
-    patches("stages/connect/cache_order", K::CacheOrder, DISCS, Regular, the::cache_order)
+    patches("stages/connect/rings, columns", K::ConnectInColumns, DISCS, Regular, the::indices_u32)
         .triangles(),
     patches("stages/points/coordinate_code", K::Codes, DISCS, CompactRegular, the::points).points(),
     patches("stages/template, compact", K::CompactTemplate, DISCS, Compact, the::templates),
@@ -238,7 +238,7 @@ impl Entry {
                 config = kind.config(config);
                 patches = kind.draw(&mut draw, config);
                 let in_any_order = !matches!(self.kernel, Kernel::ConnectU16 | Kernel::ConnectU32);
-                if self.kernel == Kernel::CacheOrder || in_any_order && draw.below(3) == 0 {
+                if self.kernel == Kernel::ConnectInColumns || in_any_order && draw.below(3) == 0 {
                     order = Order::VertexCache;
                 }
             }

@@ -12,7 +12,7 @@
 //! compact, fractional  template: codes, CompactPoints      template: u8 + base
 //! up to 289 points, or equal in topology to the previous large patch:
 //!                      template if integer, else stages    template: u16 + base
-//! larger               stages/points                       stages/connect, cache_order
+//! larger               stages/points                       stages/connect
 //! ```
 //!
 //! ```text
@@ -59,11 +59,11 @@ use crate::data::lanes::LANES;
 use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointWriter;
 use crate::data::writer::Writer;
-use crate::stages::connect::{self, cache_order};
+use crate::stages::connect;
 use crate::stages::packet::{OnePatch, Packet, PacketPatch, RawPair};
 use crate::stages::points::{self, CompactPoints, LocationTables};
 use crate::stages::settings::Settings;
-use crate::stages::template::{CompactPoint, Start, Template, Templates, long};
+use crate::stages::template::{CompactPoint, Start, Template, Templates, long, long_by_comparison};
 use tess_core::{Domain, DomainPoint};
 
 /// Packets to write.
@@ -270,7 +270,7 @@ fn integer_points<W: PointWriter, M: CompactPoints<W>>(
 ) {
     let length = patch.points() as usize;
     if M::LONG_BLOCKS {
-        out.map_least::<_, 24, 24>(length, points, long);
+        out.map_least::<_, 24, 24>(length, points, long_by_comparison);
     } else {
         out.map_least::<_, 8, 24>(length, points, long);
     }
@@ -307,12 +307,7 @@ fn emit_patch<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     let add = |index: u16| add.wrapping_add(I::wrapping_from(index.into()));
     let Some(template) = templates.other(patch, (settings, tables)) else {
         points::emit(patch, tables, &mut out.points);
-        if cache_order::reorders(settings, patch) {
-            let (specified, runs) = templates.specified(settings, patch);
-            cache_order::emit(runs, specified, &mut out.indices, add);
-        } else {
-            connect::emit(settings, patch, base, &mut out.indices);
-        }
+        connect::emit(settings, patch, base, &mut out.indices);
         return;
     };
     if patch.integer() {

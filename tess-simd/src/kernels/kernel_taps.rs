@@ -12,7 +12,6 @@ pub(crate) use writers::{of_indices, of_points};
 
 use crate::data::lanes::{Column, LANES};
 use crate::data::output::PatchRange;
-use crate::stages::connect::cache_order::Run;
 use crate::stages::counts::PacketCounts;
 use crate::stages::factors::Processed;
 use crate::stages::packet::{Packet, PacketPatch, ROWS};
@@ -65,7 +64,7 @@ kernels!(
     RowsU32,
     ConnectU16,
     ConnectU32,
-    CacheOrder,
+    ConnectInColumns,
     Float,
     WritePoints,
     WriteIndices,
@@ -119,9 +118,6 @@ pub(crate) struct TapOutput {
     pub(crate) tables: LocationTables,
     pub(crate) templates: Templates,
     pub(crate) lookup: Lookup,
-    /// The numbers 0, 1, 2 and so on: indices that equal their places.
-    pub(crate) places: Vec<u16>,
-    pub(crate) runs: Vec<Run>,
 }
 
 impl TapOutput {
@@ -142,8 +138,6 @@ impl TapOutput {
             tables: LocationTables::EMPTY,
             templates: Templates::new(),
             lookup: Lookup::new(),
-            places: (0..25_000).collect(),
-            runs: Vec::new(),
         }
     }
 }

@@ -2,7 +2,6 @@
 //!
 //! Vertex indices are modulo 2^32: the one after the largest is 0 instead of an overflow.
 
-pub(crate) mod cache_order;
 mod quad;
 mod rings;
 mod triangle;
@@ -16,7 +15,8 @@ use tess_core::{Domain, OutputPrimitive};
 /// Indices written at a time.
 const INDICES_AT_ONCE: usize = 16;
 
-/// Emits the indices of a regular patch whose first point is number `base`.
+/// Emits the indices of a regular patch whose first point is number `base`, triangles in the order
+/// of the settings.
 #[inline(always)]
 pub(crate) fn emit<I: IndexFormat>(
     settings: &Settings,
@@ -24,7 +24,8 @@ pub(crate) fn emit<I: IndexFormat>(
     base: u32,
     out: &mut Writer<'_, I>,
 ) {
-    let Settings { config, stitches, .. } = settings;
+    let Settings { config, order, stitches } = settings;
+    let how = (&**stitches, *order);
     let edges = &patch.edges();
     match (patch.domain(), config.output) {
         (_, OutputPrimitive::Point) => sequence(base, patch.points(), out),
@@ -35,8 +36,8 @@ pub(crate) fn emit<I: IndexFormat>(
             }
         }
         (_, OutputPrimitive::Line) => chain(base, patch.points(), out),
-        (Domain::Triangle, output) => triangle::emit(edges, stitches, base, output, out),
-        (Domain::Quad, _) => quad::emit(edges, stitches, base, out),
+        (Domain::Triangle, output) => triangle::emit(edges, how, base, output, out),
+        (Domain::Quad, _) => quad::emit(edges, how, base, out),
     }
 }
 

@@ -9,8 +9,7 @@ mod shared;
 mod step_code;
 mod tables;
 
-#[cfg(all(feature = "taps", feature = "apart"))]
-pub(crate) use rows::Codes;
-pub(crate) use rows::{Replaced, Rows};
+pub(crate) use rows::{Codes, Replaced, Rows};
 pub(crate) use shared::SharedStitches;
+pub(crate) use step_code::CODES_AT_ONCE;
 pub(crate) use tables::Stitches;

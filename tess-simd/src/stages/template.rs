@@ -79,12 +79,12 @@ use crate::data::format::OutputPoint;
 use crate::data::lanes::LANES;
 use crate::data::writer::Writer;
 use crate::stages::connect;
-use crate::stages::connect::cache_order::{self, Run};
 use crate::stages::packet::{COMPACT_EDGE, PacketPatch, SMALL_TOPOLOGIES};
 use crate::stages::points::{self, LocationTables, corner};
 use crate::stages::settings::Settings;
 use alloc::vec::Vec;
 use cache::{Cache, INDEX_STEP};
+use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, MAX_INDICES, MAX_POINTS, Patch, PatchFactors};
 
 /// The most points and indices of a compact patch: those of a quad with [`COMPACT_EDGE`] points
@@ -114,10 +114,7 @@ pub(crate) struct Templates {
 #[derive(Clone, Debug)]
 struct MadePatch {
     points: Vec<DomainPoint>,
-    /// In the specification's order.
     indices: Vec<u16>,
-    /// The order of a patch that has no template.
-    runs: Vec<Run>,
 }
 
 /// A point of a compact template: its coordinates if factors are integers ([`short`]), otherwise
@@ -133,7 +130,7 @@ type Making<'a> = (&'a Settings, &'a mut LocationTables);
 impl Templates {
     /// No templates, and no memory for any.
     pub(crate) const fn new() -> Self {
-        let made = MadePatch { points: Vec::new(), indices: Vec::new(), runs: Vec::new() };
+        let made = MadePatch { points: Vec::new(), indices: Vec::new() };
         Self { compact: Cache::new(), small: Vec::new(), others: Cache::new(), last_large: 0, made }
     }
 
@@ -149,7 +146,6 @@ impl Templates {
         self.make_small();
         self.others.reserve();
         self.made.make_room(MAX_POINTS, MAX_INDICES);
-        cache_order::make_room(&mut self.made.runs);
     }
 
     /// Makes room for the templates of a packet of compact patches. If the packet might not fit,
@@ -227,22 +223,10 @@ impl Templates {
             || core::mem::replace(&mut self.last_large, topology) == topology
     }
 
-    /// The indices of a patch without a template, counted from its first point, in the
-    /// specification's order, followed by unspecified elements; and the runs of them to write.
-    #[inline(never)]
-    pub(crate) fn specified(
-        &mut self,
-        settings: &Settings,
-        patch: PacketPatch<'_>,
-    ) -> (&[u16], &[Run]) {
-        self.made.make_indices(settings, patch);
-        (&self.made.indices, cache_order::note(settings, patch, &mut self.made.runs))
-    }
-
     #[cold]
     #[inline(never)]
     fn make_compact(&mut self, patch: PacketPatch<'_>, with: Making<'_>, stored: Stored) -> Start {
-        let (settings, domain) = (with.0, patch.domain());
+        let domain = patch.domain();
         // `make_room` was called for this packet, so the template fits, and nothing that was found
         // for the packet moves.
         self.made.make(patch, with);
@@ -263,7 +247,7 @@ impl Templates {
             }
             to.as_flattened_mut().iter_mut().for_each(|code| *code = stored(domain, *code));
         }
-        let start = self.made.keep(&mut self.compact, settings, patch, patch.points());
+        let start = self.made.keep(&mut self.compact, patch, patch.points());
         // With few templates their sets stay in the first-level cache, and the table of 32 KiB
         // would push them out.
         if self.compact.has_many() {
@@ -275,14 +259,13 @@ impl Templates {
     #[cold]
     #[inline(never)]
     fn make_other(&mut self, patch: PacketPatch<'_>, with: Making<'_>) -> Start {
-        let settings = with.0;
         // Fractional points are not kept: these patches have too many for codes.
         let points = if patch.integer() { patch.points() } else { 0 };
         self.others.make_room(points as usize, patch.indices() as usize);
         self.made.make(patch, with);
         let to = &mut self.others.points.free(points as usize)[..points as usize];
         to.copy_from_slice(&self.made.points[..points as usize]);
-        self.made.keep(&mut self.others, settings, patch, points)
+        self.made.keep(&mut self.others, patch, points)
     }
 }
 
@@ -290,7 +273,6 @@ impl MadePatch {
     const fn bytes(&self) -> usize {
         self.points.capacity() * size_of::<DomainPoint>()
             + self.indices.capacity() * size_of::<u16>()
-            + self.runs.capacity() * size_of::<Run>()
     }
 
     /// Makes room for a patch, and for whole blocks after it.
@@ -316,11 +298,6 @@ impl MadePatch {
         if patch.integer() {
             points::emit(patch, tables, &mut Writer::new(&mut self.points));
         }
-        self.make_indices(settings, patch);
-    }
-
-    fn make_indices(&mut self, settings: &Settings, patch: PacketPatch<'_>) {
-        self.make_room(0, patch.indices() as usize);
         connect::emit(settings, patch, 0, &mut Writer::new(&mut self.indices));
     }
 
@@ -336,12 +313,10 @@ impl MadePatch {
         }
     }
 
-    /// Adds a template to the cache: copies the indices in the order of the settings. The caller
-    /// has already written the points.
+    /// Adds a template to the cache, of whose points the caller has already written `points`.
     fn keep<I, P, const S: usize, const N: usize, const M: usize>(
         &self,
         cache: &mut Cache<I, P, S, N, M>,
-        settings: &Settings,
         patch: PacketPatch<'_>,
         points: u32,
     ) -> Start
@@ -349,13 +324,11 @@ impl MadePatch {
         I: TryFrom<u16> + Copy + Default,
         P: Copy + Default,
     {
-        let mut to = cache.indices.free(patch.indices() as usize).iter_mut();
-        cache_order::runs(settings, patch, |run| {
-            for (&index, to) in self.indices[run].iter().zip(to.by_ref()) {
-                *to = I::try_from(index).unwrap_or_default();
-            }
-        });
-        cache.add(patch.topology(), points as usize, patch.indices() as usize)
+        let indices = patch.indices() as usize;
+        for (to, &index) in cache.indices.free(indices).iter_mut().zip(&self.indices[..indices]) {
+            *to = I::try_from(index).unwrap_or_default();
+        }
+        cache.add(patch.topology(), points as usize, indices)
     }
 }
 
@@ -373,6 +346,16 @@ pub(crate) fn long<P: OutputPoint>(point: CompactPoint) -> P {
     let [u, v] = point.map(|coordinate| {
         let bits = u32::from(coordinate);
         bits + ((bits + 1) >> 16)
+    });
+    P::from_bits(u, v)
+}
+
+/// [`long`], in fewer instructions of AVX-512, which adds where a mask is set.
+#[inline(always)]
+pub(crate) fn long_by_comparison<P: OutputPoint>(point: CompactPoint) -> P {
+    let [u, v] = point.map(|coordinate| {
+        let bits = u32::from(coordinate);
+        if bits == u32::from(u16::MAX) { ONE } else { bits }
     });
     P::from_bits(u, v)
 }
@@ -401,6 +384,7 @@ mod tests {
         for bits in [0, 0x0444, 0x8000, 0xFBBC, 0x1_0000] {
             let point = DomainPoint::from_bits(bits, 0x1_0000 - bits);
             assert_eq!(long::<DomainPoint>(short(point)), point, "{bits:#x}");
+            assert_eq!(long_by_comparison::<DomainPoint>(short(point)), point, "{bits:#x}");
         }
     }
 }

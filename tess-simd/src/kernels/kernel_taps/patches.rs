@@ -5,7 +5,7 @@ use super::numbers::stitch;
 use super::{TapInput, TapOutput};
 use crate::data::format::IndexFormat;
 use crate::data::writer::Writer;
-use crate::stages::connect::{self, cache_order};
+use crate::stages::connect;
 #[cfg(target_arch = "x86_64")]
 use crate::stages::packet::PacketPatch;
 use crate::stages::points::{self, CompactPoints, LocationTables, codes};
@@ -14,7 +14,7 @@ use crate::stages::points::{
     Code,
     permute::{self, Permutes},
 };
-use crate::stages::stitch::{Replaced, Rows};
+use crate::stages::stitch::{CODES_AT_ONCE, Replaced, Rows};
 use crate::stages::template::{Templates, long};
 use tess_core::DomainPoint;
 
@@ -47,18 +47,10 @@ pub(crate) fn of_patches(kernel: Kernel, work: &TapInput, made: &mut TapOutput) 
             }
         }
         Kernel::CompactTemplate | Kernel::Template => of_templates(kernel, work, made),
-        Kernel::ConnectU32 => connect_as(work, &mut made.indices),
+        Kernel::ConnectU32 | Kernel::ConnectInColumns => connect_as(work, &mut made.indices),
         Kernel::ConnectU16 => connect_as(work, &mut made.narrow),
         Kernel::RowsU32 => rows_as(work, &mut made.indices),
         Kernel::RowsU16 => rows_as(work, &mut made.narrow),
-        Kernel::CacheOrder => {
-            let mut out = Writer::new(&mut made.indices);
-            for patch in work.patches() {
-                let index = |place: u16| work.base.wrapping_add(place.into());
-                let runs = cache_order::note(&work.settings, patch, &mut made.runs);
-                cache_order::emit(runs, &made.places, &mut out, index);
-            }
-        }
         _ => return false,
     }
     true
@@ -107,7 +99,7 @@ fn rows_as<I: IndexFormat>(work: &TapInput, indices: &mut [I]) {
         let codes = stitch(work, number);
         let [plain, outer_at, inner_at, down] = how.to_be_bytes();
         if plain != 0 {
-            codes.emit_ascending(outer, inner, &mut out);
+            codes.emit_ascending::<_, CODES_AT_ONCE>(outer, inner, &mut out);
             continue;
         }
         let replaced = |at: u8, index| (at != u8::MAX).then(|| Replaced { at: at.into(), index });
@@ -118,7 +110,7 @@ fn rows_as<I: IndexFormat>(work: &TapInput, indices: &mut [I]) {
             outer_replaced: replaced(outer_at, outer_index),
             inner_replaced: replaced(inner_at, inner_index),
         };
-        codes.emit(&rows, &mut out);
+        codes.emit::<_, CODES_AT_ONCE>(&rows, &mut out);
     }
 }
 

@@ -4,14 +4,15 @@ use super::rings::Rings;
 use crate::data::format::IndexFormat;
 use crate::data::lanes::{EdgePoints, is_odd};
 use crate::data::writer::Writer;
-use crate::stages::stitch::{Replaced, Rows, Stitches};
+use crate::stages::stitch::{CODES_AT_ONCE, Replaced, Rows, Stitches};
+use tess_core::Order;
 use tess_core::stitch::Diagonals;
 
 /// Emits the triangles. Edges u = 0 and u = 1 run along v, the others along u.
 #[inline(always)]
 pub(super) fn emit<I: IndexFormat>(
     &[u0, v0, u1, v1, n_u, n_v]: &EdgePoints,
-    stitches: &Stitches,
+    (stitches, order): (&Stitches, Order),
     base: u32,
     out: &mut Writer<'_, I>,
 ) {
@@ -21,7 +22,7 @@ pub(super) fn emit<I: IndexFormat>(
         along: [n_v, n_u, n_v, n_u],
         row_at: [row_along_v, row_along_u, row_along_v, row_along_u],
     };
-    let innermost = rings.emit(stitches, base, out);
+    let innermost = rings.emit((stitches, order), base, out);
     let along_u = n_u > n_v;
     let (long, short) = if along_u { (n_u, n_v) } else { (n_v, n_u) };
     if !is_odd(short) {
@@ -30,12 +31,12 @@ pub(super) fn emit<I: IndexFormat>(
     let quads = 2 * (long / 2 - short / 2) + 2 - u32::from(is_odd(long));
     if along_u {
         let rows = strip_rows(innermost.wrapping_add(1), quads, Some(innermost));
-        stitches.strip(quads, Diagonals::Forward).emit(&rows, out);
+        stitches.strip(quads, Diagonals::Forward).emit::<_, CODES_AT_ONCE>(&rows, out);
     } else {
         let rows = strip_rows(innermost, quads, None);
         let diagonals =
             if is_odd(long) { Diagonals::ForwardExceptMiddle } else { Diagonals::Forward };
-        stitches.strip(quads, diagonals).emit(&rows, out);
+        stitches.strip(quads, diagonals).emit::<_, CODES_AT_ONCE>(&rows, out);
     }
 }
 

@@ -1,8 +1,9 @@
 //! Stitches between two rows of vertices (spec section 7.1).
 
-use super::step_code::{self, CODES_AT_ONCE, NOWHERE};
+use super::step_code::{self, NOWHERE};
 use crate::data::format::IndexFormat;
 use crate::data::writer::Writer;
+use core::ops::Range;
 
 /// The codes of one stitch, padded so that whole blocks of them can be read, and their number
 /// without the padding.
@@ -36,9 +37,21 @@ pub(crate) struct Replaced {
 }
 
 impl Codes<'_> {
-    /// Emits the stitch between rows that run up by one from these first indices.
+    /// No triangles.
+    pub(crate) const NONE: Self = Self { codes: &[], length: 0 };
+
+    /// The triangles of these steps.
     #[inline(always)]
-    pub(crate) fn emit_ascending<I: IndexFormat>(
+    pub(crate) fn of_steps(self, steps: Range<u32>) -> Self {
+        Self {
+            codes: self.codes.get(3 * steps.start as usize..).unwrap_or_default(),
+            length: 3 * steps.len(),
+        }
+    }
+
+    /// Emits the stitch between rows that run up by one from these first indices, in blocks of `N`.
+    #[inline(always)]
+    pub(crate) fn emit_ascending<I: IndexFormat, const N: usize>(
         self,
         outer: u32,
         inner: u32,
@@ -46,14 +59,14 @@ impl Codes<'_> {
     ) {
         let outer = I::wrapping_from(outer);
         let inner = I::wrapping_from(inner.wrapping_add(128));
-        out.map::<_, CODES_AT_ONCE>(self.length, self.codes, |code: i8| {
+        out.map::<_, N>(self.length, self.codes, |code: i8| {
             I::from_code(code).wrapping_add(if code < 0 { inner } else { outer })
         });
     }
 
-    /// Emits the stitch between any two rows.
+    /// Emits the stitch between any two rows, in blocks of `N`.
     #[inline(always)]
-    pub(crate) fn emit<I: IndexFormat>(self, rows: &Rows, out: &mut Writer<'_, I>) {
+    pub(crate) fn emit<I: IndexFormat, const N: usize>(self, rows: &Rows, out: &mut Writer<'_, I>) {
         // In a row that runs down, entry k is first - k = first + 1 + !k = (first - 127) + !code,
         // because !k = !(code + 128) = !code - 128.
         let (flip, inner) = if rows.descending {
@@ -75,7 +88,7 @@ impl Codes<'_> {
             (I::wrapping_from(outer_index), I::wrapping_from(inner_index));
         // Every code is compared with both replaced entries. `NOWHERE` is none's code, so a row
         // without a replaced entry needs no branch of its own.
-        out.map::<_, CODES_AT_ONCE>(self.length, self.codes, |code: i8| {
+        out.map::<_, N>(self.length, self.codes, |code: i8| {
             let position = I::from_code(code);
             let index = if code < 0 {
                 position.xor(flip).wrapping_add(inner)

@@ -3,7 +3,7 @@
 //! Entry `k` of the outer row is `k`, entry `k` of the inner row is `k - 128`. With rows that run
 //! up by one, an index is its code plus a constant that its sign chooses.
 
-/// Codes turned into indices at a time; tables are padded to it.
+/// Codes of a whole stitch that are turned into indices at a time; tables are padded to it.
 pub(crate) const CODES_AT_ONCE: usize = 32;
 
 /// The number that is added to an entry of the inner row.

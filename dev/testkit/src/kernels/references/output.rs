@@ -185,18 +185,6 @@ fn indices(case: &Case, words: &mut Words, narrow: bool) {
     }
 }
 
-/// The index of the specification's order at each place.
-pub(crate) fn cache_order(case: &Case, words: &mut Words) {
-    for (number, patch) in case.patches.iter().enumerate() {
-        let mut all = vec![0; patch.counts().indices as usize];
-        for t in 0..patch.counts().primitives {
-            let at = patch.cache_position(t).unwrap_or(t) as usize;
-            all[3 * at..][..3].copy_from_slice(&[3 * t, 3 * t + 1, 3 * t + 2]);
-        }
-        words.indices(number, all.into_iter().map(|i| index(case, case.input.base, i, false)));
-    }
-}
-
 /// The points of templates, where factors are integers, then the indices.
 pub(crate) fn templates(case: &Case, words: &mut Words) {
     let with_points = case.input.config.partitioning.has_integer_factors();
