@@ -40,6 +40,8 @@ const SATELLITES: &[Satellite] = &[
     Satellite {
         name: "explorer",
         uses: &[
+            // The versions and profile that it is built with.
+            "Cargo.toml",
             "tools/explorer",
             "bindings/webgpu",
             "tools/cli/src/commands/shaders",
