@@ -18,10 +18,13 @@ type Test = fn() -> Result<(), Failed>;
 
 const TESTS: &[(&str, &[&str], Test)] = &[
     ("spirv_is_valid", &["spirv-val"], compilers::spirv_is_valid),
+    ("sdl_is_valid", &["spirv-val"], compilers::sdl_is_valid),
     ("glsl_compiles", &["spirv-val", "glslangValidator"], compilers::glsl_compiles),
     ("hlsl_compiles", &["spirv-val", "glslangValidator"], compilers::hlsl_compiles),
+    ("sdl_hlsl_compiles", &["spirv-val", "glslangValidator"], compilers::sdl_hlsl_compiles),
     ("invalid_shaders_are_refused", &["spirv-val", "glslangValidator"], compilers::faults_are_seen),
     ("metal_compiles_as_cpp", &["c++"], metal::compiles),
+    ("sdl_metal_compiles_as_cpp", &["c++"], metal::sdl_compiles),
     ("invalid_metal_is_refused", &["c++"], metal::faults_are_seen),
     ("host_equals_the_model", &["cc"], host::spirv_equals_the_model),
     ("glsl_equals_the_model", &["cc", "glslangValidator"], host::glsl_equals_the_model),

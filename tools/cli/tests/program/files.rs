@@ -281,8 +281,46 @@ fn shaders_of_a_stage() {
         ("--stage broken.wgsl", "broken.wgsl: "),
         ("--stage none.wgsl", "cannot read none.wgsl"),
         ("--stage user.wgsl --project seen", "seen"),
-        ("--stage user.wgsl --points f32", "--stage needs --target wgsl, packed points"),
+        (
+            "--stage user.wgsl --points f32",
+            "--stage needs --target wgsl or --layout sdl, packed points",
+        ),
         ("--stage --evaluate", "name its file, as in --stage FILE"),
+    ] {
+        write(&format!("--force {options}")).exits(2).says(says);
+    }
+}
+
+/// `--layout sdl` writes every entry point and a header; what does not go with it is refused.
+#[test]
+#[cfg(all(feature = "gpu", feature = "shaders"))]
+fn shaders_for_sdl() {
+    let folder = directory("shaders_for_sdl");
+    let write = |options: &str| shell(&format!("$TESS shaders {options} -o out"), &folder);
+    let wgsl = "struct Vertex { @builtin(position) position: vec4f }\n\
+                fn hull(number: u32) -> TriFactors { return tess_tri_factors(vec3f(2.0)); }\n\
+                fn domain(number: u32, uv: vec2f) -> Vertex { return Vertex(vec4f(uv, 0.0, 1.0)); }\n\
+                @fragment fn shade(vertex: Vertex) -> @location(0) vec4f { return vec4f(1.0); }\n";
+    fs::write(folder.join("user.wgsl"), wgsl).expect("the user's WGSL");
+    for (target, ending) in [("spirv", "spv"), ("hlsl", "hlsl"), ("msl", "metal")] {
+        done(&write(&format!("--force --target {target} --layout sdl --stage user.wgsl")));
+        let written = names(&folder.join("out"));
+        for name in ["hull", "decide", "vertex", "fragment_shade"] {
+            let name = format!("stage_{name}.{ending}");
+            assert!(written.contains(&name), "{name}: {written:?}");
+        }
+        let header = fs::read_to_string(folder.join("out/tess_stage.h")).expect("a header");
+        assert!(header.contains("TESS_FRAGMENT_shade"), "{header:.900}");
+        // A compiler of HLSL puts its result beside the text.
+        let beside = if ending == "hlsl" { "dxil" } else { ending };
+        fs::write(folder.join(format!("out/stage_hull.{beside}")), "compiled").expect("a file");
+    }
+    for (options, says) in [
+        ("--target wgsl --layout sdl --stage user.wgsl", "needs --target spirv, hlsl or msl"),
+        ("--target glsl --layout sdl", "needs --target spirv, hlsl or msl"),
+        ("--target spirv --layout sdl --stage", "name its file, as in --stage FILE"),
+        ("--target spirv --stage user.wgsl", "--stage needs --target wgsl or --layout sdl"),
+        ("--target spirv --layout sdl --domain quad --stage user.wgsl", "user.wgsl: "),
     ] {
         write(&format!("--force {options}")).exits(2).says(says);
     }

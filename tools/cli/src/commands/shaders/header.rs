@@ -89,7 +89,7 @@ fn constants(manifest: &Manifest) -> Vec<String> {
     ]
 }
 
-fn enumeration(name: &str, values: impl Iterator<Item = String>) -> String {
+pub(super) fn enumeration(name: &str, values: impl Iterator<Item = String>) -> String {
     format!("\nenum {name} {{\n    {}\n}};", values.collect::<Vec<_>>().join(",\n    "))
 }
 
@@ -99,7 +99,7 @@ fn table(ty: &str, name: &str, size: &str, rows: impl Iterator<Item = String>) -
 }
 
 /// For example `TESS_HOST_WRITES_JOBS`.
-fn constant(prefix: &str, value: impl Debug) -> String {
+pub(super) fn constant(prefix: &str, value: impl Debug) -> String {
     format!("TESS_{prefix}{}", snake(&format!("{value:?}")).to_uppercase())
 }
 
@@ -143,10 +143,15 @@ fn stage(stage: &Stage) -> String {
 }
 
 fn formula(formula: &Formula) -> String {
+    formula_of(formula, "OF_")
+}
+
+/// A formula as a C initializer; `prefix` begins the names of the variables.
+pub(super) fn formula_of(formula: &Formula, prefix: &str) -> String {
     let terms = formula
         .terms
         .iter()
-        .map(|term| format!("{{{}u, {}, {}}}", term.times, constant("OF_", term.of), term.per));
+        .map(|term| format!("{{{}u, {}, {}}}", term.times, constant(prefix, term.of), term.per));
     let terms = terms.collect::<Vec<_>>().join(", ");
     let terms = if terms.is_empty() { "{0, 0, 1}".to_owned() } else { terms };
     format!("{{{}u, {}, {}, {{{terms}}}}}", formula.constant, formula.multiple, formula.terms.len())

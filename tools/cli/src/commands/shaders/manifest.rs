@@ -23,6 +23,9 @@ pub(super) const TABLES_FILE: &str = "tables.bin";
 /// The manifest as a file for C.
 pub(super) const HEADER_FILE: &str = "tess_shaders.h";
 
+/// The stage's manifest as a file for C, with the layout for SDL.
+pub(super) const STAGE_HEADER_FILE: &str = "tess_stage.h";
+
 /// The names of the files that this command has written into a folder; empty if the folder has no
 /// manifest of this format.
 pub(super) fn files_of(folder: &Path) -> Vec<String> {
@@ -35,18 +38,26 @@ pub(super) fn files_of(folder: &Path) -> Vec<String> {
     struct WrittenStage {
         file: String,
     }
-    let path = folder.join(FILE);
-    // A link could lead to a device without an end, and a pipe would wait for its writer.
-    let is_file = path.symlink_metadata().is_ok_and(|found| found.is_file());
-    let text = if is_file { fs::read_to_string(path).unwrap_or_default() } else { String::new() };
-    match serde_json::from_str::<Written>(&text) {
+    match serde_json::from_str::<Written>(&text_of(&folder.join(FILE))) {
         Ok(written) if written.format == FORMAT => {
-            let own = [FILE, TABLES_FILE, HEADER_FILE, surfaces::FOLDER].map(str::to_owned);
+            let own = [FILE, TABLES_FILE, HEADER_FILE, STAGE_HEADER_FILE, surfaces::FOLDER];
             let stages = written.stages.into_iter().map(|stage| stage.file);
-            own.into_iter().chain(stages).chain(stage_files()).collect()
+            // What a compiler of HLSL makes of them lies beside them.
+            let compiled =
+                |name: &String| name.strip_suffix(".hlsl").map(|it| format!("{it}.dxil"));
+            let all = stages.chain(stage_files(folder)).collect::<Vec<_>>();
+            let compiled: Vec<String> = all.iter().filter_map(compiled).collect();
+            own.map(str::to_owned).into_iter().chain(all).chain(compiled).collect()
         }
         _ => Vec::new(),
     }
+}
+
+/// The text of a file; empty if there is no such file.
+pub(super) fn text_of(path: &Path) -> String {
+    // A link could lead to a device without an end, and a pipe would wait for its writer.
+    let is_file = path.symlink_metadata().is_ok_and(|found| found.is_file());
+    if is_file { fs::read_to_string(path).unwrap_or_default() } else { String::new() }
 }
 
 #[derive(Clone, Debug, Serialize)]

@@ -5,7 +5,15 @@ mod formula;
 mod header;
 mod languages;
 mod manifest;
+mod old_vulkan;
 mod plan;
+#[cfg(feature = "gpu")]
+mod programs;
+#[cfg(feature = "gpu")]
+mod sdl_header;
+#[cfg(all(test, feature = "gpu"))]
+mod sdl_tests;
+mod slots;
 #[cfg(feature = "gpu")]
 mod stage;
 mod structures;
@@ -28,20 +36,21 @@ use tess_gpu::{IndexType, Numbering, Order, PointFormat, Setup};
 pub(crate) use translation::Checks;
 #[cfg(not(feature = "probe"))]
 use translation::Checks;
-use translation::{Target, Translation};
+use translation::{Layout, Target, Translation};
 
 /// Write the compute shaders for any API, with a manifest that describes how to run them
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 The folder gets a file per stage, tables.bin with the constants that they look up, and the same manifest twice: \
 manifest.json, and tess_shaders.h for C99. With wgsl it also gets surfaces/, functions for shaders of your own: factors by \
-rule, culling, surfaces without cracks. bindings/vulkan is a host in C that needs nothing else. Tests compile spirv, glsl and \
-hlsl; no Metal compiler has seen msl.
+rule, culling, surfaces without cracks. bindings/vulkan is a host in C that needs nothing else; bindings/sdl is one over SDL 3, \
+for --layout sdl --stage FILE, which also writes tess_stage.h. Tests compile spirv, glsl and hlsl; no Metal compiler has seen msl.
 
 Examples:
   tess shaders --target spirv --domain quad -o shaders/
   tess shaders --target hlsl --domain tri --partitioning fractional_odd --points f32 -o shaders/
   tess shaders --target wgsl --domain quad --stage terrain.wgsl --evaluate -o shaders/
+  tess shaders --target spirv --layout sdl --domain quad --stage terrain.wgsl -o shaders/   for bindings/sdl
   tess shaders --target spirv --checks none -o shaders/   faster; see docs/performance.md
   tess shaders --target wgsl --index-order cache --force -o build/shaders/   as a step of a build")]
 pub(crate) struct ShadersCommand {
@@ -80,8 +89,12 @@ pub(crate) struct ShadersCommand {
     /// Whether the shaders check every access and every loop
     #[arg(long, value_name = "WHICH", default_value = "full")]
     checks: Checks,
-    /// With --target wgsl: also write the tessellation stage, complete for the functions hull and
-    /// domain in FILE, or, without FILE, in parts that a host joins to WGSL when it runs
+    /// Where the shaders expect their resources
+    #[arg(long, value_name = "WHOSE", default_value = "plain")]
+    layout: Layout,
+    /// With --target wgsl or --layout sdl: also write the tessellation stage, complete for the
+    /// functions hull and domain in FILE, or, with wgsl and without FILE, in parts that a host
+    /// joins to WGSL when it runs
     #[cfg(feature = "gpu")]
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
     stage: Option<Option<PathBuf>>,
@@ -122,10 +135,10 @@ const NUMBERINGS: Choices<Numbering> = &[
 pub(crate) fn run(args: &ShadersCommand) -> Result<Exit, Failure> {
     refuse_stdout(&args.folder, "the shaders are several files")?;
     let setup = args.setup();
-    let translation = Translation { target: args.target, checks: args.checks };
+    let translation = args.translation()?;
     let shaders = Shaders::new(setup, translation)?;
     #[cfg(feature = "gpu")]
-    let stage = args.stage(setup)?;
+    let stage = args.stage(setup, translation)?;
     let write = || {
         let new = match (is_ours(&args.folder), args.force) {
             (true, true) => NewFolder::replacing(&args.folder)?,
@@ -137,7 +150,7 @@ pub(crate) fn run(args: &ShadersCommand) -> Result<Exit, Failure> {
         };
         shaders.write(new.path())?;
         #[cfg(feature = "gpu")]
-        stage.as_ref().map_or(Ok(()), |stage| stage.write(new.path()))?;
+        stage.as_ref().map_or(Ok(()), |stage| stage.write(new.path(), &shaders.manifest))?;
         new.finish()
     };
     write().map_err(|error| Failure::write(&args.folder, error))?;
@@ -150,12 +163,23 @@ impl ShadersCommand {
     ///
     /// # Errors
     /// An option does not go with it, or the user's WGSL is not valid with it.
-    fn stage(&self, setup: Setup) -> Result<Option<stage::Stage>, Failure> {
+    fn stage(
+        &self,
+        setup: Setup,
+        translation: Translation,
+    ) -> Result<Option<stage::Stage>, Failure> {
         let Some(file) = &self.stage else { return Ok(None) };
         let given = Setup { order: setup.order, ..Setup::new(setup.domain, setup.config) };
-        if self.target != Target::Wgsl || setup != given {
+        let is_for_sdl = self.layout == Layout::Sdl;
+        if self.target != Target::Wgsl && !is_for_sdl || setup != given {
             return Err(Failure::bad_input(
-                "--stage needs --target wgsl, packed points, and 32-bit indices that count from the batch's first point",
+                "--stage needs --target wgsl or --layout sdl, packed points, and 32-bit indices that count from \
+                 the batch's first point",
+            ));
+        }
+        if is_for_sdl && file.is_none() {
+            return Err(Failure::bad_input(
+                "--layout sdl needs your WGSL: name its file, as in --stage FILE",
             ));
         }
         if file.is_none() && (self.evaluate || self.project.is_some()) {
@@ -164,18 +188,22 @@ impl ShadersCommand {
             ));
         }
         let (evaluate, project) = (self.evaluate, self.project.as_deref());
-        let asked = stage::Asked { file: file.as_ref(), evaluate, project };
+        let translation = is_for_sdl.then_some(translation);
+        let asked = stage::Asked { file: file.as_ref(), evaluate, project, translation };
         stage::Stage::new(setup, &asked).map(Some)
     }
 }
 
-/// The names of the stage's files.
-fn stage_files() -> impl Iterator<Item = String> {
+/// The names of the stage's files in a folder.
+fn stage_files(folder: &Path) -> Vec<String> {
     #[cfg(feature = "gpu")]
-    let files = stage::FILES;
+    let files = stage::files_of(folder);
     #[cfg(not(feature = "gpu"))]
-    let files: [&str; 0] = [];
-    files.into_iter().map(str::to_owned)
+    let files = {
+        _ = folder;
+        Vec::new()
+    };
+    files
 }
 
 /// Whether a folder is empty or has only files that this command wrote, according to its manifest.
@@ -194,6 +222,18 @@ fn has_only(folder: &Path, names: &[String]) -> bool {
 }
 
 impl ShadersCommand {
+    /// # Errors
+    /// SDL takes no shaders in this language.
+    fn translation(&self) -> Result<Translation, Failure> {
+        let Self { target, layout, checks, .. } = *self;
+        if layout == Layout::Sdl && matches!(target, Target::Wgsl | Target::Glsl) {
+            return Err(Failure::bad_input(
+                "--layout sdl needs --target spirv, hlsl or msl: SDL takes no other shaders",
+            ));
+        }
+        Ok(Translation { target, layout, checks })
+    }
+
     fn setup(&self) -> Setup {
         let config =
             Config { partitioning: self.partitioning, output: self.output, split: self.split };
@@ -217,7 +257,7 @@ pub(crate) fn spirv(
     setup: Setup,
     checks: Checks,
 ) -> Result<Vec<u8>, String> {
-    let translation = Translation { target: Target::Spirv, checks };
+    let translation = Translation { target: Target::Spirv, layout: Layout::Plain, checks };
     translation.write(stage, setup).map(|written| written.text)
 }
 
@@ -264,6 +304,12 @@ impl Shaders {
         if self.target == Target::Wgsl {
             surfaces::write(folder)?;
         }
-        fs::write(folder.join(manifest::HEADER_FILE), header::text(&self.manifest))
+        // The header says that everything is in one set.
+        match self.manifest.translation.layout {
+            Layout::Plain => {
+                fs::write(folder.join(manifest::HEADER_FILE), header::text(&self.manifest))
+            }
+            Layout::Sdl => Ok(()),
+        }
     }
 }

@@ -2,13 +2,16 @@
 //! explains each entry of its manifest.
 
 use super::formula::{Formula, Variable};
-use super::manifest::Described;
+use super::manifest::{self, Described};
+use super::programs::{self, Program, Programs, User};
+use super::sdl_header;
+use super::translation::Translation;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::json;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, GlobalVariable, Module, StorageAccess};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -26,8 +29,21 @@ const FIT: &str = "stage_fit.wgsl";
 const EVALUATE: &str = "stage_evaluate.wgsl";
 const VERTEX: &str = "stage_vertex.wgsl";
 
-/// The names of all files that [`Stage::write`] can write.
-pub(super) const FILES: [&str; 6] = [FILE, HULL, COPY_FACTORS, FIT, EVALUATE, VERTEX];
+/// The names of the files of a stage in a folder that this command has written.
+pub(super) fn files_of(folder: &Path) -> Vec<String> {
+    #[derive(Deserialize)]
+    struct Written {
+        format: String,
+        files: Vec<String>,
+    }
+    let text = manifest::text_of(&folder.join(FILE));
+    match serde_json::from_str::<Written>(&text) {
+        Ok(written) if written.format == FORMAT => {
+            written.files.into_iter().chain([FILE.to_owned()]).collect()
+        }
+        _ => Vec::new(),
+    }
+}
 
 /// The most bytes of the user's WGSL.
 const MOST_WGSL: u64 = 16 << 20;
@@ -39,59 +55,73 @@ pub(super) struct Asked<'a> {
     pub(super) file: Option<&'a PathBuf>,
     pub(super) evaluate: bool,
     pub(super) project: Option<&'a str>,
+    /// The language, with the layout for SDL; `None` for WGSL.
+    pub(super) translation: Option<Translation>,
 }
 
 /// The manifest and the files beside it.
 #[derive(Debug)]
 pub(super) struct Stage {
-    manifest: Manifest,
-    files: Vec<(&'static str, String)>,
+    pub(super) manifest: Manifest,
+    pub(super) files: Vec<(String, Vec<u8>)>,
 }
 
 #[derive(Debug, Serialize)]
-struct Manifest {
+pub(super) struct Manifest {
     format: &'static str,
     version: &'static str,
+    /// The names of the files beside this one.
+    files: Vec<String>,
+    #[serde(flatten)]
+    translation: Option<Translation>,
     setup: Described,
     /// Threads of a workgroup in every pass whose workgroups depend on patches or points.
     workgroup_size: u32,
     /// The number of the stage's own bind group, if the user's WGSL is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     group: Option<u32>,
-    buffers: Vec<Buffer>,
+    pub(super) buffers: Vec<Buffer>,
     /// The passes before and after the batch of `manifest.json`, in order.
-    before_batch: Vec<Pass>,
-    after_batch: Vec<Pass>,
+    pub(super) before_batch: Vec<Pass>,
+    pub(super) after_batch: Vec<Pass>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    vertex: Option<Vertex>,
+    pub(super) vertex: Option<Vertex>,
+    /// For SDL: the fragment shaders of the user's WGSL, and its resources.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) fragments: Option<Vec<Program>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) users: Option<Vec<User>>,
     /// Points and primitives of one patch whose factors all have this value.
-    uniform: Vec<Uniform>,
-    ladder: Vec<f32>,
+    pub(super) uniform: Vec<Uniform>,
+    pub(super) ladder: Vec<f32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     parts: Option<Parts>,
 }
 
 #[derive(Debug, Serialize)]
-struct Buffer {
-    name: &'static str,
-    bytes: Formula,
+pub(super) struct Buffer {
+    pub(super) name: &'static str,
+    pub(super) bytes: Formula,
 }
 
 #[derive(Debug, Serialize)]
-struct Pass {
-    entry_point: String,
-    /// The module; none in parts, where `part` names it.
+pub(super) struct Pass {
+    pub(super) entry_point: String,
+    /// The module; none in parts, where `part` names it, and for SDL, where `program` does.
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<&'static str>,
-    part: &'static str,
+    pub(super) part: &'static str,
     /// What the number of workgroups depends on.
-    workgroups: Workgroups,
+    pub(super) workgroups: Workgroups,
+    /// As the module in WGSL numbers them.
     bindings: Vec<Bound>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) program: Option<Program>,
 }
 
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
-enum Workgroups {
+pub(super) enum Workgroups {
     /// A thread for each patch that there is room for.
     Patches,
     /// One workgroup.
@@ -103,7 +133,7 @@ enum Workgroups {
 }
 
 #[derive(Debug, Serialize)]
-struct Bound {
+pub(super) struct Bound {
     group: u32,
     binding: u32,
     is_written: bool,
@@ -111,33 +141,36 @@ struct Bound {
 }
 
 #[derive(Debug, Serialize)]
-struct Vertex {
-    file: &'static str,
+pub(super) struct Vertex {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'static str>,
     entry_point: &'static str,
-    stride: u64,
-    attributes: Vec<Attribute>,
-    /// Further bindings of the draws.
+    pub(super) stride: u64,
+    pub(super) attributes: Vec<Attribute>,
+    /// Further bindings of the draws, as the module in WGSL numbers them.
     bindings: Vec<Bound>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) program: Option<Program>,
 }
 
 #[derive(Debug, Serialize)]
-struct Attribute {
-    location: u32,
-    offset: u64,
+pub(super) struct Attribute {
+    pub(super) location: u32,
+    pub(super) offset: u64,
     /// As WebGPU names it, such as `float32x4`.
-    format: String,
+    pub(super) format: String,
 }
 
 #[derive(Debug, Serialize)]
-struct Uniform {
-    factor: f32,
-    points: u32,
-    primitives: u32,
+pub(super) struct Uniform {
+    pub(super) factor: f32,
+    pub(super) points: u32,
+    pub(super) primitives: u32,
 }
 
 /// The texts from which a host makes the modules: see `tess_wgpu::stage::ShaderParts`.
 #[derive(Debug, Serialize)]
-struct Parts {
+pub(super) struct Parts {
     shared: String,
     hull: String,
     copy_factors: String,
@@ -185,48 +218,46 @@ impl Stage {
         let builder = TessellationStage::builder(&text, setup.domain, setup.config, 1);
         let made = builder.points(points).user_shaders(asked.project);
         let user = made.map_err(|error| wrong(error.to_string()))?;
-        Self::with(setup, user, asked.file.is_none()).map_err(wrong)
+        Self::with(setup, user, asked).map_err(wrong)
     }
 
-    fn with(setup: Setup, user: UserShaders, is_parts: bool) -> Result<Self, String> {
-        let fixed = FixedShaders::new(setup);
-        let (mut files, mut before, mut after) = (Vec::new(), Vec::new(), Vec::new());
-        let group = user.group;
-        let hull = user.hull.map(|text| (HULL, (text, group), "hull", &[HULL_PASS][..]));
-        let copy =
-            (COPY_FACTORS, (fixed.copy_factors.clone(), 0), "copy_factors", &[COPY_PASS][..]);
-        // The parts have both, so that the host can choose.
-        let has_copy = is_parts || hull.is_none();
-        let fit = (FIT, (fixed.fit.clone(), 0), "fit", &FIT_PASSES[..]);
-        let all = hull.into_iter().chain(has_copy.then_some(copy)).chain([fit]);
-        for (file, (text, group), part, entries) in all {
-            before.extend(passes(file, (&text, group), part, entries)?);
-            files.push((file, text));
-        }
-        if let Some(text) = user.evaluate {
-            after.extend(passes(EVALUATE, (&text, group), "evaluate", &[EVALUATE_PASS])?);
-            files.push((EVALUATE, text));
-        }
-        let mut vertex = None;
-        if let Some(text) = user.vertex.filter(|_| !is_parts) {
-            vertex = Some(Vertex::new(&text, group, &user.vertices)?);
-            files.push((VERTEX, text));
-        }
+    fn with(setup: Setup, user: UserShaders, asked: &Asked<'_>) -> Result<Self, String> {
+        let is_parts = asked.file.is_none();
+        let (fixed, group, vertices) =
+            (FixedShaders::new(setup), user.group, user.vertices.clone());
+        let sources = Sources::new(user, &fixed, is_parts);
+        let mut before_batch = passes(&sources.before)?;
+        let mut after_batch = passes(&sources.after)?;
+        let read = |text: &String| Vertex::new(text, group, &vertices);
+        let mut vertex = sources.drawn.as_ref().map(read).transpose()?;
+        let lists = [&mut before_batch, &mut after_batch];
+        let translated = asked
+            .translation
+            .map(|translation| sources.translated(translation, lists, vertex.as_mut()))
+            .transpose()?;
+        let is_evaluated = !after_batch.is_empty() && !is_parts;
         if is_parts {
-            files.clear();
-            before.iter_mut().chain(&mut after).for_each(|pass: &mut Pass| pass.file = None);
+            before_batch.iter_mut().chain(&mut after_batch).for_each(|pass| pass.file = None);
         }
-        let stride = if after.is_empty() || is_parts { 0 } else { user.vertices.array_stride };
+        let (files, users, fragments) = match translated {
+            Some((made, fragments)) => (made.files, Some(made.users), Some(fragments)),
+            None if is_parts => (Vec::new(), None, None),
+            None => (sources.files(), None, None),
+        };
         let manifest = Manifest {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION"),
+            files: files.iter().map(|(name, _)| name.clone()).collect(),
+            translation: asked.translation,
             setup: Described::new(setup),
             workgroup_size: 64,
-            group: (!is_parts).then_some(user.group),
-            buffers: buffers(setup, &fixed, stride),
-            before_batch: before,
-            after_batch: after,
+            group: (!is_parts).then_some(group),
+            buffers: buffers(setup, &fixed, if is_evaluated { vertices.array_stride } else { 0 }),
+            before_batch,
+            after_batch,
             vertex,
+            fragments,
+            users,
             uniform: [1.0, 4.0, 8.0, 64.0].map(|factor| uniform(setup, factor)).into(),
             ladder: fixed.ladder.clone(),
             parts: is_parts.then(|| Parts::new(setup.domain, fixed)),
@@ -234,10 +265,15 @@ impl Stage {
         Ok(Self { manifest, files })
     }
 
-    /// Writes the manifest and the shaders into a folder.
-    pub(super) fn write(&self, folder: &Path) -> io::Result<()> {
+    /// Writes the manifest and the shaders into a folder; for SDL also the header, which has the
+    /// batch too.
+    pub(super) fn write(&self, folder: &Path, batch: &manifest::Manifest) -> io::Result<()> {
         for (name, text) in &self.files {
             fs::write(folder.join(name), text)?;
+        }
+        if self.manifest.translation.is_some() {
+            let text = sdl_header::text(&self.manifest, batch);
+            fs::write(folder.join(manifest::STAGE_HEADER_FILE), text)?;
         }
         fs::write(folder.join(FILE), json(&self.manifest))
     }
@@ -316,25 +352,133 @@ const BUFFERS: [(&str, &str); 13] = [
     ("tess_window", "window"),
 ];
 
-/// The passes of a module.
+/// The buffer of a variable of the stage.
+fn own_buffer(variable: &str) -> Option<&'static str> {
+    BUFFERS.iter().find(|(own, _)| *own == variable).map(|(_, buffer)| *buffer)
+}
+
+/// A module in WGSL with entry points of passes.
+struct Source {
+    file: &'static str,
+    text: String,
+    /// The stage's own bind group; the user's are before it.
+    group: u32,
+    part: &'static str,
+    entries: &'static [Entry],
+}
+
+impl Source {
+    const fn new(
+        file: &'static str,
+        text: String,
+        group: u32,
+        part: &'static str,
+        entries: &'static [Entry],
+    ) -> Self {
+        Self { file, text, group, part, entries }
+    }
+}
+
+/// The modules of a stage.
+struct Sources {
+    before: Vec<Source>,
+    after: Vec<Source>,
+    /// The module of draws, which has the user's fragment shaders too.
+    drawn: Option<String>,
+    group: u32,
+}
+
+impl Sources {
+    fn new(user: UserShaders, fixed: &FixedShaders, is_parts: bool) -> Self {
+        let group = user.group;
+        let hull = user.hull.map(|text| Source::new(HULL, text, group, "hull", &[HULL_PASS]));
+        // The parts have both, so that the host can choose.
+        let copy = (is_parts || hull.is_none()).then(|| {
+            let text = fixed.copy_factors.clone();
+            Source::new(COPY_FACTORS, text, 0, "copy_factors", &[COPY_PASS])
+        });
+        let fit = Source::new(FIT, fixed.fit.clone(), 0, "fit", &FIT_PASSES);
+        let evaluate = user
+            .evaluate
+            .map(|text| Source::new(EVALUATE, text, group, "evaluate", &[EVALUATE_PASS]));
+        Self {
+            before: hull.into_iter().chain(copy).chain([fit]).collect(),
+            after: evaluate.into_iter().collect(),
+            drawn: user.vertex.filter(|_| !is_parts),
+            group,
+        }
+    }
+
+    /// The modules as files.
+    fn files(self) -> Vec<(String, Vec<u8>)> {
+        let passes = self.before.into_iter().chain(self.after);
+        let passes = passes.map(|one| (one.file.to_owned(), one.text.into_bytes()));
+        let drawn = self.drawn.map(|text| (VERTEX.to_owned(), text.into_bytes()));
+        passes.chain(drawn).collect()
+    }
+
+    /// Gives each pass and the draws their shaders for SDL; returns them with the fragment shaders.
+    ///
+    /// # Errors
+    /// The language or SDL cannot express one.
+    fn translated(
+        &self,
+        translation: Translation,
+        [before, after]: [&mut Vec<Pass>; 2],
+        vertex: Option<&mut Vertex>,
+    ) -> Result<(Programs, Vec<Program>), String> {
+        let mut made = Programs::new(translation);
+        translate(&mut made, &self.before, before)?;
+        translate(&mut made, &self.after, after)?;
+        let mut fragments = Vec::new();
+        if let (Some(text), Some(vertex)) = (&self.drawn, vertex) {
+            let own = (text.as_str(), self.group);
+            vertex.file = None;
+            vertex.program = Some(made.add("stage_vertex", own, "tess_vertex", own_buffer)?);
+            for name in programs::fragments(text)? {
+                let file = format!("stage_fragment_{name}");
+                fragments.push(made.add(&file, own, &name, own_buffer)?);
+            }
+        }
+        Ok((made, fragments))
+    }
+}
+
+/// The passes of modules.
 ///
 /// # Errors
-/// It is not valid.
-fn passes(
-    file: &'static str,
-    (text, from_group): (&str, u32),
-    part: &'static str,
-    entries: &[Entry],
-) -> Result<Vec<Pass>, String> {
-    let read = Read::new(text)?;
-    let pass = |&(entry_point, workgroups): &Entry| Pass {
-        entry_point: entry_point.to_owned(),
-        file: Some(file),
-        part,
-        workgroups,
-        bindings: read.bindings(entry_point, from_group),
-    };
-    Ok(entries.iter().map(pass).collect())
+/// One is not valid.
+fn passes(sources: &[Source]) -> Result<Vec<Pass>, String> {
+    let mut all = Vec::new();
+    for source in sources {
+        let read = Read::new(&source.text)?;
+        let pass = |&(entry_point, workgroups): &Entry| Pass {
+            entry_point: entry_point.to_owned(),
+            file: Some(source.file),
+            part: source.part,
+            workgroups,
+            bindings: read.bindings(entry_point, source.group),
+            program: None,
+        };
+        all.extend(source.entries.iter().map(pass));
+    }
+    Ok(all)
+}
+
+/// Gives each pass its shader for SDL.
+///
+/// # Errors
+/// The language or SDL cannot express one.
+fn translate(made: &mut Programs, sources: &[Source], all: &mut [Pass]) -> Result<(), String> {
+    let entries = sources.iter().flat_map(|one| one.entries.iter().map(move |_| one));
+    for (source, pass) in entries.zip(all) {
+        let entry = pass.entry_point.as_str();
+        let name = format!("stage_{}", entry.trim_start_matches("tess_"));
+        let text = (source.text.as_str(), source.group);
+        let program = made.add(&name, text, entry, own_buffer)?;
+        (pass.file, pass.program) = (None, Some(program));
+    }
+    Ok(())
 }
 
 impl Vertex {
@@ -345,11 +489,12 @@ impl Vertex {
             format: format!("{:?}", one.format).to_lowercase(),
         };
         Ok(Self {
-            file: VERTEX,
+            file: Some(VERTEX),
             entry_point: "tess_vertex",
             stride: layout.array_stride,
             attributes: layout.attributes.iter().map(attribute).collect(),
             bindings: Read::new(text)?.bindings("tess_vertex", group),
+            program: None,
         })
     }
 }
@@ -380,7 +525,7 @@ impl Read {
         let bound = |(handle, variable): (naga::Handle<GlobalVariable>, &GlobalVariable)| {
             let binding = variable.binding.filter(|binding| binding.group >= from_group)?;
             let name = variable.name.as_deref()?;
-            let (_, buffer) = BUFFERS.iter().find(|(own, _)| *own == name)?;
+            let buffer = own_buffer(name)?;
             let is_used = !used[handle].is_empty();
             let AddressSpace::Storage { access } = variable.space else { return None };
             let is_written = access.contains(StorageAccess::STORE);
@@ -400,7 +545,7 @@ mod tests {
 
     fn manifest(domain: Domain) -> serde_json::Value {
         let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-        let asked = Asked { file: None, evaluate: false, project: None };
+        let asked = Asked { file: None, evaluate: false, project: None, translation: None };
         let stage = Stage::new(Setup::new(domain, config), &asked).expect("it is sound");
         serde_json::to_value(&stage.manifest).expect("JSON")
     }

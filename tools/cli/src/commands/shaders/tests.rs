@@ -3,8 +3,9 @@
 
 use super::formula::{Formula, Term};
 use super::languages::Read;
+use super::manifest::Kind;
 use super::plan::{self, Count, Variant};
-use super::translation::{Checks, Target, Translation};
+use super::translation::{Checks, Layout, Target, Translation};
 use super::{Shaders, header};
 use std::collections::HashSet;
 use std::mem::offset_of;
@@ -123,7 +124,7 @@ fn every_language_has_words(stage: tess_gpu::Stage, setup: Setup) {
     let read = Read::new(stage, setup).expect("it is valid");
     for target in [Target::Glsl, Target::Hlsl, Target::Msl, Target::Spirv] {
         for checks in [Checks::Full, Checks::None] {
-            let translation = Translation { target, checks };
+            let translation = Translation { target, layout: Layout::Plain, checks };
             let written = translation.write_read(&read).expect("it has words");
             let text = String::from_utf8_lossy(&written.text);
             assert!(!text.contains("NagaConstants"), "{target:?} {stage:?}");
@@ -136,7 +137,8 @@ fn every_language_has_words(stage: tess_gpu::Stage, setup: Setup) {
 
 #[test]
 fn the_header_has_what_the_manifest_has() {
-    let translation = Translation { target: Target::Spirv, checks: Checks::Full };
+    let translation =
+        Translation { target: Target::Spirv, layout: Layout::Plain, checks: Checks::Full };
     let shaders = Shaders::new(small(), translation).expect("it can be written");
     let text = header::text(&shaders.manifest);
     for stage in &shaders.manifest.stages {
@@ -159,7 +161,7 @@ fn the_header_has_what_the_manifest_has() {
 fn wgsl_comes_with_surfaces() {
     for (target, comes_with) in [(Target::Wgsl, true), (Target::Glsl, false)] {
         let folder = tempfile::tempdir().expect("a folder");
-        let translation = Translation { target, checks: Checks::Full };
+        let translation = Translation { target, layout: Layout::Plain, checks: Checks::Full };
         let shaders = Shaders::new(small(), translation).expect("it can be written");
         shaders.write(folder.path()).expect("written");
         let surfaces = folder.path().join("surfaces");
@@ -180,5 +182,85 @@ fn wgsl_comes_with_surfaces() {
             );
             assert!(read("README.md").contains(&format!("| `{}` |", module.name)), "{entry}");
         }
+    }
+}
+
+/// What SPIR-V binds: pairs of a set and a binding, in order, from its decorations.
+pub(super) fn decorated(bytes: &[u8]) -> Vec<(u32, u32)> {
+    let words: Vec<u32> =
+        bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+    let (mut at, mut sets, mut bindings) = (5, Vec::new(), Vec::new());
+    while at < words.len() {
+        let (length, code) = (words[at] >> 16, words[at] & 0xffff);
+        // OpDecorate with DescriptorSet or Binding.
+        match (code, words.get(at + 2)) {
+            (71, Some(34)) => sets.push((words[at + 1], words[at + 3])),
+            (71, Some(33)) => bindings.push((words[at + 1], words[at + 3])),
+            _ => {}
+        }
+        at += usize::try_from(length).expect("a length");
+    }
+    let of = |&(id, set): &(u32, u32)| {
+        let (_, binding) = bindings.iter().find(|(other, _)| *other == id)?;
+        Some((set, *binding))
+    };
+    let mut all: Vec<_> = sets.iter().filter_map(of).collect();
+    all.sort_unstable();
+    all
+}
+
+/// With SDL's layout each kind of resource is counted from 0 in its set, in the order of the
+/// bindings, and every span is a whole buffer, because SDL binds no parts.
+#[test]
+fn the_layout_of_sdl_counts_each_kind() {
+    let translation =
+        Translation { target: Target::Spirv, layout: Layout::Sdl, checks: Checks::Full };
+    for setup in setups() {
+        let shaders = Shaders::new(setup, translation).expect("it can be written");
+        for (number, stage) in shaders.manifest.stages.iter().enumerate() {
+            let [mut read, mut written, mut uniform] = [0..8, 0..8, 0..4];
+            for binding in &stage.bindings {
+                let (set, next) = match (binding.kind, binding.is_written) {
+                    (Kind::Uniform, _) => (2, uniform.next()),
+                    (Kind::Storage, true) => (1, written.next()),
+                    (Kind::Storage, false) => (0, read.next()),
+                };
+                assert_eq!((binding.set, Some(binding.binding)), (set, next), "{}", stage.name);
+            }
+            let bound = decorated(&shaders.files[number].1);
+            let said = |pair: &(u32, u32)| {
+                stage.bindings.iter().any(|one| (one.set, one.binding) == *pair)
+            };
+            assert!(!bound.is_empty() && bound.iter().all(said), "{}: {bound:?}", stage.name);
+        }
+        for dispatch in shaders.manifest.plans.iter().flat_map(|plan| &plan.dispatches) {
+            let stage = dispatch.stage.entry_point();
+            let described = shaders.manifest.stages.iter().find(|one| one.name == stage);
+            let bindings = &described.expect("it is described").bindings;
+            assert_eq!(bindings.len(), dispatch.bindings.len(), "{stage}: all are declared");
+            let partly = |one: &&plan::Bound| one.offset != Formula::from(0);
+            let partly: Vec<_> = dispatch.bindings.iter().filter(partly).collect();
+            let is_job = |one: &&plan::Bound| one.resource == tess_gpu::Resource::Job;
+            assert!(partly.iter().all(is_job), "{stage}: {partly:?}");
+        }
+    }
+}
+
+/// The same places in HLSL and MSL: registers and spaces; uniform buffers, then buffers that are
+/// read, then those that are written.
+#[test]
+fn every_language_has_the_layout_of_sdl() {
+    for (target, expected) in [
+        (Target::Hlsl, ["(b0, space2)", "(t0)", "(u0, space1)"]),
+        (Target::Msl, ["_buffer_sizes [[buffer(1)]]", "[[buffer(0)]]", "[[buffer(2)]]"]),
+    ] {
+        let translation = Translation { target, layout: Layout::Sdl, checks: Checks::Full };
+        let shaders = Shaders::new(small(), translation).expect("it can be written");
+        let stages = &shaders.manifest.stages;
+        let number = stages.iter().position(|one| one.name == "factors").expect("it runs");
+        let text = String::from_utf8_lossy(&shaders.files[number].1);
+        assert!(expected.iter().all(|place| text.contains(place)), "{target:?}: {text}");
+        let sizes = stages[number].msl_sizes.as_ref().map(|sizes| sizes.buffer);
+        assert_eq!(sizes, (target == Target::Msl).then_some(1), "after the job");
     }
 }

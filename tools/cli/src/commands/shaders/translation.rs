@@ -29,9 +29,20 @@ pub(crate) enum Checks {
     None,
 }
 
+/// The places of resources.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Layout {
+    /// All in set 0, numbered together
+    Plain,
+    /// As SDL 3's GPU interface expects them, with a header for the host in bindings/sdl
+    Sdl,
+}
+
 /// How stages are written.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct Translation {
     pub(super) target: Target,
+    pub(super) layout: Layout,
     pub(super) checks: Checks,
 }
