@@ -1,0 +1,3 @@
+fn main() {
+    println!("{}", sdl3_src::SOURCE_DIR);
+}
