@@ -3,7 +3,7 @@
 //! ```text
 //! what a developer runs      test -> setup, suite (builds, selects, one job for each program), tally (runs, counts)
 //! what guards a change       ci -> features, fuzz, ports (a file for each system), publish, then test
-//! tests that are not Rust    python, explorer, integrations (Bevy), mesa, models
+//! tests that are not Rust    python, explorer, integrations (Bevy), mesa, sdl, models
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! scripts in Python          script (checks of texts; records of measurements, tables and charts)
 //! for users                  install (header, libraries, tess.pc), dist (a release's archives), examples (of tess-wgpu)
@@ -39,6 +39,7 @@ mod python;
 mod rtl;
 mod satellites;
 mod script;
+mod sdl;
 mod setup;
 mod suite;
 mod tally;
@@ -67,8 +68,8 @@ usage: cargo xtask [--yes | --no-install] <command>
   ci all  the same with every satellite
   satellites [NAME...]
           test the satellites that have changed since they last passed, or that use a part of the product that has,
-          or these: python, explorer, rtl, and only if they are named bevy and mesa; records those that pass in
-          dev/satellites.tsv
+          or these: python, explorer, rtl, and only if they are named bevy, mesa and sdl; records those that pass
+          in dev/satellites.tsv
   setup   only set up: drivers for Vulkan and OpenGL, C, C++ and shader compilers, Verilator,
           Icarus Verilog, Python
   example NAME [OPTION...]
@@ -103,6 +104,8 @@ usage: cargo xtask [--yes | --no-install] <command>
           they are and with this library as their tessellator (in target/mesa, never installed), and compare them:
           docs/hosts/mesa.md. Runs on Debian 12 and 13, and takes 45 minutes on two cores. `test` runs the tests of
           Vulkan and OpenGL on the patched drivers
+  sdl     build SDL 3 from the sources of a crate (in target/sdl, unless the system has it), run the terrain of
+          bindings/sdl and compare its points and indices with the model; pictures stay in target/sdl
   models [FOLDER...]
           run `tess mesh` on the models in these folders, or on small ones of every kind that a script makes, and
           judge the outputs by other programs: pygltflib, scipy, Khronos' glTF validator
@@ -202,6 +205,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["install", "--prefix", folder] => install::run(folder, None),
         ["install", "--prefix", folder, "--target", target] => install::run(folder, Some(target)),
         ["mesa", ref words @ ..] => mesa::run(words),
+        ["sdl"] => sdl::run(),
         ["dist", ref words @ ..] => dist::run(words),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),

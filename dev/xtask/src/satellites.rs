@@ -6,7 +6,7 @@
 //! Continuous integration tests what is stale, except for the long ones, of which it says so.
 
 use crate::command::{self, in_file, workspace};
-use crate::{digest, dist, explorer, mesa, python, rtl};
+use crate::{digest, dist, explorer, mesa, python, rtl, sdl};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -87,6 +87,22 @@ const SATELLITES: &[Satellite] = &[
         name: "mesa",
         uses: &["integrations/mesa", "bindings/c", "tess-core", "tess-level", "tess-simd"],
         test: || mesa::run(&["compare"]),
+        is_long: true,
+    },
+    Satellite {
+        name: "sdl",
+        uses: &[
+            "bindings/sdl",
+            "bindings/c",
+            "tools/cli/src/commands/shaders",
+            "tess-core",
+            "tess-level",
+            "tess-simd",
+            "tess-gpu",
+            "tess-surface",
+            "tess-wgpu",
+        ],
+        test: sdl::run,
         is_long: true,
     },
 ];

@@ -3,7 +3,7 @@
 mod needs;
 
 use crate::command;
-pub(crate) use needs::{CELLS, ICARUS, NODE, PYTHON, SYSTEMC, VERILATOR, YOSYS, Z3};
+pub(crate) use needs::{CELLS, ICARUS, NODE, PYTHON, SYSTEMC, VERILATOR, VULKAN, YOSYS, Z3};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -66,7 +66,7 @@ pub(crate) fn installs() -> bool {
 /// There is no need of this name.
 pub(crate) fn missing(name: &str) -> Result<Option<&'static str>, String> {
     let need = match name {
-        "vulkan" => needs::VULKAN,
+        "vulkan" => VULKAN,
         _ => return Err(format!("no need is called `{name}`; there is `vulkan`")),
     };
     Ok((!(need.is_there)()).then_some(need.what))

@@ -42,7 +42,7 @@ pub(super) const BEYOND: &[Need] = &[
 ];
 
 /// The need of everything that runs shaders.
-pub(super) const VULKAN: Need = Need {
+pub(crate) const VULKAN: Need = Need {
     what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
     packages: &["libvulkan1", "mesa-vulkan-drivers"],
     is_there: has_vulkan,
