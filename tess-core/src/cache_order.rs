@@ -121,9 +121,9 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
     /// the specification's order and are not sent.
     pub fn runs(&self, mut emit: impl FnMut(Range<u32>)) {
         let firsts = self.firsts();
-        for edge in 0..EDGES {
-            for column in self.columns(edge) {
-                for (ring, steps) in self.column(edge, column) {
+        for (edge, sector) in self.sectors.iter().enumerate() {
+            for column in 0..sector.columns() {
+                for (ring, steps) in sector.runs(column) {
                     let first = firsts[ring as usize - 1][edge];
                     emit(first + steps.start..first + steps.end);
                 }
@@ -148,13 +148,7 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
     /// If `edge` is not below `EDGES`.
     #[inline(always)]
     pub fn column(&self, edge: usize, column: u32) -> impl Iterator<Item = (u32, Range<u32>)> {
-        let sector = self.sectors[edge];
-        let steps = move |ring| sector.border(ring, column)..sector.border(ring, column + 1);
-        // A ring begins one cell further from the corner than the one outside of it, so if a ring
-        // has no triangles in this column, the rings further in have none either.
-        (1..sector.end)
-            .map(move |ring| (ring, steps(ring)))
-            .take_while(|(_, steps)| !steps.is_empty())
+        self.sectors[edge].runs(column)
     }
 
     /// The number of each stitch's first triangle in the specification's order, which goes ring by
@@ -185,6 +179,17 @@ impl Sector {
 
     const fn columns(&self) -> u32 {
         self.along.div_ceil(COLUMN)
+    }
+
+    /// The steps of each ring's stitch that a column has, ring 1 first.
+    #[inline(always)]
+    fn runs(self, column: u32) -> impl Iterator<Item = (u32, Range<u32>)> {
+        let steps = move |ring| self.border(ring, column)..self.border(ring, column + 1);
+        // A ring begins one cell further from the corner than the one outside of it, so if a ring
+        // has no triangles in this column, the rings further in have none either.
+        (1..self.end)
+            .map(move |ring| (ring, steps(ring)))
+            .take_while(|(_, steps)| !steps.is_empty())
     }
 
     /// The first step of a stitch that belongs to `column` or to a later one.

@@ -109,8 +109,8 @@ impl<const EDGES: usize> Rings<EDGES> {
         let order = CacheOrder::new(self.outer, [self.along[1], self.along[0]]);
         let mut starts = [base; ROWS];
         for row in 1..end {
-            let before = row as usize - 1;
-            starts[row as usize] = starts[before].wrapping_add(self.length(before as u32));
+            let before = starts[row as usize - 1];
+            starts[row as usize] = before.wrapping_add(self.length(row - 1));
         }
         // The first index of each row's part along the edge.
         let mut at = starts;
