@@ -2,6 +2,7 @@
 
 use super::manifest::{Binding, Kind, MetalSizes, Stage as Described};
 use super::old_vulkan;
+use super::places::{Metal, Place, Places};
 use super::slots::{Slots, Which};
 use super::structures::ends_open;
 use super::translation::{Checks, Layout, Target, Translation};
@@ -28,31 +29,6 @@ pub(super) struct Entry<'a> {
     /// Whether the variables of a workgroup begin with zeros, as WGSL says. The batch's shaders do
     /// not rely on it.
     pub(super) is_zeroed: bool,
-}
-
-/// The places of an entry point's resources.
-pub(super) struct Places {
-    pub(super) of: Vec<(ResourceBinding, Place)>,
-    /// Metal's buffer slot in which the host passes the lengths of others.
-    pub(super) sizes: Option<u32>,
-    /// The constants of HLSL in which the host passes the number of workgroups.
-    pub(super) workgroups: Option<Place>,
-}
-
-/// The place of a resource: its descriptor set and binding, or space and register.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
-    pub(super) set: u32,
-    pub(super) binding: u32,
-    pub(super) metal: Metal,
-}
-
-/// The place of a resource in Metal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Metal {
-    Buffer(u32),
-    Texture(u32),
-    Sampler(u32),
 }
 
 /// A stage that naga has parsed and that can be written in any language.

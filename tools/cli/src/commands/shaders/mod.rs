@@ -6,6 +6,7 @@ mod header;
 mod languages;
 mod manifest;
 mod old_vulkan;
+mod places;
 mod plan;
 #[cfg(feature = "gpu")]
 mod programs;
@@ -16,6 +17,7 @@ mod sdl_tests;
 mod slots;
 #[cfg(feature = "gpu")]
 mod stage;
+mod stage_manifest;
 mod structures;
 mod surfaces;
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::manifest::{self, Kind, TABLES_FILE};
 use super::plan::{Count, Dispatch, Variant};
 use super::programs::{Named, Program, User};
 use super::slots::{self, Extra};
-use super::stage::{Attribute, Manifest, Pass, Workgroups};
+use super::stage_manifest::{Attribute, Manifest, Pass, Workgroups};
 use super::translation::Target;
 use tess_gpu::Resource;
 

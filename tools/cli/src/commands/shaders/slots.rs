@@ -5,7 +5,7 @@
 //! groups and bindings, and only resources count that the entry point uses. A sampler has the
 //! number of the one texture that it samples.
 
-use super::languages::{Metal, Place, Places};
+use super::places::{Metal, Place, Places};
 use super::structures::ends_open;
 use super::translation::Target;
 use naga::valid::ModuleInfo;
