@@ -9,6 +9,7 @@ tess_factor_context.sv
 tess_factors.sv
 tess_fork.sv
 tess_skid.sv
+tess_tags.sv
 tess_place_position.sv
 tess_place_blend.sv
 tess_place.sv
@@ -18,5 +19,6 @@ tess_mask.sv
 tess_rows.sv
 tess_stitch.sv
 tess_connect.sv
+tess_base.sv
 tess_top.sv
 tess_axis.sv

@@ -18,22 +18,27 @@ module tb_example;
         .patch_out         (ports.patch_out),
         .patch_center      (ports.patch_center),
         .patch_factors     (ports.patch_factors),
+        .patch_tag         (1'b0),
+        .patch_first       (1'b0),
         .counts_valid      (ports.counts_valid),
         .counts_ready      (ports.counts_ready),
         .counts_points     (ports.counts_points),
         .counts_primitives (ports.counts_primitives),
+        .counts_tag        (),
         .point_valid       (ports.point_valid),
         .point_ready       (ports.point_ready),
         .point_u           (ports.point_u),
         .point_v           (ports.point_v),
         .point_last        (ports.point_last),
+        .point_tag         (),
         .primitive_valid   (ports.primitive_valid),
         .primitive_ready   (ports.primitive_ready),
         .primitive_size    (ports.primitive_size),
         .primitive_i0      (ports.primitive_i0),
         .primitive_i1      (ports.primitive_i1),
         .primitive_i2      (ports.primitive_i2),
-        .primitive_last    (ports.primitive_last)
+        .primitive_last    (ports.primitive_last),
+        .primitive_tag     ()
     );
 
     initial begin

@@ -12,7 +12,9 @@
 // Exit: PASS, or $fatal. For each difference the patch is printed as a line that `tess explain` and +stimuli accept.
 module tb_tess #(
     parameter bit PADDED   = 1'b0, // of tess_axis
-    parameter bit BUFFERED = 1'b0
+    parameter bit BUFFERED = 1'b0,
+    parameter int TAG      = 0,    // at most 64
+    parameter int BASE     = 0     // at most 32
 );
     import tess_dpi::*;
 
@@ -27,6 +29,8 @@ module tb_tess #(
         bit [5:0][31:0] x;          // factors
         bit [31:0]      points;     // the model's counts
         bit [31:0]      primitives;
+        bit [63:0]      tag;        // its lowest TAG bits
+        bit [31:0]      first;      // number of its first point: the lowest BASE bits
     } stimulus_t;
 
     function automatic config_t config_of(input stimulus_t s);
@@ -52,23 +56,48 @@ module tb_tess #(
     logic [16:0]  point_u, point_v;
     logic         point_last, primitive_last;
     logic [1:0]   primitive_size;
-    logic [12:0]  primitive_i0, primitive_i1, primitive_i2;
+    logic [31:0]  primitive_i0, primitive_i1, primitive_i2;
+    logic [63:0]  patch_tag, counts_tag, point_tag, primitive_tag;
+    logic [31:0]  patch_first;
 
     // The design in its AXI4-Stream wrapper, so that every comparison covers both.
-    logic [31:0] counts_data;
-    logic [(PADDED ? 64 : 48)-1:0]  point_data;
-    logic [(PADDED ? 64 : 56)-1:0]  primitive_data;
-    logic [(PADDED ? 256 : 200)-1:0] patch_data;
-    logic [63:0] padding; // of the patch: the design ignores it
+    // A field of TAG or BASE begins at a byte, as do those after it.
+    localparam int INDEX         = (BASE == 0) ? 13 : BASE; // bits
+    localparam int INDEX_SLOT    = (BASE == 0) ? 16 : (BASE + 7) / 8 * 8;
+    localparam int PATCH_TAG     = 200 + (BASE + 7) / 8 * 8;
+    localparam int PRIMITIVE_TAG = 3 * INDEX_SLOT + 8;
+    typedef bit [511:0] word_t; // any word, in its lowest bits
+
+    function automatic int word(input int tag_at);
+        int packed_bits = tag_at + (TAG + 7) / 8 * 8;
+        return PADDED ? 2**$clog2(packed_bits) : packed_bits;
+    endfunction
+
+    function automatic bit [191:0] field(input word_t from, input int at, input int bits);
+        return 192'(from >> at) & ~((~192'd0) << bits);
+    endfunction
+
+    // The word with this field, where it was 0.
+    function automatic word_t with_field(input word_t rest, input int at, input int bits, input bit [191:0] value);
+        return rest | (word_t'(value & ~((~192'd0) << bits)) << at);
+    endfunction
+
+    logic [word(PATCH_TAG)-1:0]     patch_data;
+    logic [word(32)-1:0]            counts_data;
+    logic [word(48)-1:0]            point_data;
+    logic [word(PRIMITIVE_TAG)-1:0] primitive_data;
+    word_t ignored; // the bits of a patch without a field
     always_comb begin
-        padding           = {64{^patch_factors}};
-        patch_data        = (PADDED ? 256 : 200)'({padding[55:0], 200'd0});
-        patch_data[199:0] = {patch_factors, padding[7], patch_center, patch_out, patch_partitioning, patch_domain};
+        ignored    = with_field('0, 7, 1, '1) | ~((word_t'(1) << 200) - 1);
+        ignored    = ignored & ~with_field(with_field('0, 200, BASE, '1), PATCH_TAG, TAG, '1);
+        patch_data = $bits(patch_data)'(with_field(with_field((^patch_factors) ? ignored : '0, 200, BASE, 192'(patch_first)),
+            PATCH_TAG, TAG, 192'(patch_tag))
+            | word_t'({patch_factors, 1'b0, patch_center, patch_out, patch_partitioning, patch_domain}));
     end
 `ifdef TESS_GATES
     tess_axis axis (
 `else
-    tess_axis #(.PADDED(PADDED), .BUFFERED(BUFFERED)) axis (
+    tess_axis #(.PADDED(PADDED), .BUFFERED(BUFFERED), .TAG(TAG), .BASE(BASE)) axis (
 `endif
         .aclk                   (clk),
         .aresetn                (!rst),
@@ -89,19 +118,36 @@ module tb_tess #(
     );
     assign counts_points     = counts_data[12:0];
     assign counts_primitives = counts_data[29:16];
+    assign counts_tag        = 64'(field(word_t'(counts_data), 32, TAG));
     assign point_u           = point_data[16:0];
     assign point_v           = point_data[40:24];
-    assign primitive_i1      = primitive_data[28:16];
-    assign primitive_i2      = primitive_data[44:32];
-    assign primitive_size    = primitive_data[49:48];
-    assign primitive_i0      = primitive_data[12:0];
+    assign point_tag         = 64'(field(word_t'(point_data), 48, TAG));
+    assign primitive_i0      = 32'(field(word_t'(primitive_data), 0, INDEX));
+    assign primitive_i1      = 32'(field(word_t'(primitive_data), INDEX_SLOT, INDEX));
+    assign primitive_i2      = 32'(field(word_t'(primitive_data), 2 * INDEX_SLOT, INDEX));
+    assign primitive_size    = 2'(field(word_t'(primitive_data), 3 * INDEX_SLOT, 2));
+    assign primitive_tag     = 64'(field(word_t'(primitive_data), PRIMITIVE_TAG, TAG));
 
-    // The bits of the words that have fields. The others are 0.
-    localparam bit [63:0] COUNTS_FIELDS    = 64'h3FFF_1FFF;
-    localparam bit [63:0] POINT_FIELDS     = 64'h1_FFFF_01_FFFF;
-    localparam bit [63:0] PRIMITIVE_FIELDS = 64'h3_1FFF_1FFF_1FFF;
-    function automatic void check_padding(input string stage, input bit [63:0] word, input bit [63:0] fields);
-        if ((word & ~fields) != 64'd0) tess_check_pkg::failed(stage, "padding", "tess_axis");
+    // The bits of the words that have fields, besides the tag.
+    localparam word_t COUNTS_FIELDS    = 512'h3FFF_1FFF;
+    localparam word_t POINT_FIELDS     = 512'h1_FFFF_01_FFFF;
+    localparam word_t INDEX_FIELD      = (512'd1 << INDEX) - 512'd1;
+    localparam word_t PRIMITIVE_FIELDS = INDEX_FIELD | (INDEX_FIELD << INDEX_SLOT) | (INDEX_FIELD << (2 * INDEX_SLOT))
+        | (512'd3 << (3 * INDEX_SLOT));
+
+    // The tag of a word is the patch's, and the bits that have no field are 0.
+    localparam word_t TAG_FIELD = (512'd1 << TAG) - 512'd1;
+    function automatic void check_word(
+            input string stage, input word_t observed, input word_t fields, input int tag_at,
+            input bit [63:0] tag, input bit [63:0] expected);
+        if (((tag ^ expected) & TAG_FIELD[63:0]) != 64'd0) tess_check_pkg::failed(stage, "tag", "tess_tags");
+        if ((observed & ~(fields | (TAG_FIELD << tag_at))) != '0) tess_check_pkg::failed(stage, "padding", "tess_axis");
+    endfunction
+
+    // The index of a point in its patch: less the number of the patch's first point, if the primitive has the index.
+    function automatic int unsigned in_patch(input stimulus_t s, input int unsigned k, input bit [31:0] index);
+        if (BASE == 0 || k >= 32'(primitive_size)) return index;
+        return (index - s.first) & INDEX_FIELD[31:0];
     endfunction
 
     always #5 clk = ~clk;
@@ -191,7 +237,7 @@ module tb_tess #(
             $fatal(1, "FAIL: counts came that no patch has");
         end
         s = of_counts.pop_front();
-        check_padding("counts", 64'(counts_data), COUNTS_FIELDS);
+        check_word("counts", word_t'(counts_data), COUNTS_FIELDS, 32, counts_tag, s.tag);
         compare(s, COUNTS_POINTS, 0, 32'(counts_points), s.points);
         compare(s, COUNTS_PRIMITIVES, 0, 32'(counts_primitives), s.primitives);
         patches_checked++;
@@ -210,7 +256,7 @@ module tb_tess #(
         end
         s = of_points[0];
         p = model_point(config_of(s), s.x, next_point);
-        check_padding("points", 64'(point_data), POINT_FIELDS);
+        check_word("points", word_t'(point_data), POINT_FIELDS, 48, point_tag, s.tag);
         compare(s, POINTS_U, next_point, 32'(point_u), p.u);
         compare(s, POINTS_V, next_point, 32'(point_v), p.v);
         next_point++;
@@ -234,11 +280,11 @@ module tb_tess #(
         end
         s = of_primitives[0];
         p = model_primitive(config_of(s), s.x, next_primitive);
-        check_padding("connect", 64'(primitive_data), PRIMITIVE_FIELDS);
+        check_word("connect", word_t'(primitive_data), PRIMITIVE_FIELDS, PRIMITIVE_TAG, primitive_tag, s.tag);
         compare(s, CONNECT_SIZE, next_primitive, 32'(primitive_size), p.size);
-        compare(s, CONNECT_I0, next_primitive, 32'(primitive_i0), p.i0);
-        compare(s, CONNECT_I1, next_primitive, 32'(primitive_i1), p.i1);
-        compare(s, CONNECT_I2, next_primitive, 32'(primitive_i2), p.i2);
+        compare(s, CONNECT_I0, next_primitive, in_patch(s, 0, primitive_i0), p.i0);
+        compare(s, CONNECT_I1, next_primitive, in_patch(s, 1, primitive_i1), p.i1);
+        compare(s, CONNECT_I2, next_primitive, in_patch(s, 2, primitive_i2), p.i2);
         next_primitive++;
         compare(s, CONNECT_LAST, next_primitive - 1, 32'(primitive_last),
             32'(next_primitive == s.primitives));
@@ -406,6 +452,8 @@ module tb_tess #(
         patch_out          = offered.out;
         patch_center       = offered.split;
         patch_factors      = offered.x;
+        patch_tag          = offered.tag;
+        patch_first        = offered.first;
         if (gaps) press_back();
         #1;
         cover_sequences();
@@ -444,6 +492,16 @@ module tb_tess #(
         end
     end
 
+    // Each patch has another tag and another first number; half of the numbers are among the last, so that sums begin at 0 again.
+    int unsigned labels = 0;
+    function automatic stimulus_t labelled(input stimulus_t s);
+        labels++;
+        labelled       = s;
+        labelled.tag   = {labels * 32'h85EB_CA6B, labels * 32'h9E37_79B1};
+        labelled.first = labels * 32'hC2B2_AE35;
+        if (labelled.first[16]) labelled.first |= 32'hFFFF_F000;
+    endfunction
+
     int unsigned fault = 0, patches_behind = 0; // patches sent since a planted fault was found
 
     task automatic send(input stimulus_t s);
@@ -452,7 +510,7 @@ module tb_tess #(
         c.primitives = 0;
         if (gaps && random() % 8 == 0) repeat (random() % 24) @(posedge clk);
         if (s.domain != 2'd3) c = model_count(config_of(s), s.x);
-        offered            = s;
+        offered            = labelled(s);
         offered.points     = c.points;
         offered.primitives = c.primitives;
         is_accepted        = 1'b0;

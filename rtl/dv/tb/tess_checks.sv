@@ -110,21 +110,35 @@ endmodule
 
 // The ports of tess_top: each stream, including that of patches, keeps an element that waits, and a patch that is offered
 // during a reset is not taken.
-module tess_check_top (
-    input logic         clk, rst, patch_valid, patch_ready, counts_valid, counts_ready,
-    input logic [198:0] patch,
-    input logic [26:0]  counts
+module tess_check_top #(
+    parameter int PATCH = 1, COUNTS = 1, POINT = 1, PRIMITIVE = 1 // bits
+) (
+    input logic                 clk, rst, patch_valid, patch_ready, counts_valid, counts_ready,
+    input logic                 point_valid, point_ready, primitive_valid, primitive_ready,
+    input logic [PATCH-1:0]     patch,
+    input logic [COUNTS-1:0]    counts,
+    input logic [POINT-1:0]     point,
+    input logic [PRIMITIVE-1:0] element
 );
     always @(posedge clk) if (rst && patch_ready) tess_check_pkg::failed("patch", "ready", "tess_factors");
-    tess_check_stream #(.STAGE("patch"), .MODULE("tess_top"), .WIDTH(199), .COMES(1'b1)) patches (
+    tess_check_stream #(.STAGE("patch"), .MODULE("tess_top"), .WIDTH(PATCH), .COMES(1'b1)) patches (
         .clk, .rst, .valid(patch_valid && !rst), .ready(patch_ready), .data(patch));
-    tess_check_stream #(.STAGE("counts"), .MODULE("tess_top"), .WIDTH(27)) counted (
+    tess_check_stream #(.STAGE("counts"), .MODULE("tess_top"), .WIDTH(COUNTS)) counted (
         .clk, .rst, .valid(counts_valid), .ready(counts_ready), .data(counts));
+    tess_check_stream #(.STAGE("points"), .MODULE("tess_top"), .WIDTH(POINT)) points (
+        .clk, .rst, .valid(point_valid), .ready(point_ready), .data(point));
+    tess_check_stream #(.STAGE("connect"), .MODULE("tess_top"), .WIDTH(PRIMITIVE)) primitives (
+        .clk, .rst, .valid(primitive_valid), .ready(primitive_ready), .data(element));
 endmodule
-bind tess_top tess_check_top checks (
-    .clk, .rst, .patch_valid, .patch_ready, .counts_valid, .counts_ready,
-    .patch({patch_domain, patch_partitioning, patch_out, patch_center, patch_factors}),
-    .counts({counts_points, counts_primitives})
+bind tess_top tess_check_top #(
+    .PATCH(199 + TAGS + FIRSTS), .COUNTS(27 + TAGS), .POINT(35 + TAGS), .PRIMITIVE(3 + 3 * INDICES + TAGS)
+) checks (
+    .clk, .rst, .patch_valid, .patch_ready, .counts_valid, .counts_ready, .point_valid, .point_ready,
+    .primitive_valid, .primitive_ready,
+    .patch({patch_domain, patch_partitioning, patch_out, patch_center, patch_factors, patch_tag, patch_first}),
+    .counts({counts_points, counts_primitives, counts_tag}),
+    .point({point_u, point_v, point_last, point_tag}),
+    .element({primitive_size, primitive_i0, primitive_i1, primitive_i2, primitive_last, primitive_tag})
 );
 
 // Structures have the widths that tess_pkg states as sums.

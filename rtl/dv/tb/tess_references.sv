@@ -6,6 +6,8 @@
 //   tess_reciprocal            in every clock                                section 2
 //   tess_fork                  in every clock                                each element once to each consumer
 //   tess_skid                  an element leaves                             the elements that entered, in order
+//   tess_tags                  an element leaves                             the tags that entered, one for each `last`
+//   tess_base                  in every clock                                64-bit sums
 //   tess_place_position        two clocks after a position enters            section 5, first half
 //   tess_place_blend           six clocks after                              section 5, second half
 //   tess_combine               ten clocks after                              section 6
@@ -76,6 +78,49 @@ module tess_reference_skid #(
 endmodule
 bind tess_skid tess_reference_skid #(.WIDTH(WIDTH)) reference (
     .clk, .rst, .in_valid, .in_ready, .out_valid, .out_ready, .in_data, .out_data);
+
+module tess_reference_tags #(
+    parameter bit USED  = 1'b0,
+    parameter int WIDTH = 1
+) (
+    input logic             clk, rst, in_valid, in_ready, out_valid, out_ready, last,
+    input logic [13:0]      in_count,
+    input logic [WIDTH-1:0] in_tag, out_tag
+);
+    logic [WIDTH-1:0] held[$]; // the tags of patches whose last element has not left, the oldest first
+    always @(posedge clk) begin
+        if (rst) begin
+            held.delete();
+        end else if (USED) begin
+            if (out_valid && held.size() == 0) tess_check_pkg::failed("tags", "valid", "tess_tags");
+            if (out_valid && held.size() != 0 && out_tag != held[0]) tess_check_pkg::failed("tags", "tag", "tess_tags");
+            if (out_valid && out_ready && last && held.size() != 0) void'(held.pop_front());
+            if (in_valid && in_ready && in_count != 14'd0) held.push_back(in_tag);
+        end
+    end
+endmodule
+bind tess_tags tess_reference_tags #(.USED(USED), .WIDTH(WIDTH)) reference (
+    .clk, .rst, .in_valid, .in_ready, .in_count, .out_valid, .out_ready, .last(from_last), .in_tag, .out_tag);
+
+module tess_reference_base #(
+    parameter int INDICES = 13
+) (
+    input logic               clk, rst, valid,
+    input logic [63:0]        first,
+    input logic [1:0]         size,
+    input logic [2:0][12:0]   from,
+    input logic [INDICES-1:0] i0, i1, i2
+);
+    function automatic bit [INDICES-1:0] sum(input int unsigned k);
+        return (k < 32'(size)) ? INDICES'(64'(from[k]) + first) : '0;
+    endfunction
+    `TESS_CHECK(i0, "base", "i0", "tess_base", valid, i0 == sum(0))
+    `TESS_CHECK(i1, "base", "i1", "tess_base", valid, i1 == sum(1))
+    `TESS_CHECK(i2, "base", "i2", "tess_base", valid, i2 == sum(2))
+endmodule
+bind tess_top tess_reference_base #(.INDICES(INDICES)) base_reference (
+    .clk, .rst, .valid(joined_valid), .first((BASE == 0) ? 64'd0 : 64'(joined_label[FIRSTS-1:0])), .size(joined_size),
+    .from({joined_i2, joined_i1, joined_i0}), .i0, .i1, .i2);
 
 // ---- points --------------------------------------------------------------------------------------
 

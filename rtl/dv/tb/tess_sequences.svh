@@ -26,7 +26,7 @@ endfunction
 
 // Both streams are in the same patch if the same number of patches is due in each.
 function automatic void cover_primitive();
-    if (of_points.size() == of_primitives.size() && 32'(primitive_i0) >= next_point) hit("a primitive before its points");
+    if (of_points.size() == of_primitives.size() && in_patch(of_primitives[0], 0, primitive_i0) >= next_point) hit("a primitive before its points");
 endfunction
 
 // ---- stalls and resets by position -------------------------------------------------------------

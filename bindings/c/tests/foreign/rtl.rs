@@ -31,7 +31,8 @@ fn script() -> Result<Command, String> {
 #[derive(Clone, Copy)]
 pub(crate) enum Variant {
     Plain,
-    /// Register stages at the ports (`BUFFERED`), and padded AXI4-Stream words (`PADDED`).
+    /// Register stages at the ports (`BUFFERED`), padded AXI4-Stream words (`PADDED`), and tags and
+    /// numbered points (`TAG`, `BASE`).
     Buffered,
 }
 
@@ -103,27 +104,33 @@ fn equals(variant: Variant, name: &str) -> Result<(), Failed> {
 /// patch; or it costs clocks.
 #[expect(clippy::print_stdout, reason = "each fault takes a second, and its line says who saw it")]
 pub(crate) fn faults_are_caught() -> Result<(), Failed> {
-    let folder = build_folder().join("rtl");
-    run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--faults", "--build"]))?;
-    let bench = |fault: usize, arguments: &[&str]| {
-        let mut bench = Command::new(folder.join("faults/bench/Vtb_tess"));
-        bench.arg(format!("+fault={fault}")).args(arguments);
-        bench
-    };
+    for variant in [Variant::Plain, Variant::Buffered] {
+        let mut script = script()?;
+        script.env("TESS_VERILOG_BUILD", build_folder().join("rtl")).arg("--faults");
+        run(script.args(variant.options()).arg("--build"))?;
+    }
+    let bench = |fault: usize, arguments: &[&str]| planted(Variant::Plain, fault, arguments);
     let isolines = stimuli("isolines-100", &isolines(100)?)?;
     let timed = [isolines.as_str(), TIMED[0]];
-    BenchVerdict::read(&run(&mut bench(0, &ALL))?, 20_000)?;
+    for variant in [Variant::Plain, Variant::Buffered] {
+        BenchVerdict::read(&run(&mut planted(variant, 0, &ALL))?, 20_000)?;
+    }
     let clocks = BenchVerdict::read(&run(&mut bench(0, &timed))?, 600)?.clocks;
     for (number, fault) in circuit::faults(&repository())? {
         let began = Instant::now();
         let ListedFault { name, tests: seen_by, filters: words, .. } = &fault;
+        // `buffered` selects the variant.
+        let (variant, seen_by, words) = match (seen_by.as_str(), &words[..]) {
+            ("buffered", [seen_by, words @ ..]) => (Variant::Buffered, seen_by.as_str(), words),
+            (seen_by, words) => (Variant::Plain, seen_by, words),
+        };
         let (is_seen, said) = if seen_by == "proof" {
             continue; // `cargo xtask rtl --prove` plants it
         } else if seen_by == "clocks" {
             let said = run(&mut bench(number, &timed))?;
             (BenchVerdict::read(&said, 600)?.clocks > clocks, said)
         } else {
-            let output = output(&mut bench(number, &ALL))?;
+            let output = output(&mut planted(variant, number, &ALL))?;
             let said = text(&output.stdout);
             let is_named = names(&said, seen_by, words).ok_or("`seen by` names no signal")?;
             (!output.status.success() && is_named, said)
@@ -136,6 +143,17 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
         println!("  {number:>2} {}: {name}: {}, {seconds:.1} s", fault.folder, seen_by.trim_end());
     }
     Ok(())
+}
+
+/// The bench of a variant with all planted faults, of which it has this one.
+fn planted(variant: Variant, fault: usize, arguments: &[&str]) -> Command {
+    let folder = match variant {
+        Variant::Plain => "faults/bench",
+        Variant::Buffered => "faults/bench/buffered/bench",
+    };
+    let mut bench = Command::new(build_folder().join("rtl").join(folder).join("Vtb_tess"));
+    bench.arg(format!("+fault={fault}")).args(arguments);
+    bench
 }
 
 /// Whether the first report of a bench is what a list's `seen by` says; `None` if that is not

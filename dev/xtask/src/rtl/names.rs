@@ -102,6 +102,7 @@ mod tests {
             let names = |known: Signal| known.stage == stage && [known.name] == filters[..];
             let is_seen = match &stage[..] {
                 "clocks" | "assertion" => true,
+                "buffered" => filters.first().is_some_and(|kind| kind == "assertion"),
                 "proof" => proofs::sees(name) || ports::FAULTS.iter().any(|(own, _)| own == name),
                 _ => signals().any(names),
             };
@@ -135,20 +136,25 @@ mod tests {
             let code = line.split("//").next().unwrap_or_default().trim().trim_end_matches(',');
             let words: Vec<&str> = code.split_whitespace().collect();
             let (direction, bits, name) = match words[..] {
-                ["input", "logic", name] => ("in", 1, name),
-                ["output", "logic", name] => ("out", 1, name),
+                ["input", "logic", name] => ("in", "1".to_owned(), name),
+                ["output", "logic", name] => ("out", "1".to_owned(), name),
                 [side @ ("input" | "output"), "logic", range, name] => {
                     let highest = range.trim_start_matches('[').trim_end_matches(":0]");
-                    let highest: u32 = highest.parse().expect("a range");
-                    (if side == "input" { "in" } else { "out" }, highest + 1, name)
+                    let bits = highest.strip_suffix("-1").map(|named| format!("`{named}`"));
+                    let bits = bits.unwrap_or_else(|| {
+                        (highest.parse::<u32>().expect("a range") + 1).to_string()
+                    });
+                    (if side == "input" { "in" } else { "out" }, bits, name)
                 }
-                ["parameter", "bit", name, "=", "1'b0"] => {
-                    let row = "| bit | 0, 1 | 0 |";
+                ["parameter", kind, name, "=", default] => {
                     let is_row = |line: &str| {
-                        line.starts_with(&format!("| `{name}` |")) && line.contains(row)
+                        line.starts_with(&format!("| `{name}` |"))
+                            && line.contains(&format!("| {kind} |"))
+                            && line.contains("| 0 |")
                     };
-                    assert!(document.lines().any(is_row), "{name}, {row}");
-                    assert!(template.contains(&format!(".{name}(1'b0)")), "{name} in the template");
+                    assert!(document.lines().any(is_row), "{name}, {kind}");
+                    let given = format!(".{name}({default})");
+                    assert!(template.contains(&given), "{name} in the template");
                     continue;
                 }
                 _ => continue,
@@ -159,7 +165,7 @@ mod tests {
             assert!(named.any(|word| word == name), "{name} in the template");
             ports.push(name);
         }
-        assert_eq!(ports.len(), 25, "all ports");
+        assert_eq!(ports.len(), 30, "all ports");
     }
 
     /// `tess explain --signals` refuses a list with other signals than the model's. This one has

@@ -9,31 +9,38 @@ use crate::command;
 use std::path::Path;
 use std::process::Command;
 
-/// The planted faults that the check must detect, each with the variant that has it: with register
-/// stages at the ports (`BUFFERED`) or without.
-pub(super) const FAULTS: [(&str, bool); 2] = [
-    ("a patch waits until the one before is taken from the front end", false),
-    ("the buffer of one entry is ready only for an element that is offered", true),
+/// The variants of the design: the parameters of each.
+const VARIANTS: [&str; 4] = [PLAIN, BUFFERED, LABELLED, "-set BUFFERED 1 -set TAG 13 -set BASE 30"];
+const PLAIN: &str = "-set BUFFERED 0";
+const BUFFERED: &str = "-set BUFFERED 1";
+const LABELLED: &str = "-set TAG 13 -set BASE 30";
+
+/// The planted faults that the check must detect, each with the variant that has it.
+pub(super) const FAULTS: [(&str, &str); 3] = [
+    ("a patch waits until the one before is taken from the front end", PLAIN),
+    ("the buffer of one entry is ready only for an element that is offered", BUFFERED),
+    ("the place of a tag that leaves is free in the same clock", LABELLED),
 ];
 
-/// Checks the design with and without register stages, then that each fault is detected.
+/// Checks each variant of the design, then that each fault is detected.
 ///
 /// # Errors
 /// Yosys fails, an output depends on an input, or a fault is not detected.
 pub(crate) fn run() -> Result<(), String> {
     let folder = proofs::folder();
-    for buffered in [false, true] {
+    for variant in VARIANTS {
         proofs::copy(Planted::Nothing, true)?;
-        let inputs = inputs_of_outputs(&folder, buffered)?;
+        let inputs = inputs_of_outputs(&folder, variant)?;
         if !inputs.is_empty() {
             let inputs = inputs.join(", ");
             return Err(format!("an output depends on these inputs in the same clock: {inputs}"));
         }
     }
+    unused_labels_are_free(&folder)?;
     println!("\nno output depends on an input in the same clock, except on the reset");
-    for (fault, buffered) in FAULTS {
+    for (fault, variant) in FAULTS {
         proofs::copy(Planted::Fault(fault), true)?;
-        let inputs = inputs_of_outputs(&folder, buffered)?;
+        let inputs = inputs_of_outputs(&folder, variant)?;
         if inputs.is_empty() {
             return Err(format!("no output depends on an input, though {fault}"));
         }
@@ -42,16 +49,38 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
+/// Checks that tags and numbered points cost nothing where their parameters are 0.
+///
+/// # Errors
+/// Yosys fails, or finds a cell of them; or it finds none although they are used.
+fn unused_labels_are_free(folder: &Path) -> Result<(), String> {
+    for (variant, is_free) in [(PLAIN, true), (BUFFERED, true), (LABELLED, false)] {
+        let script = format!(
+            "read_verilog -sv -I . {}; chparam {variant} tess_axis; hierarchy -top tess_axis; proc; opt_clean; \
+             tee -o cells.txt select -list *tess_tags*/t:* *tess_base*/t:*",
+            proofs::design(folder)?.join(" "),
+        );
+        command::quiet_output(
+            Command::new("yosys").args(["-q", "-p", &script]).current_dir(folder),
+        )?;
+        let cells = command::read(&folder.join("cells.txt"))?;
+        if cells.trim().is_empty() != is_free {
+            return Err(format!("cells of tags and sums with {variant}:\n{cells}"));
+        }
+    }
+    println!("tags and numbered points have no cells where their parameters are 0");
+    Ok(())
+}
+
 /// The inputs of `tess_axis` in the design in `folder`, other than clock and reset, on which an
 /// output depends.
-fn inputs_of_outputs(folder: &Path, buffered: bool) -> Result<Vec<String>, String> {
+fn inputs_of_outputs(folder: &Path, variant: &str) -> Result<Vec<String>, String> {
     let script = format!(
-        "read_verilog -sv -I . {}; chparam -set BUFFERED {} tess_axis; hierarchy -top tess_axis; proc; flatten; \
+        "read_verilog -sv -I . {}; chparam {variant} tess_axis; hierarchy -top tess_axis; proc; flatten; \
          opt_clean; select -set outputs o:*_tvalid o:*_tready o:*_tdata o:*_tlast; select -assert-count 9 @outputs; \
          select -set inputs i:*_tvalid i:*_tready i:*_tdata; select -assert-count 5 @inputs; \
          tee -o inputs.txt select -list @outputs %cie* @inputs %i",
         proofs::design(folder)?.join(" "),
-        u8::from(buffered),
     );
     command::quiet_output(Command::new("yosys").args(["-q", "-p", &script]).current_dir(folder))?;
     let list = command::read(&folder.join("inputs.txt"))?;

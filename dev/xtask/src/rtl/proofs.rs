@@ -18,6 +18,8 @@ struct Proof {
     /// The module, and its property.
     says: &'static str,
     top: &'static str,
+    /// The parameters that are not the default.
+    parameters: &'static [(&'static str, u32)],
     /// Modules below it whose outputs are unconstrained.
     free: &'static [&'static str],
     /// The number of clocks of the base case and of the induction step; 0 for circuits without
@@ -33,12 +35,13 @@ struct Proof {
 }
 
 /// The files with modules that exist only for proofs.
-const PROVED: [&str; 4] = ["prove_factor", "prove_place", "prove_skid", "prove_top"];
+const PROVED: [&str; 5] = ["prove_factor", "prove_place", "prove_skid", "prove_tags", "prove_top"];
 
 const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_top, with tess_fork, hands each patch to each stage exactly once, and so its counts",
         top: "tess_top",
+        parameters: &[],
         free: &["tess_factors", "tess_points", "tess_connect"],
         depth: 6,
         reach: 8,
@@ -52,8 +55,19 @@ const PROOFS: &[Proof] = &[
         ],
     },
     Proof {
+        says: "tess_top, with tess_tags, does so with tags and numbered points",
+        top: "tess_top",
+        parameters: &[("TAG", 4), ("BASE", 14)],
+        free: &["tess_factors", "tess_points", "tess_connect"],
+        depth: 6,
+        reach: 8,
+        inside: true,
+        faults: &["the tag of counts that wait is overwritten"],
+    },
+    Proof {
         says: "tess_factors neither drops nor doubles a patch",
         top: "tess_factors",
+        parameters: &[],
         free: &[],
         depth: 4,
         reach: 14,
@@ -63,6 +77,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_points neither drops nor doubles a point",
         top: "tess_points",
+        parameters: &[],
         free: &["tess_place"],
         depth: 1,
         reach: 18,
@@ -77,6 +92,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_place keeps everything while it waits",
         top: "tess_place",
+        parameters: &[],
         free: &[],
         depth: 1,
         reach: 3,
@@ -89,6 +105,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_combine keeps everything while it waits",
         top: "tess_combine",
+        parameters: &[],
         free: &[],
         depth: 1,
         reach: 3,
@@ -98,6 +115,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_connect neither drops nor doubles a primitive",
         top: "tess_connect",
+        parameters: &[],
         free: &["tess_stitch", "tess_rows", "tess_mask"],
         depth: 1,
         reach: 8,
@@ -107,6 +125,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_stitch makes every step of a stitch once",
         top: "tess_stitch",
+        parameters: &[],
         free: &[],
         depth: 4,
         reach: 8,
@@ -116,6 +135,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_rows makes one primitive of each step",
         top: "tess_rows",
+        parameters: &[],
         free: &[],
         depth: 4,
         reach: 8,
@@ -125,6 +145,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_skid gives each element once and in order",
         top: "prove_skid",
+        parameters: &[],
         free: &[],
         depth: 6,
         reach: 8,
@@ -137,8 +158,37 @@ const PROOFS: &[Proof] = &[
         ],
     },
     Proof {
+        says: "tess_tags gives each element the tag of its patch",
+        top: "prove_tags",
+        parameters: &[],
+        free: &[],
+        depth: 2,
+        reach: 12,
+        inside: true,
+        faults: &[
+            "a tag leaves with the first element of its patch",
+            "a tag overwrites one that waits",
+            "a tag survives a reset",
+            "a culled patch leaves its tag",
+        ],
+    },
+    Proof {
+        says: "tess_base adds the first number to each index of a primitive",
+        top: "prove_base",
+        parameters: &[],
+        free: &[],
+        depth: 0,
+        reach: 1,
+        inside: true,
+        faults: &[
+            "the sum of the third index lacks a carry",
+            "a number is added to an index that a line does not have",
+        ],
+    },
+    Proof {
         says: "every output of the whole design stays with its value while it is not taken",
         top: "prove_top",
+        parameters: &[],
         free: &[],
         depth: 1,
         reach: 0,
@@ -152,6 +202,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_factor equals section 3 for every pattern",
         top: "prove_factor",
+        parameters: &[],
         free: &[],
         depth: 0,
         reach: 1,
@@ -165,6 +216,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_place_position equals the first half of the formula of section 5",
         top: "prove_place_position",
+        parameters: &[],
         free: &[],
         depth: 0,
         reach: 1,
@@ -177,6 +229,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_place_blend equals the second half of the formula of section 5",
         top: "prove_place_blend",
+        parameters: &[],
         free: &[],
         depth: 0,
         reach: 1,
@@ -290,9 +343,14 @@ impl Proof {
     fn write(&self, planted: Planted<'_>) -> Result<(), String> {
         copy(planted, self.inside)?;
         let free: String = self.free.iter().map(|name| format!("cutpoint t:*{name}; ")).collect();
+        let parameters: String = self
+            .parameters
+            .iter()
+            .map(|(name, value)| format!("chparam -set {name} {value} {}; ", self.top))
+            .collect();
         // Outputs that no property uses are removed, and with them the multipliers that feed them.
         let script = format!(
-            "read_verilog -sv -formal -I . {} hold.sv ledger.sv port.sv {}.sv; hierarchy -top {}; proc; {free}flatten; \
+            "read_verilog -sv -formal -I . {} hold.sv ledger.sv port.sv {}.sv; {parameters}hierarchy -top {}; proc; {free}flatten; memory; \
              delete -output; opt -full -nosdff -nodffe; opt_clean -purge; dffunmap; opt_clean; write_smt2 -wires {}",
             design(&folder())?.join(" "),
             PROVED.join(".sv "),

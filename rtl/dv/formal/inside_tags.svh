@@ -1,0 +1,33 @@
+// tess_tags gives each element the tag of its patch: tags leave in the order in which they came, each with its patch's last
+// element; the stage and the port see the same transfers; and no element waits for its tag, if the stage makes elements only of
+// patches that it holds.
+if (USED) begin : g_proof
+    localparam int TAGS = 2**LOG;
+    logic                  has_begun = 1'b0, comes, leaves;
+    logic [LOG:0]          due;      // patches that the stage holds
+    logic [WIDTH*TAGS-1:0] expected; // their tags, the oldest lowest
+    assign comes  = to_valid && to_ready && in_count != 14'd0;
+    assign leaves = from_valid && from_ready && from_last;
+    always_ff @(posedge clk) begin
+        has_begun <= 1'b1;
+        due       <= rst ? '0 : due + (LOG+1)'(comes) - (LOG+1)'(leaves);
+        for (int i = 0; i < TAGS; i++) begin
+            if (comes && i == due - (LOG+1)'(leaves)) expected[WIDTH*i +: WIDTH] <= in_tag;
+            else if (leaves && i + 1 < TAGS)          expected[WIDTH*i +: WIDTH] <= expected[WIDTH*(i+1) +: WIDTH];
+        end
+    end
+    always_comb begin
+        if (!has_begun) assume (rst);
+        if (has_begun && !rst) begin
+            if (from_valid) assume (due != '0);
+            assert (g_tags.held == due && due <= (LOG+1)'(TAGS));
+            for (int i = 0; i < TAGS; i++)
+                assert (i >= due || g_tags.tags[LOG'(g_tags.first + LOG'(i))] == expected[WIDTH*i +: WIDTH]);
+            assert (out_valid == from_valid && (!out_valid || out_tag == expected[WIDTH-1:0]));
+            assert ((in_valid && in_ready) == (to_valid && to_ready));
+            assert ((out_valid && out_ready) == (from_valid && from_ready));
+        end
+        cover (has_begun && !rst && due == (LOG+1)'(TAGS) && in_valid);
+        cover (has_begun && !rst && comes && leaves);
+    end
+end
