@@ -62,7 +62,7 @@ const PROOFS: &[Proof] = &[
         depth: 6,
         reach: 8,
         inside: true,
-        faults: &["the tag of counts that wait is overwritten"],
+        faults: &["the tag of counts is that of the next patch"],
     },
     Proof {
         says: "tess_factors neither drops nor doubles a patch",
