@@ -5,17 +5,16 @@ if (USED) begin : g_proof
     localparam int TAGS = 2**LOG;
     logic                  has_begun = 1'b0, comes, leaves;
     logic [LOG:0]          due;      // patches that the stage holds
-    logic [WIDTH*TAGS-1:0] expected; // their tags, the oldest lowest
+    logic [WIDTH*TAGS-1:0] expected, rest; // their tags, the oldest lowest
     assign comes  = to_valid && to_ready && in_count != 14'd0;
     assign leaves = from_valid && from_ready && from_last;
     always_ff @(posedge clk) begin
         has_begun <= 1'b1;
         due       <= rst ? '0 : due + (LOG+1)'(comes) - (LOG+1)'(leaves);
-        for (int i = 0; i < TAGS; i++) begin
-            if (comes && i == due - (LOG+1)'(leaves)) expected[WIDTH*i +: WIDTH] <= in_tag;
-            else if (leaves && i + 1 < TAGS)          expected[WIDTH*i +: WIDTH] <= expected[WIDTH*(i+1) +: WIDTH];
-        end
+        expected  <= rest;
+        for (int i = 0; i < TAGS; i++) if (comes && i == due - (LOG+1)'(leaves)) expected[WIDTH*i +: WIDTH] <= in_tag;
     end
+    assign rest = leaves ? expected >> WIDTH : expected;
     always_comb begin
         if (!has_begun) assume (rst);
         if (has_begun && !rst) begin
