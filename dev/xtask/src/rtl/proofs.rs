@@ -197,6 +197,8 @@ const PROOFS: &[Proof] = &[
             "a stall of 32 clocks loses a point",
             "a stall of 32 clocks loses a primitive",
             "counts that wait are overwritten",
+            "a tag is not kept in a stall",
+            "the tag of counts is that of the next patch",
         ],
     },
     Proof {
@@ -350,7 +352,7 @@ impl Proof {
             .collect();
         // Outputs that no property uses are removed, and with them the multipliers that feed them.
         let script = format!(
-            "read_verilog -sv -formal -I . {} hold.sv ledger.sv port.sv {}.sv; {parameters}hierarchy -top {}; proc; {free}flatten; memory; \
+            "read_verilog -sv -formal -I . {} hold.sv ledger.sv port.sv {}.sv; {parameters}hierarchy -top {}; proc; {free}flatten; memory -nordff; \
              delete -output; opt -full -nosdff -nodffe; opt_clean -purge; dffunmap; opt_clean; write_smt2 -wires {}",
             design(&folder())?.join(" "),
             PROVED.join(".sv "),
