@@ -15,12 +15,10 @@ class tess_driver extends uvm_driver #(tess_patch_item);
     endfunction
 
     virtual task run_phase(uvm_phase phase);
-        uvm_sequence_item next;
-        tess_patch_item   item;
+        tess_patch_item item;
         do @(negedge ports.clk); while (ports.rst);
         forever begin
-            seq_item_port.get_next_item(next);
-            if (!$cast(item, next)) `uvm_fatal("TESS", "the sequence sends what is no patch")
+            seq_item_port.get_next_item(item);
             drive(item);
             seq_item_port.item_done();
         end

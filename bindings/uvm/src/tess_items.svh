@@ -62,14 +62,16 @@ class tess_patch_item extends uvm_sequence_item;
     // Reads a line of `convert2string` or a row of `tess gen`. Returns 0 and changes nothing if the line is neither.
     virtual function bit from_case(string line);
         string          words[10];
-        int             given;
+        int             given = 0;
         int             d, p, o, s;
         bit [31:0]      x[6];
         string          blanks = line;
         for (int i = 0; i < blanks.len(); i++) if (blanks.getc(i) == ",") blanks.putc(i, " ");
         if (blanks.len() > 5 && blanks.substr(0, 4) == "case ") blanks = blanks.substr(5, blanks.len() - 1);
-        given = $sscanf(blanks, "%s %s %s %s %s %s %s %s %s %s", words[0], words[1], words[2], words[3], words[4],
-            words[5], words[6], words[7], words[8], words[9]);
+        // The words are counted, because Verilator 5.048 returns -1 for fewer than ten.
+        void'($sscanf(blanks, "%s %s %s %s %s %s %s %s %s %s", words[0], words[1], words[2], words[3], words[4],
+            words[5], words[6], words[7], words[8], words[9]));
+        foreach (words[i]) if (words[i] != "") given++;
         if (given < 4) return 0;
         d = number_of(words[0], 0, 3);
         p = number_of(words[1], 3, 4);
@@ -148,14 +150,12 @@ class tess_result_item extends uvm_sequence_item;
     // Copies the patch too, because a driver may reuse its own for the next patch.
     virtual function void do_copy(uvm_object rhs);
         tess_result_item other;
-        uvm_object       from; // exactly the argument's type, as Verilator 5.006 requires
         super.do_copy(rhs);
         if (!$cast(other, rhs)) `uvm_fatal("TESS", "a result is copied from an object that is none")
         patch = null;
         if (other.patch != null) begin
             patch = new(other.patch.get_name());
-            from  = other.patch;
-            patch.copy(from);
+            patch.copy(other.patch);
         end
         u       = other.u;
         v       = other.v;
@@ -164,12 +164,10 @@ class tess_result_item extends uvm_sequence_item;
 
     virtual function bit do_compare(uvm_object rhs, uvm_comparer comparer);
         tess_result_item other;
-        uvm_object       others; // exactly the argument's type, as Verilator 5.006 requires
         bit              same_patch;
         if (!$cast(other, rhs)) return 0;
-        others = other.patch;
         if (patch == null || other.patch == null) same_patch = patch == other.patch;
-        else same_patch = patch.do_compare(others, comparer);
+        else same_patch = patch.do_compare(other.patch, comparer);
         return super.do_compare(rhs, comparer) && same_patch
             && u == other.u && v == other.v && indices == other.indices;
     endfunction

@@ -5,10 +5,8 @@ class tess_predictor extends uvm_subscriber #(tess_patch_item);
     `uvm_component_utils(tess_predictor)
 
     function new(string name, uvm_component parent);
-        uvm_component self; // exactly the argument's type, as Verilator 5.006 requires
         super.new(name, parent);
-        self = this;
-        results = new("results", self);
+        results = new("results", this);
     endfunction
 
     virtual function void write(tess_patch_item t);

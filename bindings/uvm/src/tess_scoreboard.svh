@@ -34,13 +34,11 @@ class tess_scoreboard extends uvm_component;
     `uvm_component_utils(tess_scoreboard)
 
     function new(string name, uvm_component parent);
-        uvm_component self; // exactly the argument's type, as Verilator 5.006 requires
         super.new(name, parent);
-        self = this;
-        expected = new("expected", self);
+        expected = new("expected", this);
         expected.scoreboard = this;
         expected.is_expected = 1'b1;
-        observed = new("observed", self);
+        observed = new("observed", this);
         observed.scoreboard = this;
     endfunction
 

@@ -31,15 +31,13 @@ class tess_file_sequence extends uvm_sequence #(tess_patch_item);
 
     // Sends the patch of a line, if it has one.
     protected task send(string line, int number);
-        tess_patch_item   item;
-        uvm_sequence_item next; // exactly the argument's type, as Verilator 5.006 requires
+        tess_patch_item item;
         if (!tess_patch_item::is_case(line)) return;
         item = tess_patch_item::type_id::create("patch");
-        next = item;
-        start_item(next);
+        start_item(item);
         if (!item.from_case(line))
             `uvm_fatal("TESS", $sformatf("%s:%0d: no case: %s", file, number, line))
-        finish_item(next);
+        finish_item(item);
         sent++;
     endtask
 endclass

@@ -14,6 +14,7 @@ mod ports;
 mod proofs;
 #[cfg(feature = "kit")]
 mod stages;
+mod uvm;
 
 use crate::command;
 use crate::setup;
@@ -40,7 +41,8 @@ pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
 }
 
 /// Checks the sources' style and the ports, then runs the circuit's tests of the C interface:
-/// comparisons with the model, planted faults, clocks, and the UVM package.
+/// comparisons with the model, planted faults, clocks, and, if `UVM_HOME` names a UVM, the UVM
+/// package.
 ///
 /// # Errors
 /// A tool is missing, the lint warns, an output depends on an input, an element or a number of
@@ -51,8 +53,9 @@ pub(crate) fn compare() -> Result<(), String> {
     ports::run()?;
     // A test whose tool is missing fails.
     let mut tests = command::cargo(CAPI);
-    tests.args(["--", "--ignored", "_on_request"]).env("TESS_CAPI_BUILD", CAPI).env("CI", "1");
-    command::run(&mut tests)
+    tests.args(["--", "--ignored", "_on_request", "--skip", "uvm_"]);
+    command::run(tests.env("TESS_CAPI_BUILD", CAPI).env("CI", "1"))?;
+    uvm::run()
 }
 
 /// The folder of the circuit.

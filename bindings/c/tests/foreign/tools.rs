@@ -28,8 +28,13 @@ pub(crate) fn build_folder() -> &'static Path {
     folder
 }
 
-/// Whether a tool can be run; of the library `systemc`, whether its header is there.
+/// Whether a tool can be run; of the library `systemc`, whether its header is there; of `UVM_HOME`,
+/// whether it names a folder with a UVM.
 pub(crate) fn has(tool: &str) -> bool {
+    if tool == "UVM_HOME" {
+        let home = std::env::var_os("UVM_HOME");
+        return home.is_some_and(|home| Path::new(&home).join("src/uvm_pkg.sv").exists());
+    }
     if tool == "systemc" {
         let include = std::env::var_os("SYSTEMC_INCLUDE").unwrap_or_else(|| "/usr/include".into());
         return Path::new(&include).join("systemc").exists();

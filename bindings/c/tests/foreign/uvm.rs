@@ -1,14 +1,36 @@
-//! The package `tess_uvm` in Verilator, with a stub of UVM.
+//! The package `tess_uvm` and its example in Verilator with a real UVM, around the circuit.
 
-use super::tools::{build_folder, crate_folder, libraries, output, run, text};
+use super::rtl::stimuli;
+use super::tools::{build_folder, crate_folder, libraries, output, repository, run, text};
 use libtest_mimic::Failed;
 use std::fs;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::{Command, Output};
+use tess_testkit::circuit;
 use tess_verify::Case;
+use tess_verify::generate::{GenLevel, Selection};
 
-/// The planted differences, and what the scoreboard says of each.
-const FAULTS: [(u32, &str); 6] = [
+/// Patches that the circuit must answer as the model does, and the points of each at most.
+const PATCHES: usize = 1000;
+const POINTS: u32 = 200;
+
+/// Planted faults of the circuit that its ports show, and a part of what the scoreboard or the
+/// monitor says of each.
+const FAULTS: [(&str, &str); 10] = [
+    ("ties round up, not to even", "(stage: "),
+    ("the picture frame is forgotten", "(stage: counts)"),
+    ("a factor below the normal numbers culls", "(stage: counts)"),
+    ("the last factor alone decides whether the patch is the minimum patch", "(stage: counts)"),
+    ("reciprocals are cut off, not rounded", "(stage: location)"),
+    ("the split belongs to the finer half", "(stage: location)"),
+    ("the blend is cut off, not rounded", "(stage: location)"),
+    ("the last edge is walked forward", "(stage: location)"),
+    ("the triangle at an outer middle begins on the outer row", "(stage: stitch)"),
+    ("a row of points is walked forward", "(stage: stitch)"),
+];
+
+/// Planted differences between results, and what the scoreboard says of each.
+const DIFFERENCES: [(u32, &str); 6] = [
     (1, "point 3: observed ("),
     (2, "index 4: observed "),
     (3, "number of points: observed "),
@@ -17,38 +39,87 @@ const FAULTS: [(u32, &str); 6] = [
     (6, "the result is of case "),
 ];
 
-/// It compiles; equal results pass, and each planted difference is reported.
-pub(crate) fn compiles_and_runs() -> Result<(), Failed> {
-    let folder = build_folder().join("uvm");
-    let mut script = Command::new(crate_folder().join("../uvm/scripts/verilator"));
-    script.env("TESS_LIBRARY", libraries()?.archive).env("TESS_VERILOG_BUILD", &folder);
-    let said = run(&mut script)?;
-    let equal = "8 compared, 0 mismatches, 0 errors";
-    if !said.lines().any(|line| line == equal) || !said.lines().any(|line| line == "PASS") {
-        return Err(format!("not said: {equal}, PASS; but:\n{said}").into());
+/// The script that builds and runs, with a circuit that has every planted fault.
+struct Uvm {
+    folder: PathBuf,
+    library: PathBuf,
+}
+
+impl Uvm {
+    fn script(&self) -> Command {
+        let mut script = Command::new(crate_folder().join("../uvm/scripts/verilator"));
+        script.env("TESS_LIBRARY", &self.library).env("TESS_VERILOG_BUILD", &self.folder);
+        script.env("TESS_RTL", self.folder.join("design"));
+        script
     }
-    let unordered = run(Command::new(folder.join("Vtb_uvm")).arg("+unordered"))?;
-    if !unordered.lines().any(|line| line == equal) {
-        return Err(format!("results from the last to the first:\n{unordered}").into());
+
+    fn built() -> Result<Self, String> {
+        let uvm = Self { folder: build_folder().join("uvm"), library: libraries()?.archive };
+        circuit::plant(&repository(), &uvm.folder.join("design"), None)?;
+        run(uvm.script().arg("--build"))?;
+        Ok(uvm)
     }
-    for (fault, report) in FAULTS {
-        let output = output(Command::new(folder.join("Vtb_uvm")).arg(format!("+fault={fault}")))?;
+
+    /// Runs a test that must pass; what it says.
+    fn passes(&self, arguments: &[&str]) -> Result<String, String> {
+        run(self.script().args(arguments))
+    }
+
+    /// Runs a test that must find an error with this text, and with a case that can be pasted
+    /// unless no result of a patch is wrong.
+    fn fails(&self, arguments: &[&str], report: &str, has_case: bool) -> Result<(), String> {
+        let output = output(self.script().args(arguments))?;
         let said = text(&output.stdout);
-        let reported =
-            said.lines().any(|line| line.starts_with("UVM_ERROR") && line.contains(report));
-        // The case can be pasted, but where no result of a patch is wrong.
+        let is_error = |line: &str| line.starts_with("UVM_ERROR ") && line.contains(report);
+        let reported = said.lines().any(is_error);
         let case = said.lines().find(|line| line.starts_with("case "));
-        let is_case = fault == 4 || case.is_some_and(|line| line.parse::<Case>().is_ok());
-        if output.status.success() || !reported || !is_case {
-            return Err(format!("fault {fault} was not reported as `{report}`:\n{said}").into());
+        let is_case = !has_case || case.is_some_and(|line| line.parse::<Case>().is_ok());
+        if output.status.code() == Some(1) && reported && is_case {
+            return Ok(());
+        }
+        Err(format!("{arguments:?}: not reported as `{report}`, {}:\n{said}", output.status))
+    }
+}
+
+/// The example passes 1000 patches of the circuit and finds each planted fault; the scoreboard
+/// finds each planted difference; sequences send what files say.
+pub(crate) fn compiles_and_runs() -> Result<(), Failed> {
+    let uvm = Uvm::built()?;
+    let small = |case: &Case| (1..=POINTS).contains(&case.patch().counts().points);
+    let cases: Vec<Case> =
+        Selection::level(GenLevel::One, 1).cases().filter(small).step_by(7).take(PATCHES).collect();
+    let stimuli = stimuli("uvm", &cases)?.replace("+stimuli", "+tess_cases");
+    let said = uvm.passes(&[&stimuli])?;
+    let tally = format!("{PATCHES} patches compared, 0 mismatches");
+    if !said.contains(&tally) {
+        return Err(format!("not said `{tally}`:\n{said}").into());
+    }
+    let all = circuit::faults(&repository())?;
+    for (fault, report) in FAULTS {
+        let (number, _) = all.iter().find(|(_, one)| one.name == fault).ok_or("no such fault")?;
+        uvm.fails(&[&stimuli, &format!("+fault={number}")], report, true)?;
+    }
+    differences(&uvm)?;
+    sequences(&uvm)
+}
+
+fn differences(uvm: &Uvm) -> Result<(), Failed> {
+    let test = "+UVM_TESTNAME=tess_differences_test";
+    for order in [&[test][..], &[test, "+unordered"]] {
+        let said = uvm.passes(order)?;
+        if !said.contains("8 patches compared, 0 mismatches") {
+            return Err(format!("{order:?}:\n{said}").into());
         }
     }
-    sequences(&folder)
+    for (number, report) in DIFFERENCES {
+        uvm.fails(&[test, &format!("+tess_difference={number}")], report, number != 4)?;
+    }
+    Ok(())
 }
 
 /// The patches of files, as the sequence sends them; lines that are no case, and what it says of
 /// them.
-fn sequences(folder: &Path) -> Result<(), Failed> {
+fn sequences(uvm: &Uvm) -> Result<(), Failed> {
     let rows = "# tess-vectors 1 kind=patches\ndomain,partitioning,output,split,factors_f32_hex,points\n\n\
                 quad,fractional_odd,line,center,421b9633 3e052e37 419b19de 4200aeb2 3ffd6ee9 3f800040,98\n\
                 case tri pow2 triangle_ccw ruler 4168d620 42140004 41989173 40ef271c\r\n\
@@ -64,10 +135,10 @@ fn sequences(folder: &Path) -> Result<(), Failed> {
         ("case isoline integer point ruler 4000000 40000000\n", ":1: no case: case isoline"),
         ("case isoline integer point ruler 4000000g 40000000\n", ":1: no case: case isoline"),
     ] {
-        let file = folder.join("cases.txt");
+        let file = uvm.folder.join("cases.txt");
         fs::write(&file, text).map_err(|error| error.to_string())?;
-        let mut bench = Command::new(folder.join("Vtb_uvm"));
-        let output = output(bench.arg(format!("+tess_cases={}", file.display())))?;
+        let cases = format!("+tess_cases={}", file.display());
+        let output = output(uvm.script().args(["+UVM_TESTNAME=tess_sequence_test", &cases]))?;
         let out = text_of(&output);
         if output.status.success() != (text == rows) || !out.contains(said) {
             return Err(format!("{text}\ngave\n{out}").into());
