@@ -36,11 +36,11 @@ module tess_tags #(
         assign out_tag    = '0;
     end else begin : g_tags
         logic [WIDTH-1:0] tags [2**LOG];
-        logic [LOG-1:0]  first; // place of the tag that leaves next
-        logic [LOG:0]    held;  // number of tags
-        logic            is_full, is_there, comes, leaves;
-        assign is_full    = held[LOG];
-        assign is_there   = held != '0;
+        logic [LOG-1:0]   first;    // place of the tag that leaves next
+        logic             is_there; // there is one
+        logic [LOG-1:0]   further;  // number of tags after it
+        logic             is_full, comes, leaves;
+        assign is_full    = &further;
         assign to_valid   = in_valid && !is_full;
         assign in_ready   = to_ready && !is_full;
         assign out_valid  = from_valid && is_there;
@@ -50,14 +50,16 @@ module tess_tags #(
         assign leaves     = out_valid && out_ready && from_last;
         always_ff @(posedge clk) begin
             if (rst) begin
-                first <= '0;
-                held  <= '0;
+                is_there <= 1'b0;
+                first    <= '0;
+                further  <= '0;
             end else begin
-                first <= first + LOG'(leaves);
-                held  <= held + (LOG+1)'(comes) - (LOG+1)'(leaves);
+                is_there <= comes || (is_there && !(leaves && further == '0));
+                first    <= first + LOG'(leaves);
+                further  <= further + LOG'(comes && !leaves && is_there) - LOG'(leaves && !comes && further != '0);
             end
             if (comes) begin
-                tags[first + held[LOG-1:0]] <= in_tag;
+                tags[first + further + LOG'(is_there)] <= in_tag;
             end
         end
     end

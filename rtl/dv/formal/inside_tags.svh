@@ -19,7 +19,7 @@ if (USED) begin : g_proof
         if (!has_begun) assume (rst);
         if (has_begun && !rst) begin
             if (from_valid) assume (due != '0);
-            assert (g_tags.held == due && due <= (LOG+1)'(TAGS));
+            assert (due == (LOG+1)'(g_tags.is_there) + (LOG+1)'(g_tags.further) && (g_tags.is_there || g_tags.further == '0));
             for (int i = 0; i < TAGS; i++)
                 assert (i >= due || g_tags.tags[LOG'(g_tags.first + LOG'(i))] == expected[WIDTH*i +: WIDTH]);
             assert (out_valid == from_valid && (!out_valid || out_tag == expected[WIDTH-1:0]));
