@@ -3,6 +3,7 @@
 import importlib.util
 import os
 import subprocess
+import textwrap
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +56,23 @@ def test_foreign_source_and_sinks(tmp_path: Path) -> None:
     fault = NUMBERS["the spare entry is overwritten"]
     run = bench(tmp_path, *options, "--fault", fault)
     assert run.returncode == 1 and "1 tests, 1 failed" in run.stdout, run.stdout + run.stderr
+
+
+def test_pyuvm(tmp_path: Path) -> None:
+    options = ("--sim", "icarus", "--uvm", "--random", "60")
+    run = bench(tmp_path, *options)
+    assert run.returncode == 0 and "1 tests, 0 failed" in run.stdout, run.stdout + run.stderr
+    assert "60 counts, " in run.stdout and ", 0 mismatches" in run.stdout, run.stdout
+    run = bench(tmp_path, *options, "--fault", NUMBERS["the blend is cut off, not rounded"])
+    assert run.returncode == 1 and "1 tests, 1 failed" in run.stdout, run.stdout + run.stderr
+    assert "MISMATCH stage=points signal=" in run.stdout and "tess explain " in run.stdout, run.stdout
+
+
+def test_the_readme_has_the_component() -> None:
+    source = (BENCH / "uvm_bench.py").read_text()
+    component = source[source.index("class TessScoreboard") : source.index("class Monitors")].strip()
+    readme = (Path(__file__).resolve().parents[1] / "README.md").read_text()
+    assert textwrap.indent(component, "  ", lambda line: line.strip() != "") in readme
 
 
 # ---- what is not reached ----------------------------------------------------------------------------
