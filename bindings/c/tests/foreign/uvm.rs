@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::{Command, Output};
 use tess_testkit::circuit;
 use tess_verify::Case;
-use tess_verify::generate::{GenLevel, Selection};
+use tess_verify::generate::{GenLevel, Selection, thresholds};
 
 /// Patches that the circuit must answer as the model does, and the points of each at most.
 const PATCHES: usize = 1000;
@@ -84,11 +84,8 @@ impl Uvm {
 /// The example passes 1000 patches of the circuit and finds each planted fault; the scoreboard
 /// finds each planted difference; sequences send what files say.
 pub(crate) fn compiles_and_runs() -> Result<(), Failed> {
+    let stimuli = stimuli("uvm", &small_cases())?.replace("+stimuli", "+tess_cases");
     let uvm = Uvm::built()?;
-    let small = |case: &Case| (1..=POINTS).contains(&case.patch().counts().points);
-    let cases: Vec<Case> =
-        Selection::level(GenLevel::One, 1).cases().filter(small).step_by(7).take(PATCHES).collect();
-    let stimuli = stimuli("uvm", &cases)?.replace("+stimuli", "+tess_cases");
     let said = uvm.passes(&[&stimuli])?;
     let tally = format!("{PATCHES} patches compared, 0 mismatches");
     if !said.contains(&tally) {
@@ -101,6 +98,17 @@ pub(crate) fn compiles_and_runs() -> Result<(), Failed> {
     }
     differences(&uvm)?;
     sequences(&uvm)
+}
+
+/// Small patches: those of the thresholds, then others of level 1, evenly.
+fn small_cases() -> Vec<Case> {
+    let is_small = |case: &Case| case.patch().counts().points <= POINTS;
+    let mut cases: Vec<Case> =
+        thresholds().into_iter().map(|(_, case)| case).filter(is_small).collect();
+    let others: Vec<Case> = Selection::level(GenLevel::One, 1).cases().filter(is_small).collect();
+    let missing = PATCHES - cases.len();
+    cases.extend(others.iter().step_by(others.len() / missing).take(missing).copied());
+    cases
 }
 
 fn differences(uvm: &Uvm) -> Result<(), Failed> {
