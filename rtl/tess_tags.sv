@@ -5,7 +5,8 @@
 //          +------ tags, in order -------+
 //
 // A patch enters when both the stage and a place for its tag are free, and an element leaves when it and its tag are there. The
-// tag leaves with the last element. Without USED there are only wires, and the tag is 0.
+// tag leaves with the last element. A tag is stored one clock after its patch has come, so that the handshake ends at a register;
+// no stage makes an element as soon. Without USED there are only wires, and the tag is 0.
 module tess_tags #(
     parameter bit USED  = 1'b1,
     parameter int WIDTH = 1,
@@ -39,27 +40,31 @@ module tess_tags #(
         logic [LOG-1:0]   first;    // place of the tag that leaves next
         logic             is_there; // there is one
         logic [LOG-1:0]   further;  // number of tags after it
-        logic             is_full, comes, leaves;
-        assign is_full    = &further;
+        logic             has_come; // a tag that is stored in this clock: `latest`
+        logic [WIDTH-1:0] latest;
+        logic             is_full, leaves;
+        assign is_full    = &further[LOG-1:1]; // but for `latest` and another
         assign to_valid   = in_valid && !is_full;
         assign in_ready   = to_ready && !is_full;
         assign out_valid  = from_valid && is_there;
         assign from_ready = out_ready && is_there;
         assign out_tag    = tags[first];
-        assign comes      = in_valid && in_ready && in_count != 14'd0;
         assign leaves     = out_valid && out_ready && from_last;
         always_ff @(posedge clk) begin
             if (rst) begin
+                has_come <= 1'b0;
                 is_there <= 1'b0;
                 first    <= '0;
                 further  <= '0;
             end else begin
-                is_there <= comes || (is_there && !(leaves && further == '0));
+                has_come <= in_valid && in_ready && in_count != 14'd0;
+                is_there <= has_come || (is_there && !(leaves && further == '0));
                 first    <= first + LOG'(leaves);
-                further  <= further + LOG'(comes && !leaves && is_there) - LOG'(leaves && !comes && further != '0);
+                further  <= further + LOG'(has_come && !leaves && is_there) - LOG'(leaves && !has_come && further != '0);
             end
-            if (comes) begin
-                tags[first + further + LOG'(is_there)] <= in_tag;
+            latest <= in_tag;
+            if (has_come) begin
+                tags[first + further + LOG'(is_there)] <= latest;
             end
         end
     end

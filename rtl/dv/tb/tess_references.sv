@@ -83,7 +83,7 @@ module tess_reference_tags #(
     parameter bit USED  = 1'b0,
     parameter int WIDTH = 1
 ) (
-    input logic             clk, rst, in_valid, in_ready, out_valid, out_ready, last,
+    input logic             clk, rst, in_valid, in_ready, from_valid, out_valid, out_ready, last,
     input logic [13:0]      in_count,
     input logic [WIDTH-1:0] in_tag, out_tag
 );
@@ -92,6 +92,7 @@ module tess_reference_tags #(
         if (rst) begin
             held.delete();
         end else if (USED) begin
+            if (from_valid != out_valid) tess_check_pkg::failed("tags", "valid", "tess_tags"); // an element waits for its tag
             if (out_valid && held.size() == 0) tess_check_pkg::failed("tags", "valid", "tess_tags");
             if (out_valid && held.size() != 0 && out_tag != held[0]) tess_check_pkg::failed("tags", "tag", "tess_tags");
             if (out_valid && out_ready && last && held.size() != 0) void'(held.pop_front());
@@ -100,7 +101,7 @@ module tess_reference_tags #(
     end
 endmodule
 bind tess_tags tess_reference_tags #(.USED(USED), .WIDTH(WIDTH)) reference (
-    .clk, .rst, .in_valid, .in_ready, .in_count, .out_valid, .out_ready, .last(from_last), .in_tag, .out_tag);
+    .clk, .rst, .in_valid, .in_ready, .in_count, .from_valid, .out_valid, .out_ready, .last(from_last), .in_tag, .out_tag);
 
 module tess_reference_base #(
     parameter int INDICES = 13

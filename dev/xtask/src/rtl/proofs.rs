@@ -190,7 +190,7 @@ const PROOFS: &[Proof] = &[
         top: "prove_top",
         parameters: &[],
         free: &[],
-        depth: 1,
+        depth: 2,
         reach: 0,
         inside: false,
         faults: &[
