@@ -47,18 +47,41 @@ fn one_by_one(domain: Domain, base: f32) -> Vec<PatchFactors> {
 /// and of a large one.
 const BASES: [f32; 5] = [1.0, 2.0, 3.5, 17.0, 40.0];
 
-/// Checks one call for each patch, and a batch of all in each form of a batch.
-fn check(config: Config, level: Level, patches: &[PatchFactors]) {
-    let mut tessellator = Tessellator::with_level(config, level).expect("an available level");
-    let mut points = vec![DomainPoint::default(); MAX_POINTS];
-    let mut indices = vec![0_u32; MAX_INDICES];
-    let all: Vec<Tessellation> = patches.iter().map(|&patch| expected(config, patch)).collect();
-    for (patch, expected) in patches.iter().zip(&all) {
-        let counts = tessellator.patch(*patch, &mut points, &mut indices).expect("enough room");
+/// A tessellator, and room for any patch.
+struct Calls {
+    tessellator: Tessellator,
+    points: Vec<DomainPoint>,
+    indices: Vec<u32>,
+}
+
+impl Calls {
+    fn new(config: Config, level: Level) -> Self {
+        Self {
+            tessellator: Tessellator::with_level(config, level).expect("an available level"),
+            points: vec![DomainPoint::default(); MAX_POINTS],
+            indices: vec![0; MAX_INDICES],
+        }
+    }
+
+    /// Checks a call for a patch with this output.
+    fn check(&mut self, patch: PatchFactors, expected: &Tessellation) {
+        let Self { tessellator, points, indices } = self;
+        let counts = tessellator.patch(patch, points, indices).expect("enough room");
         let found = (&points[..counts.points as usize], &indices[..counts.indices as usize]);
         let equal = found == (&expected.points[..], &expected.indices[..]);
+        let (level, config) = (tessellator.level(), tessellator.config());
         assert!(equal, "{level}, {config:?}: a call with {patch:?}");
     }
+}
+
+/// Checks one call for each patch, and a batch of all in each form of a batch.
+fn check(config: Config, level: Level, patches: &[PatchFactors]) {
+    let mut calls = Calls::new(config, level);
+    let all: Vec<Tessellation> = patches.iter().map(|&patch| expected(config, patch)).collect();
+    for (&patch, expected) in patches.iter().zip(&all) {
+        calls.check(patch, expected);
+    }
+    let tessellator = &mut calls.tessellator;
     let batch = OwnedBatch::try_from(patches).expect("patches of one domain");
     let domain = patches[0].domain();
     let column = |place| -> Vec<f32> {
@@ -98,20 +121,39 @@ fn a_key_has_every_factor() {
     }
 }
 
+/// The patches with small numbers: the factors of quads are 1 to 4, those of triangles 1 to 8.
+fn small_patches(domain: Domain) -> Vec<PatchFactors> {
+    const FACTORS: [f32; 8] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
+    let bits = 12 / domain.factors();
+    let digit = |number: usize, place: usize| (number >> (bits * place)) & ((1 << bits) - 1);
+    let patch = |number| PatchFactors::from_fn(domain, |place| FACTORS[digit(number, place)]);
+    (0..4096).map(patch).collect()
+}
+
 /// More topologies than the smallest sets of templates have slots for, so that templates are also
 /// found by their small numbers.
 #[test]
 fn a_small_key_has_every_factor() {
     for level in levels() {
         for config in configs().filter(|config| config.split == SplitOrder::Ruler) {
-            let digit = |number: u32, place: usize| {
-                [1.0, 2.0, 3.0, 4.0][(number >> (2 * place)) as usize % 4]
-            };
-            let quads: Vec<PatchFactors> = (0..4096)
-                .map(|number| PatchFactors::from_fn(Domain::Quad, |place| digit(number, place)))
-                .collect();
+            let quads = small_patches(Domain::Quad);
             let twice = [&quads[..], &quads[..]].concat();
             check(config, level, &twice);
+        }
+    }
+}
+
+/// Triangles after all small quads, then the quads again: both have the same small numbers but for
+/// their domain.
+#[test]
+fn a_small_key_has_the_domain() {
+    let patches = [Domain::Quad, Domain::Triangle, Domain::Quad].map(small_patches);
+    for level in levels() {
+        for config in configs().filter(|config| config.split == SplitOrder::Ruler) {
+            let mut calls = Calls::new(config, level);
+            for &patch in patches.iter().flatten() {
+                calls.check(patch, &expected(config, patch));
+            }
         }
     }
 }
@@ -121,21 +163,13 @@ fn a_small_key_has_every_factor() {
 fn a_key_has_the_domain() {
     for level in levels() {
         for config in configs() {
-            let mut tessellator = Tessellator::with_level(config, level).expect("available");
-            let mut points = vec![DomainPoint::default(); MAX_POINTS];
-            let mut indices = vec![0_u32; MAX_INDICES];
+            let mut calls = Calls::new(config, level);
             for factor in (1..=64_u8).map(f32::from) {
                 let [u0, v0, u1, v1] = [factor; 4];
                 let quad = QuadFactors { u0, v0, u1, v1, inside_u: 0.0, inside_v: 0.0 };
                 let triangle = TriangleFactors { u0, v0, w0: u1, inside: v1 };
                 for patch in [PatchFactors::Quad(quad), PatchFactors::Triangle(triangle)] {
-                    let counts = tessellator.patch(patch, &mut points, &mut indices);
-                    let counts = counts.expect("enough room");
-                    let expected = expected(config, patch);
-                    let found =
-                        (&points[..counts.points as usize], &indices[..counts.indices as usize]);
-                    let equal = found == (&expected.points[..], &expected.indices[..]);
-                    assert!(equal, "{level}, {config:?}: {patch:?}");
+                    calls.check(patch, &expected(config, patch));
                 }
             }
         }

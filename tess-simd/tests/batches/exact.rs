@@ -193,6 +193,26 @@ fn sixteen_bits_without_the_restart_index() {
     assert_eq!(counted.largest_index(numbering), Some(<u16 as IndexFormat>::LARGEST - 1));
 }
 
+/// The largest index of batches of one patch, of a culled one, and of equal ones, each counted in
+/// its own way.
+#[test]
+fn the_largest_index_of_few_patches() {
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let mut tessellator = Tessellator::new(config);
+    for (factor, patches, of_patch, of_batch) in [
+        (2.0, 1, Some(8), Some(77 + 8)),
+        (0.0, 1, None, None),
+        (2.0, 3, Some(8), Some(77 + 26)),
+        (2.0, 100, Some(8), Some(77 + 899)),
+    ] {
+        let all = vec![QuadFactors::uniform(factor); patches];
+        let counted = tessellator.count(&all).expect("few patches");
+        let numberings = [Numbering::PerPatch, Numbering::PerBatch { base_vertex: 77 }];
+        let found = numberings.map(|numbering| counted.largest_index(numbering));
+        assert_eq!(found, [of_patch, of_batch], "{patches} patches of factor {factor}");
+    }
+}
+
 /// The comparison above detects a fault in any element.
 #[test]
 fn planted_faults_are_seen() {
