@@ -7,9 +7,11 @@ export class Material {
   static async make(stage, { wgsl, project, fragment, targets = [], layouts = [], primitive, ...state } = {}) {
     const { device, manifest, evaluate, layout } = stage;
     need(!layout || layout.isDrawable, "to draw with a material, `vertex` needs the member position: \"vec4f\", in clip space");
-    // It would be drawn in another place than the others, mostly out of sight.
-    const other = project === undefined && [...stage.projects][0];
+    // A material without the others' camera would be drawn in another place, mostly out of sight.
+    const { projects } = stage, other = project === undefined && [...projects].find((one) => one);
     need(!other, `another material of this stage calls \`${other}\`: give this one its \`project\`, or null if it needs none`);
+    need(!project || !projects.has(undefined), `an earlier material of this stage has no \`project\`, and this one calls ` +
+      `\`${project}\`: give that one its \`project\`, or null if it needs none`);
     const user = stage.text(wgsl);
     const { parts } = manifest, own = layouts.length;
     const code = vertexModule(parts, user, own, { project: project ?? "", vertex: evaluate ? layout : undefined });
@@ -25,7 +27,7 @@ export class Material {
       fragment: targets.length > 0 ? { module, entryPoint: fragment, targets } : undefined,
       primitive: { ...primitive, topology: domain === "isoline" ? "line-list" : "triangle-list" },
     });
-    if (project) stage.projects.add(project);
+    projects.add(project);
     return Object.assign(new Material(), { stage, pipeline, own, factors: factors?.group });
   }
 

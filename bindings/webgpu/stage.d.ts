@@ -105,8 +105,8 @@ export interface MaterialOptions extends Omit<GPURenderPipelineDescriptor, "layo
   /** By default the stage's WGSL. */
   wgsl?: string;
   /**
-   * The name of a function `fn name(vertex: Vertex) -> Vertex` that each draw calls, such as one with a camera. If another
-   * material of the stage has one, a material without is refused; null says that it needs none.
+   * The name of a function `fn name(vertex: Vertex) -> Vertex` that each draw calls, such as one with a camera. A stage's
+   * materials have one or none of them has: otherwise the later one is refused. Null says that a material needs none.
    */
   project?: string | null;
   /** The fragment shader's name, if the WGSL has several. */

@@ -7,6 +7,7 @@ export class CpuSource {
   static async load(_, { wgsl = "", uniforms, domain, partitioning, patches }) {
     need(wgsl === "" && !uniforms, "the renderer draws with WebGL 2, which runs no WGSL: leave out `wgsl` and `uniforms`, give " +
       "the factors to `update`, and move the points in the material's `positionNode`; or use a browser that has WebGPU");
+    need(Number.isInteger(patches) && patches > 0, `TessellatedGeometry.load takes the most patches of a frame, 1 or more, not ${patches}`);
     const cpu = await import("./cpu/tess_webgpu_cpu.js");
     await cpu.default({ module_or_path: new URL("./cpu/tess_webgpu_cpu_bg.wasm", import.meta.url) });
     const tessellator = new cpu.CpuTessellator(domain, partitioning);
@@ -27,7 +28,7 @@ export class CpuSource {
     for (let i = 0; i < uv.length / 2; i++) uv.set(positions.subarray(3 * i, 3 * i + 2), 2 * i);
     // WebGL 2 has no indirect draw and buffers of a fixed size, so attributes that are too small are replaced.
     const put = (name, array, size) => {
-      const old = name === "index" ? geometry.index : geometry.getAttribute(name);
+      const old = name === "index" ? geometry.index : geometry.attributes[name];
       if (old && old.array.length >= array.length) {
         old.array.set(array);
         old.needsUpdate = true;
@@ -50,7 +51,8 @@ export class CpuSource {
     const [unknown] = Object.keys(values);
     need(unknown === undefined, `there is no uniform \`${unknown}\``);
     need(instances === 1, "with WebGL 2, draw instances with an `InstancedMesh`");
-    const { each } = this;
+    const { each } = this, isRight = Number.isInteger(patches) && patches >= 0 && patches <= this.patches;
+    if (!isRight) throw new RangeError(`the geometry was made for 0 to ${this.patches} patches, not ${patches}`);
     if (factors) {
       need(Number.isInteger(factors.length / each) && typeof factors !== "string", `factors are an array of numbers, ${each} for each patch`);
       if (factors.length > this.factors.length) throw new RangeError(`${factors.length / each} patches; the geometry was made for ${this.patches}`);

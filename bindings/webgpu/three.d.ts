@@ -37,7 +37,8 @@ export class TessellatedGeometry extends BufferGeometry {
   /** Waits for the renderer's device, then loads and compiles everything. */
   static load(renderer: object, options: GeometryOptions): Promise<TessellatedGeometry>;
   /**
-   * Tessellates. Call it before `renderer.render` whenever something has changed; before the first call nothing is drawn. If
+   * Tessellates. Call it before `renderer.render` whenever something has changed; before the first call nothing is drawn, and
+   * the console says so. If
    * the room for the points has to grow, which a later call learns, the picture is coarser until then.
    */
   update(values?: GeometryValues): void;

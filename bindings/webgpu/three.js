@@ -28,10 +28,21 @@ export class TessellatedGeometry extends BufferGeometry {
 
   update(values = {}) {
     this.source.update(this, values);
+    this.isUpdated = true;
   }
 
   makeRoom(values = {}) {
+    this.isUpdated = true;
     return this.source.makeRoom(this, values);
+  }
+
+  // The renderer asks for the attributes when it first draws the geometry.
+  getAttribute(name) {
+    if (!this.isUpdated) {
+      console.warn("TessellatedGeometry: nothing is drawn before its first `update`; call it before the renderer draws");
+      this.isUpdated = true;
+    }
+    return super.getAttribute(name);
   }
 
   get feedback() {

@@ -283,11 +283,14 @@ async function refusals([wgsl]) {
   const pass = { drawIndexedIndirect() {} };
   await told("old", () => material.draw(pass, first));
   await told("other", () => material.draw(pass, (async () => {})()));
-  await told("project", () => stage.material({ wgsl: domain + shade, targets, project: "seen" }));
-  const seen = "fn seen(vertex: Vertex) -> Vertex { return vertex; }";
-  await stage.material({ wgsl: domain + shade + seen, targets, project: "seen" });
-  await told("forgotten", () => stage.material({ wgsl: domain + shade, targets }));
-  await told("none", () => stage.material({ wgsl: domain + shade, targets, project: null }));
+  await told("project", async () => (await load({})).material({ wgsl: domain + shade, targets, project: "seen" }));
+  const seen = "fn seen(vertex: Vertex) -> Vertex { return vertex; }", withSeen = { wgsl: domain + shade + seen, targets, project: "seen" };
+  await told("earlier", () => stage.material(withSeen));
+  const projected = await load({});
+  await projected.material({ wgsl: domain + shade, targets, project: null });
+  await projected.material(withSeen);
+  await told("forgotten", () => projected.material({ wgsl: domain + shade, targets }));
+  await told("none", () => projected.material({ wgsl: domain + shade, targets, project: null }));
   return said;
 }
 
@@ -297,7 +300,7 @@ const REFUSED = {
   hull: /does not go with the stage .*fn hull\(number: u32\) -> QuadFactors/s, overflow: /"coarser" or "nothing", not "less"/,
   encoder: /takes a GPUCommandEncoder/, more: /0 to 4 patches/, groups: /0 bind groups, one for each of `layouts`, not 1/,
   factors: /without a function `hull`/, old: /frame 0 is gone: its stage has prepared frame 1/, other: /not a frame of the material's stage/,
-  forgotten: /another material of this stage calls `seen`/, none: /^nothing$/,
+  forgotten: /another material of this stage calls `seen`/, none: /^nothing$/, earlier: /earlier material of this stage has no `project`/,
   project: /does not go with the stage|line \d+ of your WGSL/,
 };
 
@@ -344,7 +347,10 @@ async function geometry([wgsl, read, isWebGL, factors]) {
   scene.add(new THREE.Mesh(ground, material));
   const target = new THREE.RenderTarget(100, 100);
   renderer.setRenderTarget(target);
-  const scales = [], shares = [];
+  const scales = [], shares = [], warned = [], { warn } = console;
+  console.warn = (text) => warned.push(text);
+  renderer.render(scene, camera);
+  console.warn = warn;
   const frame = async (values) => {
     ground.update(values);
     renderer.render(scene, camera);
@@ -370,10 +376,11 @@ async function geometry([wgsl, read, isWebGL, factors]) {
     await told(() => TessellatedGeometry.load(new THREE.WebGPURenderer({ forceWebGL: true }), { ...setup, wgsl })),
     await told(() => TessellatedGeometry.load(renderer, { ...setup, wgsl, vertex: { position: "vec3f" } })),
     await told(() => TessellatedGeometry.load(renderer, { ...setup, domain: "square" })),
+    await told(() => TessellatedGeometry.load(renderer, { ...setup, patches: 0 })), await told(() => ground.update({ patches: 17 })),
   ];
   ground.dispose();
   await stage?.device.queue.onSubmittedWorkDone();
-  return { problems, scales, shares, made, said };
+  return { problems, scales, shares, made, said, warned };
 }
 
 export async function tryThree(page) {
@@ -388,7 +395,9 @@ export async function tryThree(page) {
       const wanted = i < found.shares.length - 1 ? 0.64 : isWebGL ? 0.12 : 0.16;
       assert.ok(Math.abs(share - wanted) < 0.02, `frame ${i} covers ${share} of the picture, not ${wanted}`);
     }
-    const wanted = [/there is no uniform `eye`/, /takes a WebGPURenderer/, /draws with WebGL 2, which runs no WGSL/, /give both or neither/, /square/];
+    const wanted = [/there is no uniform `eye`/, /takes a WebGPURenderer/, /draws with WebGL 2, which runs no WGSL/, /give both or neither/, /square/,
+      /1 or more, not 0/, /16/];
+    assert.equal(found.warned.filter((text) => /before its first `update`/.test(text)).length, 1, `${found.warned}`);
     wanted.forEach((one, i) => assert.match(found.said[i], one));
     console.log(`test the geometry of three.js, ${isWebGL ? "WebGL 2" : "WebGPU"} ... ok (${found.scales.length} frames)`);
   }
