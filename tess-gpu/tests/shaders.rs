@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::{Access, Binding, Counting, Pull, Resource, Setup, Stage, Tap, layout};
-use tess_testkit::shader_faults;
+use tess_testkit::wgsl_faults;
 
 #[test]
 #[ignore = "slow: 480 setups"]
@@ -96,7 +96,7 @@ fn pairs(texts: &[String]) -> Vec<[String; 2]> {
 #[test]
 fn every_fault_can_be_planted() {
     let setups = all_setups();
-    let faults = shader_faults::all();
+    let faults = wgsl_faults::of_batches();
     let names: BTreeSet<&str> = faults.iter().map(|fault| fault.name.as_str()).collect();
     assert_eq!((names.len(), faults.len()), (90, 90), "each name stands once");
     for fault in faults {

@@ -1,5 +1,5 @@
 //! Tests of the list of thresholds: each case is exactly next to its comparison, level 1 contains
-//! it, and a neighbouring threshold, as `dev/xtask/faults/thresholds.faults` plants it, changes its
+//! it, and a neighbouring threshold, as `dev/faults/rust.faults` plants it, changes its
 //! answer.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};

@@ -13,7 +13,7 @@ pub mod kernels;
 pub mod levels;
 pub mod listed;
 pub mod pairs;
-pub mod shader_faults;
 #[cfg(feature = "strategies")]
 pub mod strategies;
 pub mod verdict;
+pub mod wgsl_faults;

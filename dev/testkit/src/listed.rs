@@ -13,10 +13,10 @@
 //! >>>
 //! ```
 //!
-//! `in` and `seen by` apply until the next one, and a `seen by` has at least one fault. Both texts
-//! may have several lines, and the new one may be empty. A line that starts with `#` is a comment.
-//! `cargo xtask mutants planted`, the circuit's benches and the tests of the shaders read such
-//! lists.
+//! `in` and `seen by` apply until the next one, and a `seen by` has at least one fault. With
+//! `planted by` in its place, these tests plant the faults themselves, on every run; the others are
+//! planted by `cargo xtask mutants planted` or, in the circuit, by its benches. Both texts may have
+//! several lines, and the new one may be empty. A line that starts with `#` is a comment.
 
 /// A fault of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +29,8 @@ pub struct ListedFault {
     pub tests: String,
     /// Words that select some of these tests; without words, all of them.
     pub filters: Vec<String>,
+    /// Whether these tests plant it themselves.
+    pub is_planted_by_tests: bool,
     /// The reason why no test can see it.
     pub equivalent: Option<String>,
     /// The text of the source.
@@ -60,38 +62,49 @@ pub fn parse(list: &str) -> Result<Vec<ListedFault>, String> {
     // The line of a `seen by` that has no fault yet.
     let mut unused = None;
     let is_used = |unused: Option<u32>| {
-        unused.map_or(Ok(()), |line| Err(format!("line {line}: no fault follows this `seen by`")))
+        unused.map_or(Ok(()), |line| Err(format!("line {line}: no fault follows it")))
     };
     let mut lines = (1..).zip(list.lines()).peekable();
     while let Some((number, line)) = lines.next() {
         let wrong = |what: &str| format!("line {number}: {what}");
         if let Some(path) = line.strip_prefix("in ") {
             folder = Some(path.to_owned());
-        } else if let Some(words) = line.strip_prefix("seen by ") {
+        } else if let Some((words, is_planted_by_tests)) = tests_of(line) {
             is_used(unused.replace(number))?;
             let mut words = words.split(' ').map(str::to_owned);
-            seen_by = words.next().map(|tests| (tests, words.collect::<Vec<_>>()));
+            let tests = words.next();
+            seen_by = tests.map(|tests| (tests, words.collect::<Vec<_>>(), is_planted_by_tests));
         } else if let Some(fault) = line.strip_prefix("fault ") {
             unused = None;
             let reason = lines.next_if(|(_, line)| line.starts_with("equivalent: "));
             let block = lines.by_ref().map(|(_, line)| line);
             let (right, new) =
                 texts(block).ok_or(wrong("`fault` goes on with `<<<`, `===`, `>>>`"))?;
-            let (tests, filters) = seen_by.clone().ok_or(wrong("no `seen by` before it"))?;
+            let (tests, filters, is_planted_by_tests) =
+                seen_by.clone().ok_or(wrong("no `seen by` or `planted by` before it"))?;
             faults.push(ListedFault {
                 name: fault.to_owned(),
                 folder: folder.clone().ok_or(wrong("no `in` before it"))?,
                 tests,
                 filters,
+                is_planted_by_tests,
                 equivalent: reason.map(|(_, line)| line["equivalent: ".len()..].to_owned()),
                 right,
                 wrong: new,
             });
         } else if !line.is_empty() && !line.starts_with('#') {
-            return Err(wrong(&format!("`{line}` is neither `in`, `seen by` nor `fault`")));
+            return Err(wrong(&format!(
+                "`{line}` is none of `in`, `seen by`, `planted by`, `fault`"
+            )));
         }
     }
     is_used(unused).map(|()| faults)
+}
+
+/// The tests that a line names, and whether they plant the faults themselves.
+fn tests_of(line: &str) -> Option<(&str, bool)> {
+    let seen = line.strip_prefix("seen by ").map(|words| (words, false));
+    seen.or_else(|| line.strip_prefix("planted by ").map(|words| (words, true)))
 }
 
 /// The two texts of a block, which ends with `>>>`.

@@ -14,7 +14,7 @@ x + 1
 x - 1
 >>>
 
-seen by a/tests/c.rs
+planted by a/tests/c.rs
 fault second: y
 <<<
 y
@@ -43,6 +43,8 @@ fn a_list_has_its_faults() {
         "tests"
     );
     assert_eq!((third.tests.as_str(), third.filters.len()), ("a/tests/c.rs", 0), "tests");
+    let planted = faults.iter().map(|fault| fault.is_planted_by_tests);
+    assert_eq!(planted.collect::<Vec<_>>(), [false, true, true], "who plants them");
     assert_eq!(first.equivalent.as_deref(), Some("nobody asks"), "the reason");
     assert_eq!((&second.equivalent, &third.equivalent), (&None, &None), "no reason");
     assert_eq!(first.planted("x + 1, x + 1").as_deref(), Some("x - 1, x - 1"), "one line");
@@ -60,6 +62,7 @@ fn a_line_of_another_form_is_refused_with_its_number() {
         ("in src\nseen by t\nfault a\nx\n===\ny\n>>>\n", 3),
         ("in src\nseen by t\nfault a\n<<<\nx\n>>>\n", 3),
         ("in src\nseen by t\n", 2),
+        ("in src\nplanted by t\n", 2),
         ("in src\nseen by t\nseen by u\nfault a\n<<<\nx\n===\ny\n>>>\n", 2),
         ("\nwhat", 2),
     ] {

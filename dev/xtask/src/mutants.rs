@@ -92,12 +92,16 @@ const SUBJECTS: &[Subject] = &[
             Pass { tests: "-C=--all-features -C=--test=levels -C=--test=verify", files: &[] },
         ],
     },
+    Subject {
+        package: "tess-show",
+        passes: &[Pass { tests: "-C=--all-features -C=--lib -C=--test=origin", files: &[] }],
+    },
 ];
 
 /// The list of survivors that change nothing: `TIMES`, the fault and the reason, separated by tabs.
-const EQUIVALENT: &str = "dev/xtask/faults/survivors.tsv";
+const EQUIVALENT: &str = "dev/faults/survivors.tsv";
 
-/// Plants the faults of `dev/xtask/faults`; see [`planted::run`].
+/// Plants the faults of `dev/faults`; see [`planted::run`].
 pub(crate) fn planted(words: &[&str]) -> Result<(), String> {
     planted::run(words)
 }

@@ -4,7 +4,7 @@ use super::cases::{catalogued, cut_up, of, runs, setup, too_many};
 use super::run::{Batch, Machine};
 use tess_core::{Domain, Partitioning};
 use tess_gpu::{Limits, Resource, Stage};
-use tess_testkit::shader_faults;
+use tess_testkit::wgsl_faults;
 
 /// Plants faults by name and demands that the first difference is in this pass and buffer.
 fn assert_named(batch: &Batch, faults: &[(&str, Stage, Resource)]) {
@@ -13,7 +13,7 @@ fn assert_named(batch: &Batch, faults: &[(&str, Stage, Resource)]) {
         panic!("without a fault: {difference}");
     }
     for &(name, stage, resource) in faults {
-        let fault = shader_faults::named(name);
+        let fault = wgsl_faults::named(name);
         let seen = machine.run_with(batch, |_, source| fault.planted(source)).err();
         let seen = seen.unwrap_or_else(|| panic!("{name} went unnoticed"));
         assert_eq!((seen.stage, seen.resource), (stage, resource), "{name}: {seen}");

@@ -4,7 +4,7 @@ use crate::common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::Setup;
 use tess_gpu::sizes::SHORT_PATCHES;
-use tess_testkit::shader_faults;
+use tess_testkit::wgsl_faults;
 use tess_verify::generate::SplitMix64;
 
 #[test]
@@ -38,7 +38,7 @@ fn every_fault_of_the_list_is_planted() {
     let files = std::fs::read_dir(folder).expect(folder).map(|entry| entry.expect(folder).path());
     let texts: Vec<String> = files.filter_map(|path| std::fs::read_to_string(path).ok()).collect();
     let is_planted = |name: &str| texts.iter().any(|text| text.contains(&format!("\"{name}\"")));
-    let names = shader_faults::all().into_iter().map(|fault| fault.name);
+    let names = wgsl_faults::of_batches().into_iter().map(|fault| fault.name);
     let forgotten: Vec<_> = names.filter(|name| !is_planted(name)).collect();
     assert!(forgotten.is_empty(), "no test plants {forgotten:?}");
 }

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use tess_core::PatchFactors;
 use tess_gpu::layout::{DrawIndexed, Status, factor_words};
 use tess_gpu::{IndexType, Limits, Numbering, PointFormat, Setup, Stage};
-use tess_testkit::shader_faults;
+use tess_testkit::wgsl_faults;
 use tess_wgpu::{Batch, Gpu, Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
 
@@ -67,7 +67,7 @@ impl Machine {
 
     /// Plants a fault in the shaders, at least one of which must have its text.
     pub(crate) fn plant(&mut self, setup: Setup, name: &str) {
-        let fault = shader_faults::named(name);
+        let fault = wgsl_faults::named(name);
         let sources = Stage::ALL.map(|stage| stage.source(setup));
         let takes_it = |source: &String| fault.planted(source).is_some();
         assert!(sources.iter().any(takes_it), "{name}: no shader has its text");

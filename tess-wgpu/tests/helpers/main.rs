@@ -4,7 +4,7 @@
 //! Bits are compared where two patches meet and where WGSL leaves no freedom. Elsewhere WGSL lets a
 //! device fuse a multiplication with an addition, and divide and take roots with errors of some
 //! units in the last place; each table states the errors that it allows. The tables notice every
-//! fault of `list.faults`.
+//! fault that `dev/faults/wgsl.faults` has of them.
 
 #![expect(clippy::float_arithmetic, reason = "the helpers compute in floats")]
 
@@ -18,8 +18,8 @@ mod objects;
 mod points;
 
 use device::Device;
-use std::collections::BTreeSet;
-use tess_testkit::listed::{ListedFault, parse};
+use tess_testkit::listed::ListedFault;
+use tess_testkit::wgsl_faults;
 
 /// The arguments of a call.
 pub(crate) type Args = [[f32; 4]; 5];
@@ -128,9 +128,7 @@ fn planted_faults_are_seen() {
         };
         table.compare(&device.run(plant, table)).is_ok()
     };
-    let faults = parse(include_str!("list.faults")).expect("a list");
-    let names: BTreeSet<&str> = faults.iter().map(|fault| fault.name.as_str()).collect();
-    assert_eq!(names.len(), faults.len(), "each name stands once");
+    let faults = wgsl_faults::of_helpers();
     let is_tried = |table: &&Table| faults.iter().any(|f| f.filters.join(" ") == table.name);
     let untried: Vec<_> = tables.iter().filter(|table| !is_tried(table)).map(|t| t.name).collect();
     assert!(untried.is_empty(), "no fault tries {untried:?}");

@@ -1,4 +1,4 @@
-//! The lists of faults planted by hand: `dev/xtask/faults/*.faults`.
+//! The lists of faults planted by hand: `dev/faults/*.faults`.
 
 use crate::command::{self, in_file};
 use std::fs;
