@@ -5,18 +5,18 @@
 //! functions and has typed wrappers for them; the C header does not have them.
 //!
 //! A function on a patch takes the four numbers of its configuration and the bits of six binary32
-//! factors, of which it reads the first two, four or six, as the domain has. Results are written
-//! through pointers: all of them, or none if a pointer is null or misaligned.
+//! factors, of which it reads the first two, four or six, as the domain has. Points and primitives
+//! are those of a [held](held) patch. Results are written through pointers: all of them, or none if
+//! a pointer is null or misaligned.
 
 pub mod held;
 
 use crate::boundary;
 use crate::context::place_signals;
-use crate::probe::TessPrimitive;
 use crate::process::TessProcessedPatch;
 use crate::status::{TESS_OUT_OF_RANGE, TessStatus, answer};
-use crate::types::{TessConfig, TessContext, TessPoint, listed, parity};
-use tess_core::{Counts, Domain, FactorContext, FixedFactor, PatchFactors, SplitOrder};
+use crate::types::{TessConfig, TessContext, listed, parity};
+use tess_core::{FactorContext, FixedFactor, PatchFactors, SplitOrder};
 use tess_verify::Case;
 use tess_verify::cover::bins_hit;
 
@@ -107,94 +107,6 @@ pub unsafe extern "C" fn tess_dpi_process(
     unsafe { of_patch(config, [f0, f1, f2, f3, f4, f5], pointers, values) }
 }
 
-/// The sizes of a patch: `tess_count` in scalars.
-///
-/// # Safety
-/// - Every pointer, if not null and aligned, must be valid for writing one number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn tess_dpi_count(
-    domain: u32,
-    partitioning: u32,
-    output: u32,
-    split_order: u32,
-    f0: u32,
-    f1: u32,
-    f2: u32,
-    f3: u32,
-    f4: u32,
-    f5: u32,
-    points: *mut u32,
-    primitives: *mut u32,
-    indices: *mut u32,
-) -> TessStatus {
-    let config = TessConfig { domain, partitioning, output, split: split_order };
-    let values = |case: &Case| Ok(sizes(case.patch().counts()));
-    let pointers = [points, primitives, indices];
-    // SAFETY: every pointer is writable, as the caller promises.
-    unsafe { of_patch(config, [f0, f1, f2, f3, f4, f5], pointers, values) }
-}
-
-/// Point `i` of a patch: `tess_point` in scalars.
-///
-/// # Safety
-/// - Every pointer, if not null and aligned, must be valid for writing one number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn tess_dpi_point(
-    domain: u32,
-    partitioning: u32,
-    output: u32,
-    split_order: u32,
-    f0: u32,
-    f1: u32,
-    f2: u32,
-    f3: u32,
-    f4: u32,
-    f5: u32,
-    i: u32,
-    u: *mut u32,
-    v: *mut u32,
-) -> TessStatus {
-    let config = TessConfig { domain, partitioning, output, split: split_order };
-    let values = |case: &Case| {
-        let point = TessPoint::from(case.patch().point(i).ok_or(TESS_OUT_OF_RANGE)?);
-        Ok([point.u, point.v])
-    };
-    // SAFETY: both pointers are writable, as the caller promises.
-    unsafe { of_patch(config, [f0, f1, f2, f3, f4, f5], [u, v], values) }
-}
-
-/// Primitive `t` of a patch: `tess_primitive` in scalars.
-///
-/// # Safety
-/// - Every pointer, if not null and aligned, must be valid for writing one number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn tess_dpi_primitive(
-    domain: u32,
-    partitioning: u32,
-    output: u32,
-    split_order: u32,
-    f0: u32,
-    f1: u32,
-    f2: u32,
-    f3: u32,
-    f4: u32,
-    f5: u32,
-    t: u32,
-    size: *mut u32,
-    i0: *mut u32,
-    i1: *mut u32,
-    i2: *mut u32,
-) -> TessStatus {
-    let config = TessConfig { domain, partitioning, output, split: split_order };
-    let values = |case: &Case| {
-        let primitive = case.patch().primitive(t).ok_or(TESS_OUT_OF_RANGE)?;
-        let TessPrimitive { size: vertices, indices: [a, b, c], .. } = primitive.into();
-        Ok([vertices, a, b, c])
-    };
-    // SAFETY: every pointer is writable, as the caller promises.
-    unsafe { of_patch(config, [f0, f1, f2, f3, f4, f5], [size, i0, i1, i2], values) }
-}
-
 /// The number of the `i`-th coverage bin that a patch hits; `TESS_OUT_OF_RANGE` past the last one.
 ///
 /// Bins are numbered in the alphabetical order of `tess_verify::cover`. A bin that is hit twice
@@ -252,16 +164,7 @@ fn context(factor: u32, parity_number: u32, split: u32) -> Result<FactorContext,
 /// The patch with these bits of binary32 factors, of which only the domain's number are read.
 fn case(config: TessConfig, factors: [u32; 6]) -> Result<Case, TessStatus> {
     let (config, domain) = config.decode()?;
-    Ok(Case { config, factors: factors_of(domain, factors) })
-}
-
-/// The factors with the first of these bits of binary32, as many as the domain has.
-fn factors_of(domain: Domain, factors: [u32; 6]) -> PatchFactors {
-    PatchFactors::from_fn(domain, |i| f32::from_bits(factors[i]))
-}
-
-fn sizes(counts: Counts) -> [u32; 3] {
-    [counts.points, counts.primitives, counts.indices]
+    Ok(Case { config, factors: PatchFactors::from_fn(domain, |i| f32::from_bits(factors[i])) })
 }
 
 /// Writes all numbers, or none if any pointer is null or misaligned.

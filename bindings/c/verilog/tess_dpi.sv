@@ -95,29 +95,6 @@ package tess_dpi;
         output int unsigned outcome, output int unsigned clamped, output int unsigned rounded,
         output int unsigned fixed, output int unsigned parity);
 
-    import "DPI-C" function int unsigned tess_dpi_count(
-        input int unsigned domain, input int unsigned partitioning,
-        input int unsigned out, input int unsigned split_order,
-        input int unsigned f0, input int unsigned f1, input int unsigned f2,
-        input int unsigned f3, input int unsigned f4, input int unsigned f5,
-        output int unsigned points, output int unsigned primitives, output int unsigned indices);
-
-    import "DPI-C" function int unsigned tess_dpi_point(
-        input int unsigned domain, input int unsigned partitioning,
-        input int unsigned out, input int unsigned split_order,
-        input int unsigned f0, input int unsigned f1, input int unsigned f2,
-        input int unsigned f3, input int unsigned f4, input int unsigned f5,
-        input int unsigned i, output int unsigned u, output int unsigned v);
-
-    import "DPI-C" function int unsigned tess_dpi_primitive(
-        input int unsigned domain, input int unsigned partitioning,
-        input int unsigned out, input int unsigned split_order,
-        input int unsigned f0, input int unsigned f1, input int unsigned f2,
-        input int unsigned f3, input int unsigned f4, input int unsigned f5,
-        input int unsigned t,
-        output int unsigned size,
-        output int unsigned i0, output int unsigned i1, output int unsigned i2);
-
     // Gets the number of the i-th coverage bin that a patch hits; TESS_OUT_OF_RANGE past the last one.
     import "DPI-C" function int unsigned tess_dpi_coverage(
         input int unsigned domain, input int unsigned partitioning,
@@ -126,24 +103,26 @@ package tess_dpi;
         input int unsigned f3, input int unsigned f4, input int unsigned f5,
         input int unsigned i, output int unsigned bin);
 
-    // A handle holds one patch until the next one is tessellated, for benches that read all of its elements.
-    import "DPI-C" function int unsigned tess_dpi_open(
-        input int unsigned domain, input int unsigned partitioning,
-        input int unsigned out, input int unsigned split_order, output chandle held);
+    // A handle holds one patch; the elements asked for are those of the patch that was set last.
+    import "DPI-C" function int unsigned tess_dpi_open(output chandle held);
 
     import "DPI-C" function void tess_dpi_close(input chandle held);
 
     import "DPI-C" function int unsigned tess_dpi_patch(
         input chandle held,
+        input int unsigned domain, input int unsigned partitioning,
+        input int unsigned out, input int unsigned split_order,
         input int unsigned f0, input int unsigned f1, input int unsigned f2,
         input int unsigned f3, input int unsigned f4, input int unsigned f5,
         output int unsigned points, output int unsigned primitives, output int unsigned indices);
 
-    import "DPI-C" function int unsigned tess_dpi_held_point(
+    import "DPI-C" function int unsigned tess_dpi_point(
         input chandle held, input int unsigned i, output int unsigned u, output int unsigned v);
 
-    import "DPI-C" function int unsigned tess_dpi_held_index(
-        input chandle held, input int unsigned i, output int unsigned index);
+    import "DPI-C" function int unsigned tess_dpi_primitive(
+        input chandle held, input int unsigned t,
+        output int unsigned size,
+        output int unsigned i0, output int unsigned i1, output int unsigned i2);
 
     localparam int unsigned TESS_OUT_OF_RANGE = 6;
 
@@ -183,60 +162,34 @@ package tess_dpi;
         return r;
     endfunction
 
-    function automatic counts_t model_count(input config_t cfg, input factors_t x);
-        counts_t c;
-        require_ok(tess_dpi_count(cfg.domain, cfg.partitioning, cfg.out, cfg.split_order,
-            x[0], x[1], x[2], x[3], x[4], x[5],
-            c.points, c.primitives, c.indices), "count");
-        return c;
-    endfunction
-
-    // Point i of a patch, i below its count.
-    function automatic point_t model_point(
-            input config_t cfg, input factors_t x, input int unsigned i);
-        point_t r;
-        require_ok(tess_dpi_point(cfg.domain, cfg.partitioning, cfg.out, cfg.split_order,
-            x[0], x[1], x[2], x[3], x[4], x[5], i, r.u, r.v), "point");
-        return r;
-    endfunction
-
-    // Primitive t of a patch, t below its count.
-    function automatic primitive_t model_primitive(
-            input config_t cfg, input factors_t x, input int unsigned t);
-        primitive_t r;
-        require_ok(tess_dpi_primitive(cfg.domain, cfg.partitioning, cfg.out, cfg.split_order,
-            x[0], x[1], x[2], x[3], x[4], x[5], t,
-            r.size, r.i0, r.i1, r.i2), "primitive");
-        return r;
-    endfunction
-
-    // A handle that holds a patch of a configuration. Free it with tess_dpi_close.
-    function automatic chandle model_open(input config_t cfg);
+    // A handle that holds one patch at a time. Free it with tess_dpi_close.
+    function automatic chandle model_open();
         chandle held;
-        require_ok(tess_dpi_open(cfg.domain, cfg.partitioning, cfg.out, cfg.split_order, held), "open");
+        require_ok(tess_dpi_open(held), "open");
         return held;
     endfunction
 
-    // Tessellates a patch and holds it; returns its sizes.
-    function automatic counts_t model_patch(input chandle held, input factors_t x);
+    // Holds a patch in place of the previous one; returns its sizes.
+    function automatic counts_t model_patch(input chandle held, input config_t cfg, input factors_t x);
         counts_t c;
-        require_ok(tess_dpi_patch(held, x[0], x[1], x[2], x[3], x[4], x[5],
+        require_ok(tess_dpi_patch(held, cfg.domain, cfg.partitioning, cfg.out, cfg.split_order,
+            x[0], x[1], x[2], x[3], x[4], x[5],
             c.points, c.primitives, c.indices), "patch");
         return c;
     endfunction
 
     // Point i of the held patch, i below its count.
-    function automatic point_t model_held_point(input chandle held, input int unsigned i);
+    function automatic point_t model_point(input chandle held, input int unsigned i);
         point_t r;
-        require_ok(tess_dpi_held_point(held, i, r.u, r.v), "held point");
+        require_ok(tess_dpi_point(held, i, r.u, r.v), "point");
         return r;
     endfunction
 
-    // Index i of the held patch, i below its count.
-    function automatic int unsigned model_held_index(input chandle held, input int unsigned i);
-        int unsigned index;
-        require_ok(tess_dpi_held_index(held, i, index), "held index");
-        return index;
+    // Primitive t of the held patch, t below its count.
+    function automatic primitive_t model_primitive(input chandle held, input int unsigned t);
+        primitive_t r;
+        require_ok(tess_dpi_primitive(held, t, r.size, r.i0, r.i1, r.i2), "primitive");
+        return r;
     endfunction
 
     // Gets the i-th coverage bin that a patch hits, numbered as in tess_covergroups.svh of tess_uvm. Returns

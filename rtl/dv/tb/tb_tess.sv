@@ -156,6 +156,9 @@ module tb_tess #(
 
     // Patches that the design has accepted, for each stream that is checked.
     stimulus_t of_factors[$], of_counts[$], of_points[$], of_primitives[$];
+    // The model's patch that is offered, and those whose elements are compared.
+    chandle held_offered = model_open(), held_of_points = model_open(), held_of_primitives = model_open();
+
     int unsigned next_point = 0, next_primitive = 0;
     longint unsigned points_checked = 0, primitives_checked = 0, patches_checked = 0, cycles = 0;
     int unsigned mismatches = 0;
@@ -255,7 +258,8 @@ module tb_tess #(
             $fatal(1, "FAIL: a point came that no patch has");
         end
         s = of_points[0];
-        p = model_point(config_of(s), s.x, next_point);
+        if (next_point == 0) void'(model_patch(held_of_points, config_of(s), s.x));
+        p = model_point(held_of_points, next_point);
         check_word("points", word_t'(point_data), POINT_FIELDS, 48, point_tag, s.tag);
         compare(s, POINTS_U, next_point, 32'(point_u), p.u);
         compare(s, POINTS_V, next_point, 32'(point_v), p.v);
@@ -279,7 +283,8 @@ module tb_tess #(
             $fatal(1, "FAIL: a primitive came that no patch has");
         end
         s = of_primitives[0];
-        p = model_primitive(config_of(s), s.x, next_primitive);
+        if (next_primitive == 0) void'(model_patch(held_of_primitives, config_of(s), s.x));
+        p = model_primitive(held_of_primitives, next_primitive);
         check_word("connect", word_t'(primitive_data), PRIMITIVE_FIELDS, PRIMITIVE_TAG, primitive_tag, s.tag);
         compare(s, CONNECT_SIZE, next_primitive, 32'(primitive_size), p.size);
         compare(s, CONNECT_I0, next_primitive, in_patch(s, 0, primitive_i0), p.i0);
@@ -509,7 +514,7 @@ module tb_tess #(
         c.points     = 0;
         c.primitives = 0;
         if (gaps && random() % 8 == 0) repeat (random() % 24) @(posedge clk);
-        if (s.domain != 2'd3) c = model_count(config_of(s), s.x);
+        if (s.domain != 2'd3) c = model_patch(held_offered, config_of(s), s.x);
         offered            = labelled(s);
         offered.points     = c.points;
         offered.primitives = c.primitives;

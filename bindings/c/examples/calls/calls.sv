@@ -10,16 +10,19 @@ module calls;
 
     int unsigned sum;
 
-    function automatic longint unsigned run(input chandle held, input factors_t x, input bit read);
+    function automatic longint unsigned run(input chandle held, input config_t cfg, input factors_t x, input bit read);
         longint unsigned start = calls_now();
         for (int call = 0; call < 100; call++) begin
-            counts_t c = model_patch(held, x);
+            counts_t c = model_patch(held, cfg, x);
             if (read) begin
                 for (int unsigned i = 0; i < c.points; i++) begin
-                    point_t p = model_held_point(held, i);
+                    point_t p = model_point(held, i);
                     sum += p.u + p.v;
                 end
-                for (int unsigned i = 0; i < c.indices; i++) sum += model_held_index(held, i);
+                for (int unsigned i = 0; i < c.primitives; i++) begin
+                    primitive_t p = model_primitive(held, i);
+                    sum += p.i0 + p.i1 + p.i2;
+                end
             end
             sum += c.points;
         end
@@ -33,13 +36,13 @@ module calls;
         cfg.partitioning = INTEGER;
         cfg.out = TRIANGLE_CW;
         cfg.split_order = RULER;
-        held = model_open(cfg);
+        held = model_open();
         for (int k = 0; k < 5; k++) begin
             longint unsigned best[2];
             best = '{2{64'hffff_ffff_ffff_ffff}};
             for (int turn = 0; turn < 12; turn++) begin
                 for (int read = 0; read < 2; read++) begin
-                    longint unsigned t = run(held, {6{BITS[k]}}, read == 1);
+                    longint unsigned t = run(held, cfg, {6{BITS[k]}}, read == 1);
                     if (t < best[read]) best[read] = t;
                 end
             end

@@ -3,13 +3,10 @@
 use super::samples::{self, Sample, samples};
 use std::ptr::null_mut;
 use tess_capi::dpi::held::{
-    TessHeldPatch, tess_dpi_close, tess_dpi_held_index, tess_dpi_held_point, tess_dpi_open,
-    tess_dpi_patch,
+    TessHeldPatch, tess_dpi_close, tess_dpi_open, tess_dpi_patch, tess_dpi_point,
+    tess_dpi_primitive,
 };
-use tess_capi::dpi::{
-    tess_dpi_context, tess_dpi_count, tess_dpi_coverage, tess_dpi_place, tess_dpi_point,
-    tess_dpi_primitive, tess_dpi_process,
-};
+use tess_capi::dpi::{tess_dpi_context, tess_dpi_coverage, tess_dpi_place, tess_dpi_process};
 use tess_capi::process::{TESS_OUTCOME_CULLED, TessProcessedPatch};
 use tess_capi::status::{TESS_NULL_POINTER, TESS_OK, TESS_OUT_OF_RANGE, TESS_UNKNOWN_VALUE};
 use tess_capi::types::{TessConfig, TessContext};
@@ -44,107 +41,65 @@ macro_rules! asked {
     }};
 }
 
-#[test]
-fn sizes() {
-    for s in samples() {
-        let asked = asked!(tess_dpi_count(s) -> [points, primitives, indices]);
-        let counts = samples::counts(s.patch.counts());
-        let expected = [counts.points, counts.primitives, counts.indices];
-        assert_eq!(asked, (TESS_OK, expected), "{:?}", s.factors);
-    }
-}
-
-#[test]
-fn points() {
-    for s in samples() {
-        let i = s.patch.counts().points / 2;
-        let (status, found) = asked!(tess_dpi_point(s, i) -> [u, v]);
-        let expected = s.patch.point(i).map(|p| [p.u.to_bits(), p.v.to_bits()]);
-        let observed = (status == TESS_OK).then_some(found);
-        assert_eq!(observed, expected, "point {i} of {:?}, status {status}", s.factors);
-    }
-}
-
-#[test]
-fn primitives() {
-    for s in samples() {
-        let t = s.patch.counts().primitives / 2;
-        let (status, out) = asked!(tess_dpi_primitive(s, t) -> [size, i0, i1, i2]);
-        let observed = (status == TESS_OK).then(|| out[1..=out[0] as usize].to_vec());
-        let expected = s.patch.primitive(t).map(|p| p.indices().to_vec());
-        assert_eq!(observed, expected, "primitive {t} of {:?}, status {status}", s.factors);
-    }
-}
-
-/// Whole patches, one after another in the handle of their configuration: every element, and none
-/// behind.
+/// All patches in one handle, one after another: every element, and none behind.
 #[test]
 fn held_patches() {
-    let mut open: Vec<(TessConfig, *mut TessHeldPatch)> = Vec::new();
+    let mut held = null_mut();
+    assert_eq!(unsafe { tess_dpi_open(&mut held) }, TESS_OK, "a handle");
+    assert_eq!(unsafe { elements(held, 0, 0) }, (Vec::new(), Vec::new()), "no patch yet");
     for s in samples() {
-        let held = held(&mut open, s.config);
-        let [f0, f1, f2, f3, f4, f5] = bits(&s);
-        let mut out = [0u32; 3];
-        let [a, b, c] = out.each_mut().map(|slot| &raw mut *slot);
-        let status = unsafe { tess_dpi_patch(held, f0, f1, f2, f3, f4, f5, a, b, c) };
         let counts = samples::counts(s.patch.counts());
         let expected = [counts.points, counts.primitives, counts.indices];
-        assert_eq!((status, out), (TESS_OK, expected), "sizes of {:?}", s.factors);
-        let status = unsafe { tess_dpi_patch(held, 0, 0, 0, 0, 0, 0, a, b, null_mut()) };
-        assert_eq!(status, TESS_NULL_POINTER, "a refused patch leaves the one before");
-        let (points, indices) = unsafe { elements(held, counts.points, counts.indices) };
+        assert_eq!(held_as(held, &s, s.config.domain), (TESS_OK, expected), "{:?}", s.factors);
+        let refused = held_as(held, &s, 3);
+        assert_eq!(refused, (TESS_UNKNOWN_VALUE, [0; 3]), "a refused patch leaves the one before");
+        let (points, indices) = unsafe { elements(held, counts.points, counts.primitives) };
         let whole = s.patch.tessellate();
         let bits = |point: &tess_core::DomainPoint| [point.u.to_bits(), point.v.to_bits()];
         let expected: Vec<_> = whole.points.iter().map(bits).collect();
         assert_eq!(points, expected, "points of {:?} {:?}", s.config, s.factors);
         assert_eq!(indices, whole.indices, "indices of {:?} {:?}", s.config, s.factors);
     }
-    for (_, held) in open {
-        unsafe { tess_dpi_close(held) };
-    }
+    unsafe { tess_dpi_close(held) };
     unsafe { tess_dpi_close(null_mut()) };
 }
 
-/// The handle of a configuration.
-fn held(
-    open: &mut Vec<(TessConfig, *mut TessHeldPatch)>,
-    config: TessConfig,
-) -> *mut TessHeldPatch {
-    let parts = |c: &TessConfig| [c.domain, c.partitioning, c.output, c.split];
-    if let Some((_, held)) = open.iter().find(|(other, _)| parts(other) == parts(&config)) {
-        return *held;
-    }
-    let mut held = null_mut();
-    let TessConfig { domain, partitioning, output, split } = config;
-    let status = unsafe { tess_dpi_open(domain, partitioning, output, split, &mut held) };
-    assert_eq!(status, TESS_OK, "{config:?}");
-    let first = unsafe { elements(held, 0, 0) };
-    assert_eq!(first, (Vec::new(), Vec::new()), "no patch yet");
-    open.push((config, held));
-    held
+/// Sets a sample's patch, with this number for its domain; the status and the sizes.
+fn held_as(held: *mut TessHeldPatch, s: &Sample, domain: u32) -> (u32, [u32; 3]) {
+    let TessConfig { partitioning, output, split, .. } = s.config;
+    let [f0, f1, f2, f3, f4, f5] = bits(s);
+    let mut sizes = [0u32; 3];
+    let [a, b, c] = sizes.each_mut().map(|slot| &raw mut *slot);
+    let status = unsafe {
+        tess_dpi_patch(held, domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, a, b, c)
+    };
+    (status, sizes)
 }
 
-/// All points and indices of the patch that is held; there are none behind them.
+/// All points and indices of the patch that is held; there are no elements behind them.
 unsafe fn elements(
     held: *const TessHeldPatch,
     points: u32,
-    indices: u32,
+    primitives: u32,
 ) -> (Vec<[u32; 2]>, Vec<u32>) {
     let point = |i| {
         let [mut u, mut v] = [0; 2];
-        let status = unsafe { tess_dpi_held_point(held, i, &mut u, &mut v) };
+        let status = unsafe { tess_dpi_point(held, i, &mut u, &mut v) };
         assert_eq!(status == TESS_OK, i < points, "point {i} of {points}: status {status}");
         [u, v]
     };
-    let index = |i| {
-        let mut index = 0;
-        let status = unsafe { tess_dpi_held_index(held, i, &mut index) };
-        assert_eq!(status == TESS_OK, i < indices, "index {i} of {indices}: status {status}");
-        index
+    let primitive = |t| {
+        let [mut size, mut a, mut b, mut c] = [0u32; 4];
+        let status = unsafe { tess_dpi_primitive(held, t, &mut size, &mut a, &mut b, &mut c) };
+        assert_eq!(status == TESS_OK, t < primitives, "primitive {t}: status {status}");
+        let indices = [a, b, c];
+        let (own, others) = indices.split_at(size as usize);
+        assert!(others.iter().all(|index| *index == 0), "those that it has not are 0");
+        own.to_vec()
     };
-    let behind = (point(points), index(indices));
-    assert_eq!(behind, ([0, 0], 0), "nothing is written");
-    ((0..points).map(point).collect(), (0..indices).map(index).collect())
+    let behind = (point(points), primitive(primitives));
+    assert_eq!(behind, ([0, 0], Vec::new()), "nothing is written");
+    ((0..points).map(point).collect(), (0..primitives).flat_map(primitive).collect())
 }
 
 /// The numbers of the bins give the coverage that the verification kit counts.
@@ -266,17 +221,15 @@ fn refusals_write_nothing() {
         let last = tess_dpi_place(0x2_0000, 0, 0, 0, a, b, c, d, e, null_mut());
         assert_eq!(last, TESS_NULL_POINTER, "the last output is null");
         let none = null_mut();
-        assert_eq!(
-            tess_dpi_open(0, 0, 0, 0, null_mut()),
-            TESS_NULL_POINTER,
-            "no room for a handle"
-        );
+        assert_eq!(tess_dpi_open(null_mut()), TESS_NULL_POINTER, "no room for a handle");
+        let patch = |held, c| tess_dpi_patch(held, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, a, b, c);
+        assert_eq!(patch(none, c), TESS_NULL_POINTER, "no handle");
+        assert_eq!(tess_dpi_point(none, 0, a, b), TESS_NULL_POINTER, "no handle");
+        assert_eq!(tess_dpi_primitive(none, 0, a, b, c, d), TESS_NULL_POINTER, "no handle");
         let mut held = none;
-        assert_eq!(tess_dpi_open(3, 0, 0, 0, &mut held), TESS_UNKNOWN_VALUE, "no such domain");
-        assert!(held.is_null(), "nothing was made");
-        assert_eq!(tess_dpi_patch(none, 0, 0, 0, 0, 0, 0, a, b, c), TESS_NULL_POINTER, "no handle");
-        assert_eq!(tess_dpi_held_point(none, 0, a, b), TESS_NULL_POINTER, "no handle");
-        assert_eq!(tess_dpi_held_index(none, 0, a), TESS_NULL_POINTER, "no handle");
+        assert_eq!(tess_dpi_open(&mut held), TESS_OK, "a handle");
+        assert_eq!(patch(held, null_mut()), TESS_NULL_POINTER, "the last output is null");
+        tess_dpi_close(held);
     }
     assert_eq!(out, [7; 6], "nothing was written");
 }
