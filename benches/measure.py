@@ -40,9 +40,8 @@ class Code(NamedTuple):
 
 # The verification kit makes the inputs. Nothing else of it is measured.
 KIT = "tess-verify"
-WORKLOADS = ["tess-verify/src/workloads.rs", "tess-verify/src/workloads/scenes.rs"]
-CPU = Code(["tess-simd"], WORKLOADS)
-GPU = Code(["tess-wgpu"], WORKLOADS)
+CPU = Code(["tess-simd", "tess-workloads"], [])
+GPU = Code(["tess-wgpu", "tess-workloads"], [])
 
 
 @functools.cache
@@ -314,14 +313,14 @@ MEASUREMENTS = {
     ),
     "gpu-crossover": Measurement(
         "gpu",
-        Code([*GPU.packages, *CPU.packages], WORKLOADS),
+        Code([*GPU.packages, *CPU.packages], []),
         [["gpu", "crossover"]],
         of_crossover,
         ["patches", "uniform-1", "uniform-4", "uniform-16", "uniform-64", "character"],
     ),
     "drawn": Measurement(
         "gpu",
-        Code([*GPU.packages, "tess-probe"], WORKLOADS),
+        Code([*GPU.packages, "tess-probe"], []),
         [["tess", "probe", "--bench", "--json", *(word for name in DRAWN for word in ("--workload", name))]],
         of_probe,
         [
@@ -337,13 +336,13 @@ MEASUREMENTS = {
     ),
     "stage": Measurement(
         "gpu",
-        Code(GPU.packages, [*WORKLOADS, "tess-wgpu/examples"]),
+        Code(GPU.packages, ["tess-wgpu/examples"]),
         [["tess-examples", "terrain", "--bench", "50", "--triangles", "1000000,10000000,50000000", "--points", "stored,pull,none"]],
         of_stage,
         ["points", "triangles", "prepare_us", "draw_us", "G_triangles/s"],
     ),
-    "study-cpu": Measurement("study", Code(CPU.packages, [*WORKLOADS, *WRITTEN, "benches/src/bin/study.rs"]), [["study"]], lines_of),
-    "study-gpu": Measurement("study", Code(GPU.packages, [*WORKLOADS, *files_of_gpu("study.rs", "groups.rs")]), [["gpu", "study"]], lines_of, needs_gpu=True),
+    "study-cpu": Measurement("study", Code(CPU.packages, [*WRITTEN, "benches/src/bin/study.rs"]), [["study"]], lines_of),
+    "study-gpu": Measurement("study", Code(GPU.packages, files_of_gpu("study.rs", "groups.rs")), [["gpu", "study"]], lines_of, needs_gpu=True),
     "study-sweep": sweep("core", "simd", code=CPU),
     "study-sweep-gpu": sweep("gpu", code=GPU, needs_gpu=True),
 }

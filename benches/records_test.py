@@ -97,7 +97,7 @@ def test_all_code_that_is_measured_counts():
         ("drawn", "tools/probe/shaders"),
         ("gpu-crossover", "tess-simd/src"),
         ("surface", "tess-level/src"),
-        ("simd", "tess-verify/src/workloads.rs"),
+        ("simd", "tess-workloads/src"),
     ):
         assert path in paths[name], f"{name}: {paths[name]} lacks {path}"
     others = [path for of in paths.values() for path in of if path.endswith(("/tests", "/benches")) or path == "tess-verify/src"]

@@ -65,7 +65,7 @@ def traceability(page, table, read):
     return len(rows), errors
 
 
-LIBRARIES = ["tess-core", "tess-level", "tess-simd", "tess-gpu", "tess-wgpu", "tess-surface", "tess-mesh", "tess-verify"]
+LIBRARIES = ["tess-core", "tess-level", "tess-simd", "tess-gpu", "tess-wgpu", "tess-surface", "tess-mesh", "tess-verify", "tess-show", "tess-workloads"]
 TYPES = ("struct", "enum", "union", "trait", "type")
 ITEM = re.compile(r'\s*pub (?:(?:const|unsafe|async|extern|"C") )*(fn|const|static|' + "|".join(TYPES) + r") (\w+)")
 

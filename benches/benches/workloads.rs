@@ -8,7 +8,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::time::Duration;
 use tess_benches::{Backend, Written, first_mebibyte};
-use tess_verify::workloads::Workload;
+use tess_workloads::Workload;
 
 fn workloads(criterion: &mut Criterion) {
     for workload in Workload::all() {

@@ -8,7 +8,7 @@ use tess_core::fixed::types::U16F16;
 use tess_core::{DomainPoint, Order, Patch, PatchFactors};
 use tess_simd::{Buffers, Level, Numbering, OwnedBatch, PatchRange, Tessellator};
 use tess_verify::vectors::Fnv1a;
-use tess_verify::workloads::{IndexWidth, Workload};
+use tess_workloads::{IndexWidth, Workload};
 
 /// An implementation on the CPU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 
 use tess_core::{DomainPoint, Patch, PatchFactors};
 use tess_simd::{Numbering, Output, OwnedBatch, Tessellator};
-use tess_verify::workloads::{IndexWidth, Workload};
+use tess_workloads::{IndexWidth, Workload};
 
 /// Points and indices of all patches.
 type Whole = (Vec<DomainPoint>, Vec<u32>);

@@ -45,7 +45,8 @@ pub struct UnknownNameError {
 }
 
 /// The path that a patch takes: `culled`, `minimum` or `regular`.
-pub(crate) const fn way_of(patch: &Patch) -> &'static str {
+#[must_use]
+pub const fn way_of(patch: &Patch) -> &'static str {
     match patch.processed() {
         ProcessedPatch::Culled => "culled",
         ProcessedPatch::Minimum(_) => "minimum",

@@ -4,7 +4,8 @@
 const MOST: usize = 60;
 
 /// `text` between backquotes, with unprintable characters escaped and a long text cut.
-pub(crate) fn quoted(text: &str) -> String {
+#[must_use]
+pub fn quoted(text: &str) -> String {
     let shown: String = text.chars().take(MOST).flat_map(char::escape_debug).collect();
     match text.chars().nth(MOST) {
         None => format!("`{shown}`"),

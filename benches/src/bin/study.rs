@@ -15,7 +15,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 use tess_benches::{Backend, Result, Written, median};
 use tess_simd::Level;
-use tess_verify::workloads::Workload;
+use tess_workloads::Workload;
 
 /// Patches of one batch.
 const BATCH: usize = 4096;

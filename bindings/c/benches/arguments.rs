@@ -24,7 +24,7 @@ use tess_core::{
     Config, Domain, MAX_INDICES, MAX_POINTS, PatchFactors, QuadFactors, TriangleFactors,
 };
 use tess_simd::{CountedPatch, Level, Tessellator};
-use tess_verify::workloads::Workload;
+use tess_workloads::Workload;
 
 /// Patches whose factors are in memory.
 const RING: usize = 64;

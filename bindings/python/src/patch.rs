@@ -9,9 +9,7 @@ use pyo3::types::{PyDict, PyTuple};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use tess_core::{Config, Domain, ProcessedPatch, Tessellation};
-use tess_verify::show::{
-    self, Colours, DrawOptions, Explanation, Part, SignalError, draw, has_rings,
-};
+use tess_show::{Colours, DrawOptions, Explanation, Part, SignalError, draw, has_rings};
 use tess_verify::vectors::Listing;
 use tess_verify::{Case, Named};
 
@@ -281,11 +279,12 @@ impl Patch {
         let observed: Vec<(&str, u32)> =
             observed.iter().map(|(signal, value)| (signal.as_str(), *value)).collect();
         let part = part(point, primitive, factor)?;
-        let differences =
-            show::compare_signals(&self.case, part, &observed).map_err(|error| match error {
+        let differences = tess_show::compare_signals(&self.case, part, &observed).map_err(
+            |error| match error {
                 SignalError::NoSuchPart(_) => self.missing(part),
                 other => argument(other),
-            })?;
+            },
+        )?;
         let values = differences.iter().map(|one| values::signal_difference(py, one));
         PyTuple::new(py, values.collect::<PyResult<Vec<_>>>()?)
     }

@@ -4,9 +4,9 @@ use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 use tess_core::place::Placement;
 use tess_core::{FactorContext, PointOrigin, PrimitiveOrigin, ProcessedFactor};
+use tess_show::SignalDifference;
 use tess_verify::Named;
 use tess_verify::check::{Difference, Report};
-use tess_verify::show::SignalDifference;
 
 /// A named tuple with these elements.
 pub(crate) fn value<'py>(

@@ -13,14 +13,14 @@
 
 use super::answer::TOLERANCE;
 use super::lengths::unequal;
-use super::levels::Level;
+use super::levels::TessellationLevel;
 use tess_core::fixed_point::ONE;
 
 /// The divisions found so far, and the one under construction.
 struct Search<'a> {
     /// The places before the middle whose mirror images are there too, ascending, without the end.
     places: &'a [u32],
-    level: Level,
+    level: TessellationLevel,
     /// The number of segments before the middle one.
     half: usize,
     chosen: Vec<u32>,
@@ -29,7 +29,7 @@ struct Search<'a> {
 
 /// The divisions that a level allows among these places, which include both ends: none, one, or the
 /// first two. The level's number of segments is odd.
-pub(super) fn divisions(along: &[u32], level: Level) -> Vec<Vec<u32>> {
+pub(super) fn divisions(along: &[u32], level: TessellationLevel) -> Vec<Vec<u32>> {
     let is_mirrored = |x: &u32| along.binary_search(&(ONE - x)).is_ok();
     let before_middle = along.iter().copied().filter(|x| (1..ONE / 2).contains(x));
     let places: Vec<u32> = before_middle.filter(is_mirrored).collect();
@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn own_vertices_are_found() {
         let spacing = Partitioning::FractionalOdd;
-        let level = |raw| Level { raw, spacing, is_inner: false, position: 0 };
+        let level = |raw| TessellationLevel { raw, spacing, is_inner: false, position: 0 };
         let third = [0x5555, 0xAAAB];
         let own = vec![0, third[0], third[1], ONE];
         assert_eq!(divisions(&[0, third[0], 0x8000, third[1], ONE], level(3.0)), [own]);

@@ -18,7 +18,7 @@ use super::answer::{Answer, Place, TOLERANCE, show};
 use super::division::divisions;
 use super::edge::spaced;
 use super::lengths::VANISHING;
-use super::levels::{Level, is_minimum, vertices_inside};
+use super::levels::{TessellationLevel, is_minimum, vertices_inside};
 use super::lines::{Grid, inner_lines, outline, with_ends};
 use super::rings::{Ring, Rings, by_depth, too_close};
 use tess_core::Domain;
@@ -50,7 +50,7 @@ fn columns_and_rows(answer: &Answer, specified: Option<&Answer>) -> Result<(), S
     let specified = specified.map(Grid::new);
     let axis = |grid: &Grid, axis: usize| [&grid.columns, &grid.rows][axis].len() + 1;
     for (number, what) in ["columns", "rows"].into_iter().enumerate() {
-        let level = Level::inner(&answer.case, number);
+        let level = TessellationLevel::inner(&answer.case, number);
         let asked = match (&specified, level) {
             (Some(grid), _) => axis(grid, number),
             (None, _) if is_minimum(&answer.case) => 1,
@@ -91,7 +91,9 @@ const fn is_near_an_end(x: u32) -> bool {
 /// them, if vertices of the inside are on the outline.
 fn near_the_outline(answer: &Answer) -> Result<(), String> {
     let (case, inside) = (&answer.case, answer.inside());
-    let is_low = |number: usize| Level::inner(case, number).is_some_and(|level| level.raw <= 1.0);
+    let is_low = |number: usize| {
+        TessellationLevel::inner(case, number).is_some_and(|level| level.raw <= 1.0)
+    };
     let not_near = |what: &str, place: Place| {
         Err(format!(
             "an inner level is at most 1, and {what} {} is not near the outline",
@@ -123,7 +125,7 @@ fn near_the_edge(answer: &Answer, edge: usize, low: [bool; 2]) -> Result<(), Str
     // The columns of a quad may be on its edges u0 and u1, where its rows end, and its rows on the
     // others. A triangle's ring ends at the corners.
     let (across, along) = if is_triangle { (0, 0) } else { (edge % 2, 1 - edge % 2) };
-    let other = Level::inner(case, along);
+    let other = TessellationLevel::inner(case, along);
     if let Some(other) = other.filter(|other| !is_triangle && low[across] && other.raw > 1.0) {
         whole_line(answer, edge, other)?;
     }
@@ -146,7 +148,7 @@ fn near_the_edge(answer: &Answer, edge: usize, low: [bool; 2]) -> Result<(), Str
 
 /// The column or row nearest to a quad's edge, on it or inside, is divided by the inner level of
 /// the other axis.
-fn whole_line(answer: &Answer, edge: usize, other: Level) -> Result<(), String> {
+fn whole_line(answer: &Answer, edge: usize, other: TessellationLevel) -> Result<(), String> {
     let (across, along) = (edge % 2, 1 - edge % 2);
     let is_nearest = |place: &&Place| (place[across] < ONE / 2) == (edge < 2);
     let mut inside: Vec<u32> =
@@ -164,7 +166,7 @@ fn whole_line(answer: &Answer, edge: usize, other: Level) -> Result<(), String> 
 
 fn vertices_of_rings(answer: &Answer, specified: Option<&Answer>) -> Option<Result<(), String>> {
     let found = answer.inside().len();
-    let level = Level::inner(&answer.case, 0);
+    let level = TessellationLevel::inner(&answer.case, 0);
     let asked = match specified {
         Some(specified) => specified.inside().len(),
         None if is_minimum(&answer.case) => 0,
@@ -187,7 +189,7 @@ pub(super) fn inner_spacing(answer: &Answer) -> Judged {
     if answer.case.domain() != Domain::Triangle {
         return spaced(&lines);
     }
-    let level = Level::inner(&answer.case, 0).filter(|_| !is_minimum(&answer.case))?;
+    let level = TessellationLevel::inner(&answer.case, 0).filter(|_| !is_minimum(&answer.case))?;
     let n = level.segments();
     let by_depth = by_depth(answer.inside(), n)?;
     let close: Vec<u32> = too_close(&by_depth).collect();
@@ -208,7 +210,7 @@ pub(super) fn inner_spacing(answer: &Answer) -> Judged {
 
 /// Whether the shorter segments may be so short that the two rings at their ends cannot be told
 /// apart: up to half the way from one number of segments to the next.
-fn may_have_close_rings(level: Level) -> bool {
+fn may_have_close_rings(level: TessellationLevel) -> bool {
     let lower = level.segments().saturating_sub(2) << 16;
     level.is_fractional() && level.fixed() < lower + ONE
 }

@@ -1,7 +1,7 @@
 //! The lengths of a divided line's segments.
 
 use super::answer::TOLERANCE;
-use super::levels::Level;
+use super::levels::TessellationLevel;
 use tess_core::fixed_point::ONE;
 
 /// A level up to this many units of 2^-16 above a number of segments counts as just above it: the
@@ -14,7 +14,7 @@ pub(super) const VANISHING: u32 = 16;
 /// The fault in a line's lengths, if there is one.
 #[expect(clippy::float_cmp, reason = "a level is the integer itself, or is not")]
 #[expect(clippy::cast_precision_loss, reason = "at most 64")]
-pub(super) fn unequal(along: &[u32], level: Level) -> Option<String> {
+pub(super) fn unequal(along: &[u32], level: TessellationLevel) -> Option<String> {
     let is_integer = level.clamped() == level.segments() as f32;
     if !level.is_fractional() || is_integer {
         return equally_spaced(along);
@@ -54,7 +54,7 @@ fn two_lengths(lengths: &[u32]) -> Option<String> {
 
 /// The fault of shorter segments that are too long for a level just above the next lower number of
 /// segments.
-fn not_vanishing(lengths: &[u32], level: Level) -> Option<String> {
+fn not_vanishing(lengths: &[u32], level: TessellationLevel) -> Option<String> {
     let excess = level.fixed().checked_sub((level.segments().checked_sub(2)?) << 16)?;
     let (short, long) = (*lengths.iter().min()?, *lengths.iter().max()?);
     (lengths.len() > 2 && excess <= JUST_ABOVE && short > long / VANISHING + TOLERANCE).then(|| {

@@ -9,7 +9,7 @@ const LARGEST: f32 = 64.0;
 
 /// A level of a patch and the spacing that applies to it. The level is not NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Level {
+pub(super) struct TessellationLevel {
     pub(super) raw: f32,
     pub(super) spacing: Partitioning,
     pub(super) is_inner: bool,
@@ -17,7 +17,7 @@ pub(super) struct Level {
     pub(super) position: usize,
 }
 
-impl Level {
+impl TessellationLevel {
     /// Outer level `number`; `None` if it is NaN. The number of isolines always has equal
     /// spacing.
     pub(super) fn outer(case: &Case, number: usize) -> Option<Self> {
@@ -98,7 +98,7 @@ pub(super) fn may_touch_outline(case: &Case, specification: Specification) -> bo
 
 /// The number of vertices inside that the inner levels ask for; `None` if one of them is NaN.
 pub(super) fn inside_asked(case: &Case) -> Option<usize> {
-    let segments = |number| Some(Level::inner(case, number)?.segments());
+    let segments = |number| Some(TessellationLevel::inner(case, number)?.segments());
     match case.domain() {
         _ if is_minimum(case) => Some(0),
         Domain::Isoline => Some(0),

@@ -12,7 +12,7 @@
 
 use super::answer::Answer;
 use super::division::divisions;
-use super::levels::{Level, is_minimum};
+use super::levels::{TessellationLevel, is_minimum};
 use super::rings::Rings;
 use std::collections::BTreeMap;
 use tess_core::Domain;
@@ -24,7 +24,7 @@ pub(super) struct Line {
     /// Which line: `edge u0`, `line 0`, `the columns`.
     pub(super) name: String,
     /// The level that divides it; `None` if the level is NaN.
-    pub(super) level: Option<Level>,
+    pub(super) level: Option<TessellationLevel>,
     /// The places of its vertices, ascending and including both ends: 16.16 numbers from 0 to 1.
     pub(super) along: Vec<u32>,
     /// Whether these are its own vertices for certain. They are not if vertices of the inside are
@@ -34,7 +34,7 @@ pub(super) struct Line {
 
 impl Line {
     /// A line whose vertices are known.
-    const fn sure(name: String, level: Option<Level>, along: Vec<u32>) -> Self {
+    const fn sure(name: String, level: Option<TessellationLevel>, along: Vec<u32>) -> Self {
         Self { name, level, along, is_sure: true }
     }
 
@@ -45,8 +45,8 @@ impl Line {
 
     /// Its level, if the line has as many segments as the level asks for, and its vertices are
     /// known.
-    pub(super) fn level_if_right(&self) -> Option<Level> {
-        let is_right = |level: &Level| level.segments() as usize == self.segments();
+    pub(super) fn level_if_right(&self) -> Option<TessellationLevel> {
+        let is_right = |level: &TessellationLevel| level.segments() as usize == self.segments();
         self.level.filter(is_right).filter(|_| self.is_sure)
     }
 
@@ -74,8 +74,10 @@ pub(super) fn outer_lines(answer: &Answer) -> Vec<Line> {
     let mut along: Vec<u32> = by_v.keys().copied().collect();
     along.push(ONE);
     along.dedup();
-    let density = Line::sure("the patch".to_owned(), Level::outer(case, 0), along);
-    let line = |(number, along)| Line::sure(format!("line {number}"), Level::outer(case, 1), along);
+    let density = Line::sure("the patch".to_owned(), TessellationLevel::outer(case, 0), along);
+    let line = |(number, along)| {
+        Line::sure(format!("line {number}"), TessellationLevel::outer(case, 1), along)
+    };
     [density].into_iter().chain(by_v.into_values().enumerate().map(line)).collect()
 }
 
@@ -86,7 +88,7 @@ pub(super) fn outer_lines(answer: &Answer) -> Vec<Line> {
 pub(super) fn outline(answer: &Answer, edge: usize) -> Line {
     let case = &answer.case;
     let name = format!("edge {}", case.domain().factor_names()[edge]);
-    let level = Level::outer(case, edge);
+    let level = TessellationLevel::outer(case, edge);
     let line = Line::sure(name, level, answer.along(edge));
     match level {
         Some(level) if answer.touches && line.segments() > level.segments() as usize => {
@@ -112,12 +114,12 @@ pub(super) fn inner_lines(answer: &Answer) -> Vec<Line> {
             let Grid { columns, rows, .. } = Grid::new(answer);
             let axes = [("the columns", columns), ("the rows", rows)];
             let line = |(axis, (name, inside)): (usize, (&str, Vec<u32>))| {
-                Line::sure(name.to_owned(), Level::inner(case, axis), with_ends(inside))
+                Line::sure(name.to_owned(), TessellationLevel::inner(case, axis), with_ends(inside))
             };
             axes.into_iter().enumerate().map(line).collect()
         }
         Domain::Triangle => {
-            let level = Level::inner(case, 0);
+            let level = TessellationLevel::inner(case, 0);
             let rings = level.and_then(|level| Rings::new(answer.inside(), level.segments()));
             let along = rings.as_ref().map(Rings::outermost).map(with_ends);
             let line = |along| Line::sure("the rings".to_owned(), level, along);

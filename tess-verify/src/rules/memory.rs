@@ -3,7 +3,7 @@
 use super::Judgement;
 use super::answer::{Answer, Place, TOLERANCE, distance_along};
 use super::edge::{known_edges, shorter};
-use super::levels::{Level, is_minimum};
+use super::levels::{TessellationLevel, is_minimum};
 use super::lines::{Line, inner_lines, outer_lines};
 use crate::case::Case;
 use crate::generate::SplitMix64;
@@ -287,7 +287,7 @@ fn growing(apart: u32, low: u32, high: u32) -> Result<(), String> {
 /// The lines whose vertices move with the level.
 fn fractional_lines(answer: &Answer) -> impl Iterator<Item = Line> {
     let lines = outer_lines(answer).into_iter().chain(inner_lines(answer));
-    lines.filter(|line| line.level.is_some_and(Level::is_fractional))
+    lines.filter(|line| line.level.is_some_and(TessellationLevel::is_fractional))
 }
 
 /// A digest of triangles that does not depend on their order or on that of their vertices: the sum

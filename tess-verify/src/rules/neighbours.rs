@@ -10,7 +10,7 @@ use super::Judged;
 use super::answer::{Answer, Place, distance_along, show};
 use super::edge::segments;
 use super::inside::inner_levels;
-use super::levels::{Level, is_minimum};
+use super::levels::{TessellationLevel, is_minimum};
 use super::lines::Grid;
 use super::rings::Rings;
 use tess_core::Domain;
@@ -49,7 +49,7 @@ pub(super) fn neighbours(answer: &Answer) -> Judged {
             0
         }
         Domain::Triangle => {
-            let n = Level::inner(case, 0)?.segments();
+            let n = TessellationLevel::inner(case, 0)?.segments();
             add_rings(answer, &Rings::new(answer.inside(), n)?, &mut spots);
             if n % 2 == 1 { n / 2 } else { 0 }
         }

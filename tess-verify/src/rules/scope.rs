@@ -9,7 +9,7 @@
 //! A role is the position of a level. Not every rule can be asked about every level: an outer level
 //! of 0 leaves nothing to judge but that the patch is discarded.
 
-use super::levels::Level;
+use super::levels::TessellationLevel;
 use super::standard::Specification;
 use crate::case::Case;
 use tess_core::{Domain, Partitioning};
@@ -162,8 +162,10 @@ impl Kind {
     pub(super) fn of(case: &Case, position: usize) -> impl Iterator<Item = Self> {
         let outer = case.domain().outer_factors();
         let level = match position.checked_sub(outer) {
-            None => Level::outer(case, position),
-            Some(inner) => Level::inner(case, inner).filter(|_| !super::levels::is_minimum(case)),
+            None => TessellationLevel::outer(case, position),
+            Some(inner) => {
+                TessellationLevel::inner(case, inner).filter(|_| !super::levels::is_minimum(case))
+            }
         };
         let number = level.and_then(|level| u8::try_from(level.segments()).ok());
         let value = case.factors.iter().nth(position).unwrap_or_default();
@@ -197,8 +199,9 @@ impl Pair {
             // The edges u0 and u1 run along v.
             Domain::Quad => 1 - edge % 2,
         };
-        let [outer, inside] = [Level::outer(case, edge)?, Level::inner(case, axis)?]
-            .map(|level| u8::try_from(level.segments()).ok());
+        let [outer, inside] =
+            [TessellationLevel::outer(case, edge)?, TessellationLevel::inner(case, axis)?]
+                .map(|level| u8::try_from(level.segments()).ok());
         Some(Self { outer: outer?, inside: inside? })
     }
 

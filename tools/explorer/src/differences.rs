@@ -7,7 +7,7 @@
 use crate::patch::PatchView;
 use std::fmt::Write;
 use tess_core::{DomainPoint, MAX_INDICES, MAX_POINTS, Tessellation};
-use tess_verify::show::differing;
+use tess_show::differing;
 use tess_verify::vectors::Listing;
 use wasm_bindgen::prelude::wasm_bindgen;
 

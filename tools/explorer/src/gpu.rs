@@ -10,8 +10,8 @@ use tess_gpu::{
 };
 use tess_verify::check::Mismatch;
 use tess_verify::vectors::Listing;
-use tess_verify::workloads::Workload;
 use tess_verify::{Case, Named};
+use tess_workloads::Workload;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -2,7 +2,7 @@
 
 use crate::{json, marks, thrown};
 use tess_core::{Patch, Tessellation};
-use tess_verify::show::{Colours, DrawOptions, Drawing, Explanation, Part, draw, has_rings};
+use tess_show::{Colours, DrawOptions, Drawing, Explanation, Part, draw, has_rings};
 use tess_verify::vectors::Listing;
 use tess_verify::{Case, mistakes};
 use wasm_bindgen::JsError;

@@ -3,7 +3,7 @@
 use crate::{json, thrown};
 use std::ops::Range;
 use tess_simd::{ExactOutput, Numbering, Tessellator};
-use tess_verify::workloads::{IndexWidth, Workload};
+use tess_workloads::{IndexWidth, Workload};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 

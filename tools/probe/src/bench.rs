@@ -14,7 +14,7 @@ use std::sync::Arc;
 use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Capacity, Limits, Order, Plan, Resource, Setup};
-use tess_verify::workloads::Workload;
+use tess_workloads::Workload;
 
 /// The times of one workload; each is the fastest of several runs.
 #[derive(Clone, Debug, Serialize)]

@@ -4,7 +4,7 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 use tess_core::{Config, OutputPrimitive, Partitioning, PatchFactors, QuadFactors};
 use tess_gpu::{Setup, Stage};
 use tess_probe::{BenchTimes, Error, bench};
-use tess_verify::workloads::{Calls, Workload};
+use tess_workloads::{Calls, Workload};
 
 fn workload() -> Workload {
     let factors = QuadFactors { u0: 3.0, v0: 4.0, u1: 5.0, v1: 6.0, inside_u: 4.0, inside_v: 7.0 };

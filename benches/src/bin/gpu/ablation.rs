@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup, Stage};
 use tess_testkit::listed::{self, ListedFault};
-use tess_verify::workloads::{IndexWidth, Totals, Workload};
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
+use tess_workloads::{IndexWidth, Totals, Workload};
 
 /// The number of runs whose median is taken.
 const SAMPLES: usize = 7;

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use tess_benches::median;
 use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
 use tess_gpu::Numbering;
-use tess_verify::workloads::Workload;
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Stopwatch, Tessellator};
+use tess_workloads::Workload;
 
 pub(crate) fn run() -> Result<()> {
     let gpu = pollster::block_on(Gpu::open_with(DeviceLimits::Highest, Stopwatch::FEATURES))?;

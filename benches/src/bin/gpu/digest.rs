@@ -6,7 +6,7 @@ use tess_gpu::layout::PackedPoint;
 use tess_verify::vectors::Fnv1a;
 use tess_wgpu::ReadBack;
 
-/// The digest of whole patches, as [`tess_verify::workloads::Workload::digest`] computes it; `None`
+/// The digest of whole patches, as [`tess_workloads::Workload::digest`] computes it; `None`
 /// if the output is not consistent.
 pub(crate) fn digest(output: &ReadBack, setup: Setup) -> Option<u64> {
     let each = setup.indices_per_primitive() as usize;

@@ -7,8 +7,8 @@ use std::time::Duration;
 use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup};
-use tess_verify::workloads::Workload;
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
+use tess_workloads::Workload;
 
 /// The number of meshes.
 const MESHES: u32 = 256;

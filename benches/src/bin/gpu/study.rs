@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 use tess_benches::median;
 use tess_core::Order;
 use tess_gpu::{Numbering, Setup};
-use tess_verify::workloads::Workload;
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Stopwatch, Tessellator};
+use tess_workloads::Workload;
 
 /// The number of patches in the large batch.
 const BATCH: usize = 4096;

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
-use tess_verify::workloads::{Calls, Workload};
+use tess_workloads::{Calls, Workload};
 
 /// The number of points of a workload that is enough; the patches after them are left out.
 const POINTS: u64 = 100_000;

@@ -14,6 +14,8 @@ const PACKAGES: &[&str] = &[
     "tess-surface",
     "tess-mesh",
     "tess-verify",
+    "tess-show",
+    "tess-workloads",
     "tess-wgpu",
     "tess-capi",
 ];

@@ -175,7 +175,7 @@ mod tests {
     /// all of them.
     #[test]
     fn the_model_has_the_same_signals() {
-        use tess_verify::show::Part;
+        use tess_show::Part;
         let parts = [
             ("factor", Part::Factor(0)),
             ("patch", Part::Patch),

@@ -7,9 +7,9 @@ use tess_core::{
 };
 use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
 use tess_gpu::{Numbering, Setup, Tap};
-use tess_verify::workloads::IndexWidth;
 use tess_verify::{Answers, Backend, BackendError};
 use tess_wgpu::{Gpu, ReadBack, Tessellator};
+use tess_workloads::IndexWidth;
 
 /// `tess-gpu` on the first available adapter, with WebGPU's default limits.
 #[derive(Debug)]

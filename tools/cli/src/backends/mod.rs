@@ -14,8 +14,8 @@ use crate::threads::start_pool;
 use clap::ValueEnum;
 use simd::Simd;
 use tess_simd::{Level, LevelUnavailableError};
-use tess_verify::workloads::IndexWidth;
 use tess_verify::{Backend, CoreBackend};
+use tess_workloads::IndexWidth;
 
 /// The names that `--backend` accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -9,7 +9,7 @@ use tess_verify::Backend;
 use tess_verify::check::{self, Tested};
 use tess_verify::vectors::VectorFile;
 #[cfg(feature = "gpu")]
-use tess_verify::workloads::IndexWidth;
+use tess_workloads::IndexWidth;
 
 /// One index is one too high, in a backend with 16-bit indices.
 #[test]

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::output::form::FileForm;
 use clap::ValueEnum;
 use tess_core::Tessellation;
-use tess_verify::show::{DrawOptions, Drawing, draw};
+use tess_show::{DrawOptions, Drawing, draw};
 use tess_verify::vectors::Listing;
 use tess_verify::{Backend, Case};
 

@@ -10,9 +10,9 @@ use crate::support::{Run, directory, tess};
 use serde_json::{Value, json};
 use std::fs::write;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
+use tess_show::{DrawOptions, draw};
 use tess_testkit::pairs::Options;
 use tess_verify::Case;
-use tess_verify::show::{DrawOptions, draw};
 use tess_verify::vectors::Listing;
 
 /// Two values that exclude each other, and the words of the message about each.

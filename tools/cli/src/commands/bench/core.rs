@@ -7,7 +7,7 @@ use tess_core::fixed::types::U16F16;
 use tess_core::{Config, DomainPoint, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_simd::{Order, PatchRange};
 use tess_verify::BackendError;
-use tess_verify::workloads::{IndexWidth, Workload};
+use tess_workloads::{IndexWidth, Workload};
 
 /// The sequential formulation, patch by patch, written into slices.
 pub(super) struct CoreKernel {

@@ -9,7 +9,7 @@ use tess_core::DomainPoint;
 use tess_simd::{IndexFormat, PatchRange};
 use tess_verify::BackendError;
 use tess_verify::vectors::Fnv1a;
-use tess_verify::workloads::{Calls, IndexWidth, Workload};
+use tess_workloads::{Calls, IndexWidth, Workload};
 
 /// The parts in which CPU backends differ.
 pub(super) trait Kernel {

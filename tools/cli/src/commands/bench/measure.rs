@@ -17,7 +17,7 @@ use std::fmt;
 use std::time::Duration;
 use tess_simd::Order;
 use tess_verify::BackendError;
-use tess_verify::workloads::Workload;
+use tess_workloads::Workload;
 
 /// A measurement to make.
 #[derive(Clone, Copy, Debug)]

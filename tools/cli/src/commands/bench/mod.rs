@@ -18,7 +18,7 @@ use measure::{Plan, measure};
 use runner::{Runner, WorkingSet};
 use table::heading;
 use tess_simd::{Level, Order};
-use tess_verify::workloads::Workload;
+use tess_workloads::Workload;
 
 /// Time the named workloads against filling the same bytes and against the core
 #[derive(Debug, clap::Args)]

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::time::Duration;
 use tess_simd::Order;
 use tess_verify::BackendError;
-use tess_verify::workloads::{IndexWidth, Totals, Workload};
+use tess_workloads::{IndexWidth, Totals, Workload};
 
 /// The destination of a runner's output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -14,7 +14,7 @@ use tess_simd::{
     Buffers, IndexFormat, Level, Numbering, Order, OwnedBatch, PatchRange, Tessellator,
 };
 use tess_verify::BackendError;
-use tess_verify::workloads::{Calls, IndexWidth, Workload};
+use tess_workloads::{Calls, IndexWidth, Workload};
 
 /// The runner for these options. Errors: the threads cannot be started.
 pub(super) fn runner(args: &BenchCommand, level: Level) -> Result<Box<dyn Runner>, Failure> {

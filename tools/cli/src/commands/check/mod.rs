@@ -327,7 +327,7 @@ fn note_right(right: &mut HashSet<Case>, checked: Checked<'_>) {
 /// reproduce it.
 fn show_one(out: &mut impl Write, difference: &Difference, backend: &str) -> io::Result<()> {
     writeln!(out, "{difference}")?;
-    for line in difference.origin().unwrap_or_default().lines() {
+    for line in tess_show::origin(difference).unwrap_or_default().lines() {
         writeln!(out, "  model: {line}")?;
     }
     difference.commands(backend).iter().try_for_each(|command| writeln!(out, "  again: {command}"))

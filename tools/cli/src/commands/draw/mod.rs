@@ -10,8 +10,8 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use tess_core::{Domain, OutputPrimitive};
+use tess_show::{Colours, DrawOptions, Drawing};
 use tess_verify::Backend;
-use tess_verify::show::{self, Colours, DrawOptions, Drawing};
 use tess_verify::vectors::{Record, VectorFile};
 
 /// Draw one patch as SVG or PNG
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &DrawCommand) -> Result<Exit, Failure> {
     };
     let (drawing, exit) = match pair {
         Some((expected, observed)) => draw_overlay(&expected, &observed, &args.options.options()),
-        None => (show::draw(&patch.listing, &args.options.options()), Exit::Done),
+        None => (tess_show::draw(&patch.listing, &args.options.options()), Exit::Done),
     };
     report_left_out(&drawing);
     args.output.write(&format.render(&drawing)?)?;
@@ -96,7 +96,7 @@ pub(crate) fn run(args: &DrawCommand) -> Result<Exit, Failure> {
 impl DrawArgs {
     /// Refuses options that do not suit the patch. Errors: rings without triangles.
     fn fit(&self, domain: Domain, output: OutputPrimitive) -> Result<(), Failure> {
-        if self.rings && !show::has_rings(domain, output) {
+        if self.rings && !tess_show::has_rings(domain, output) {
             return Err(Failure::bad_input(
                 "--rings colours the triangles of a tri or quad patch; this one has none",
             ));
@@ -135,7 +135,7 @@ fn draw_overlay(
     observed: &OnePatch,
     options: &DrawOptions,
 ) -> (Drawing, Exit) {
-    let (drawing, differences) = show::overlay(&expected.listing, &observed.listing, options);
+    let (drawing, differences) = tess_show::overlay(&expected.listing, &observed.listing, options);
     let (points, primitives) = (differences.points, differences.primitives);
     note(&format!(
         "differences between {} and {}: {} and {}",

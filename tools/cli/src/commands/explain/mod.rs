@@ -9,8 +9,8 @@ use modules::Modules;
 use serde::Serialize;
 use std::fmt::{self, Display};
 use std::path::PathBuf;
+use tess_show::{Explanation, Part, Signal, SignalDifference};
 use tess_verify::Case;
-use tess_verify::show::{self, Explanation, Part, Signal, SignalDifference};
 
 const OBSERVED: &str = "\
 Compare what a circuit gave there, name the stage and signal that differ, and end with 1 if any does
@@ -103,7 +103,7 @@ impl ExplainCommand {
         let modules = self.signals.as_deref().map(Modules::read).transpose()?;
         let observed: Vec<(&str, u32)> =
             self.observed.iter().map(|(signal, value)| (signal.as_str(), *value)).collect();
-        let differences = show::compare_signals(case, part, &observed)
+        let differences = tess_show::compare_signals(case, part, &observed)
             .map_err(|error| Failure::bad_input(format!("--observed: {error}")))?;
         let module = |signal| Some(modules.as_ref()?.of(part, signal)?.to_owned());
         let wrong =

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::input;
 use std::path::Path;
-use tess_verify::show::{Part, Signal};
+use tess_show::{Part, Signal};
 
 /// The most bytes of a list; a row has some fifty.
 const MAX_BYTES: u64 = 1 << 20;

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::output::{OutputArgs, json, progress};
 use std::fmt::Write;
 use tess_probe::{BenchTimes, bench};
-use tess_verify::workloads::Workload;
+use tess_workloads::Workload;
 
 /// The number of runs of each way; the fastest counts.
 const RUNS: u32 = 10;

@@ -15,10 +15,10 @@ use crate::output::{OutputArgs, Role, json, note, progress, refuse_shared};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tess_probe::{First, ProbeReport, Prober, cases, list, probe_known};
+use tess_show::DrawOptions;
 use tess_verify::check::{Conversion, Denormals, Known, ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::rules::Specification;
-use tess_verify::show::{self, DrawOptions};
 use tess_verify::vectors::Listing;
 
 /// Compare the tessellator of a Vulkan device with the model
@@ -280,7 +280,7 @@ impl FirstPicture {
         let listing = |output| Listing { case, output, line: 0 };
         let expected = listing(case.patch().tessellate());
         let options = DrawOptions { size: 800, ..DrawOptions::default() };
-        let (drawing, _) = show::overlay(&expected, &listing(output), &options);
+        let (drawing, _) = tess_show::overlay(&expected, &listing(output), &options);
         self.output.write(&self.format.render(&drawing)?)
     }
 }

@@ -11,8 +11,8 @@ use tess_gpu::layout::factor_words;
 use tess_gpu::{Copies, Setup};
 use tess_verify::BackendError;
 use tess_verify::vectors::Fnv1a;
-use tess_verify::workloads::{Calls, Totals, Workload};
 use tess_wgpu::{Batch, DeviceLimits, Gpu, Outputs, Stopwatch, Tessellator};
+use tess_workloads::{Calls, Totals, Workload};
 
 mod fill;
 

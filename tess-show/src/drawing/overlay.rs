@@ -3,8 +3,8 @@
 use super::colours::{DIFFERENT, DIFFERENT_FILL, GRID};
 use super::layout::{self, Layout};
 use super::{DrawOptions, Drawing, corners};
-use crate::show::picture::{Colour, Position, Shape};
-use crate::vectors::Listing;
+use crate::picture::{Colour, Position, Shape};
+use tess_verify::vectors::Listing;
 
 /// The number of elements that differ between two results of one case.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -1,5 +1,4 @@
-//! One patch for people: every stage of it ([`Explanation`]), a picture ([`draw`]), and a
-//! comparison of a circuit's signals with the model's ([`compare_signals`]).
+#![doc = include_str!("../README.md")]
 
 mod drawing;
 mod explanation;
@@ -13,5 +12,6 @@ pub use drawing::{
 };
 pub use explanation::Explanation;
 use explanation::{PointReport, PrimitiveReport};
+pub use origin::origin;
 pub use part::Part;
 pub use signals::{Signal, SignalDifference, SignalError, compare_signals};

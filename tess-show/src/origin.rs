@@ -1,31 +1,29 @@
 //! The origin of the model's side of a difference.
 
 use super::{PointReport, PrimitiveReport};
-use crate::check::{Difference, Element};
 use tess_core::{Patch, Tessellation};
+use tess_verify::check::{Difference, Element};
 
-impl Difference {
-    /// The origin of the model's element, with the values that led to it; `None` if the model has
-    /// no such element. An element given by its vertices is the model's first one that has them,
-    /// whatever its leading vertex.
-    #[must_use]
-    pub fn origin(&self) -> Option<String> {
-        let patch = self.case?.patch();
-        match &self.mismatch.element {
-            Element::Point { index, .. } => point(&patch, *index),
-            Element::Index { primitive: t, .. } | Element::Third { primitive: t, .. } => {
-                primitive(&patch, *t)
-            }
-            Element::Vertices(places) => match &places[..] {
-                [place] => {
-                    let output = patch.tessellate();
-                    let mut points = 0..output.points.len();
-                    point(&patch, points.find(|i| place_of(&output, *i) == Some(*place))?)
-                }
-                _ => primitive(&patch, with_vertices(&patch.tessellate(), places)?),
-            },
-            _ => None,
+/// The origin of the model's element of a difference, with the values that led to it; `None` if the
+/// model has no such element. An element given by its vertices is the model's first one that has
+/// them, whatever its leading vertex.
+#[must_use]
+pub fn origin(difference: &Difference) -> Option<String> {
+    let patch = difference.case?.patch();
+    match &difference.mismatch.element {
+        Element::Point { index, .. } => point(&patch, *index),
+        Element::Index { primitive: t, .. } | Element::Third { primitive: t, .. } => {
+            primitive(&patch, *t)
         }
+        Element::Vertices(places) => match &places[..] {
+            [place] => {
+                let output = patch.tessellate();
+                let mut points = 0..output.points.len();
+                point(&patch, points.find(|i| place_of(&output, *i) == Some(*place))?)
+            }
+            _ => primitive(&patch, with_vertices(&patch.tessellate(), places)?),
+        },
+        _ => None,
     }
 }
 

@@ -1,7 +1,4 @@
-//! The named workloads of benches and reports, as data.
-//!
-//! Every machine times the same patches: a bench compares [`Workload::digest`] before it times
-//! anything.
+#![doc = include_str!("../README.md")]
 
 mod scenes;
 
@@ -10,10 +7,10 @@ use scenes::{
     worst,
 };
 
-use crate::vectors::Fnv1a;
 use std::ops::Range;
 use tess_core::Order;
 use tess_core::{Config, Counts, Patch, PatchFactors};
+use tess_verify::vectors::Fnv1a;
 
 /// Patches of one domain and configuration, under the name that `tess bench --workload` takes.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! The decisions of factor processing, with their reasons (spec section 3).
 
 use super::factors::named;
-use crate::names::Named;
 use tess_core::{
     Domain, FixedFactor, Parity, Partitioning, Patch, PatchFactors, ProcessedFactor, ProcessedPatch,
 };
+use tess_verify::Named;
 
 /// One sentence per decision, in the order of the specification's steps.
 pub(super) fn decisions(patch: &Patch, raw: &PatchFactors) -> Vec<String> {
@@ -106,7 +106,7 @@ fn minimum(patch: &Patch, processed: &PatchFactors<ProcessedFactor>) -> Option<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
+    use tess_verify::Case;
 
     /// The threshold itself does not make a picture frame; the next float does.
     #[test]

@@ -1,7 +1,7 @@
 //! The signals of a circuit, by the stage that makes them, and their values in the model.
 //!
 //! ```
-//! use tess_verify::show::{Part, compare_signals};
+//! use tess_show::{Part, compare_signals};
 //!
 //! let case = "case tri integer triangle_cw ruler 40000000 40000000 40000000 40000000".parse()?;
 //! let seen = [("u", 0), ("v", 0x8001)];
@@ -11,10 +11,10 @@
 //! ```
 
 use super::part::Part;
-use crate::case::Case;
-use crate::quote::quoted;
 use std::fmt;
 use tess_core::ProcessedFactor;
+use tess_verify::Case;
+use tess_verify::quoted;
 
 /// A signal: a value of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The places and sizes of numbers.
 #![expect(clippy::float_arithmetic, reason = "positions of a drawing, in pixels")]
 
-use crate::show::picture::{Position, number_width};
+use crate::picture::{Position, number_width};
 
 /// Digits of less than this height are unreadable.
 const SMALLEST: f64 = 4.5;

@@ -1,10 +1,10 @@
 //! Each factor after each step of factor processing (spec sections 2 to 4).
 
 use super::Fixed;
-use crate::case::Case;
-use crate::names::Named;
 use std::fmt;
 use tess_core::{FactorContext, Patch, PatchFactors, ProcessedFactor};
+use tess_verify::Case;
+use tess_verify::Named;
 
 /// A binary32 number. NaN and infinities have no `value` in JSON.
 #[derive(Clone, Copy, Debug)]

@@ -8,13 +8,13 @@ mod layout;
 mod overlay;
 
 #[cfg(feature = "png")]
-use crate::show::picture::png;
-use crate::show::picture::{Colour, Picture, Position, Shape, svg};
-use crate::vectors::Listing;
+use crate::picture::png;
+use crate::picture::{Colour, Picture, Position, Shape, svg};
 use colours::{GRID, INK, PAPER, POINT};
 use layout::Layout;
 pub use overlay::{Differences, differing, overlay};
 use tess_core::{Domain, OutputPrimitive};
+use tess_verify::vectors::Listing;
 
 /// What a picture shows besides primitives and points, and its size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

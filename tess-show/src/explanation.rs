@@ -10,13 +10,13 @@ mod structure;
 mod text;
 
 use super::Part;
-use crate::case::Case;
-use crate::names::{Named, way_of};
 use factors::FactorReport;
 pub(crate) use point::PointReport;
 pub(crate) use primitive::PrimitiveReport;
 use std::fmt;
 use structure::{PointRun, Stitch};
+use tess_verify::Case;
+use tess_verify::{Named, way_of};
 
 /// The origin of one part of a patch, or every stage of the patch: as text, and with the feature
 /// `serde` as JSON.

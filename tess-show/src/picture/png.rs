@@ -4,7 +4,7 @@ use super::{Colour, Picture, Position, Shape};
 use std::io;
 use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-pub(in crate::show) fn render(picture: &Picture) -> io::Result<Vec<u8>> {
+pub(crate) fn render(picture: &Picture) -> io::Result<Vec<u8>> {
     let size = picture.size;
     let mut pixels = Pixmap::new(size, size).ok_or_else(|| {
         io::Error::other(format!("a picture of {size} x {size} pixels cannot be made"))

@@ -5,7 +5,7 @@
     reason = "positions of a drawing, in pixels"
 )]
 
-use crate::show::picture::Position;
+use crate::picture::Position;
 use tess_core::{Domain, DomainPoint};
 
 /// The placement of a domain in a square picture.

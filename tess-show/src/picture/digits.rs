@@ -46,7 +46,7 @@ pub(super) fn strokes(number: u32, centre: Position, height: f64) -> Vec<Vec<Pos
 }
 
 /// The width of a number whose digits have this height.
-pub(in crate::show) fn width(number: u32, height: f64) -> f64 {
+pub(crate) fn width(number: u32, height: f64) -> f64 {
     let gaps = f64::from(number.checked_ilog10().unwrap_or(0));
     (gaps * ADVANCE + WIDTH) * height / HEIGHT
 }

@@ -4,7 +4,7 @@
 use super::{Colour, Picture, Position, Shape};
 use std::fmt::Write;
 
-pub(in crate::show) fn render(picture: &Picture) -> String {
+pub(crate) fn render(picture: &Picture) -> String {
     let size = picture.size;
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{size}\" height=\"{size}\" \

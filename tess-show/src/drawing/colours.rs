@@ -7,7 +7,7 @@
     reason = "mixing colours"
 )]
 
-use crate::show::picture::Colour;
+use crate::picture::Colour;
 use tess_core::PrimitiveOrigin;
 
 /// The colour of edges and numbers.

@@ -8,11 +8,11 @@
 )]
 
 use super::{Calls, Workload};
-use crate::generate::SplitMix64;
 use tess_core::{
     Config, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
     TriangleFactors,
 };
+use tess_verify::generate::SplitMix64;
 
 /// The factors K of the workloads `uniform-K`.
 pub(super) const UNIFORM_FACTORS: [u8; 7] = [1, 2, 4, 8, 16, 32, 64];
