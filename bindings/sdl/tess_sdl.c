@@ -2,8 +2,6 @@
 
 enum {
     MOST_WORKGROUPS = 65535, /* along x; every device has them */
-    MOST_EVALUATING = 4096,  /* workgroups of a pass over points */
-    WORKGROUP = 64,          /* threads of the stage's passes */
     MOST_READ = 8,
     MOST_TEXTURES = 16,
     HEADER_WORDS = 4, /* of a frame: patches, room for points and primitives, number */
@@ -457,13 +455,14 @@ static bool run_passes(struct tess_sdl_stage *stage, SDL_GPUCommandBuffer *comma
     const struct tess_sdl_program *programs, SDL_GPUComputePipeline **pipelines, Uint32 count)
 {
     for (Uint32 i = 0; i < count; i++) {
-        Uint32 points = (stage->room.points + WORKGROUP - 1) / WORKGROUP;
+        Uint32 size = stage->shaders->workgroup_size;
+        Uint32 points = (stage->room.points + size - 1) / size;
         Uint32 rows[3] = {1, 1, 1};
         bool is_indirect = programs[i].groups == TESS_SDL_GROUPS_FIT_ARGUMENTS;
         if (programs[i].groups == TESS_SDL_GROUPS_PATCHES || is_indirect)
             SDL_memcpy(rows, stage->rows, sizeof rows);
         if (programs[i].groups == TESS_SDL_GROUPS_POINTS)
-            rows[0] = SDL_min(points, (Uint32)MOST_EVALUATING);
+            rows[0] = SDL_min(points, stage->shaders->most_workgroups);
         if (!dispatch(stage, commands, &programs[i], pipelines[i], NULL, rows,
                 is_indirect ? stage->buffers[TESS_SDL_FIT_ARGUMENTS] : NULL, 0))
             return false;
@@ -868,7 +867,8 @@ static bool begin(struct tess_sdl_stage *stage, const char *folder)
             stage->plan = &shaders->plans[i];
     if (!stage->plan)
         return SDL_SetError("there is no stage for %u patches", stage->patches);
-    rows_of(((Uint64)stage->patches + WORKGROUP - 1) / WORKGROUP, stage->rows);
+    Uint32 size = shaders->workgroup_size;
+    rows_of(((Uint64)stage->patches + size - 1) / size, stage->rows);
     stage->pipelines =
         SDL_calloc(shaders->batch_count + shaders->before_count + shaders->after_count,
             sizeof *stage->pipelines);

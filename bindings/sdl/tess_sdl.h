@@ -212,6 +212,9 @@ struct tess_sdl_shaders {
     Uint32 batch_count;
     const struct tess_sdl_program *before;
     Uint32 before_count;
+    /* Threads of a workgroup of the passes over patches and points, and the most workgroups of one
+       over points. */
+    Uint32 workgroup_size, most_workgroups;
     const struct tess_sdl_program *after;
     Uint32 after_count;
     const struct tess_sdl_program *vertex;

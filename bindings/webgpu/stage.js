@@ -120,7 +120,8 @@ export class Stage {
         layout, entries: bindings.map(({ binding, buffer }) => ({ binding, resource: { buffer: all[buffer] } })),
       })),
     });
-    const workgroups = Math.min(Math.ceil(points / this.manifest.workgroup_size), MOST_WORKGROUPS);
+    const { workgroup_size, most_workgroups } = this.manifest;
+    const workgroups = Math.min(Math.ceil(points / workgroup_size), most_workgroups);
     const destroy = () => [batch, window, vertices].forEach((one) => one?.destroy());
     return { room, batch, vertices, before: this.before.map(bound), after: this.after.map(bound), workgroups, destroy };
   }

@@ -18,6 +18,8 @@ mod slots;
 #[cfg(feature = "gpu")]
 mod stage;
 mod stage_manifest;
+#[cfg(feature = "gpu")]
+mod stage_modules;
 mod structures;
 mod surfaces;
 #[cfg(test)]

@@ -134,6 +134,7 @@ fn whole(stage: &Manifest, batch: &manifest::Manifest) -> String {
         format.to_owned(),
         format!("SDL_GPU_PRIMITIVETYPE_{primitives}"),
         format!("{}, {}", setup.factors_per_patch, setup.indices_per_primitive),
+        format!("{}, {}", stage.workgroup_size, stage.most_workgroups),
         format!("{}, {}", u8::from(has("hull")), u8::from(!stage.after_batch.is_empty())),
         array("batch", batch.stages.len()),
         array("before", stage.before_batch.len()),

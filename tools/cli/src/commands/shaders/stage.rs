@@ -3,17 +3,13 @@
 
 use super::formula::{Formula, Variable};
 use super::manifest::{self, Described};
-use super::programs::{self, Program, Programs};
 use super::sdl_header;
-use super::stage_manifest::{
-    Attribute, Bound, Buffer, Manifest, Parts, Pass, Uniform, Vertex, Workgroups,
-};
+use super::stage_manifest::{Buffer, Manifest, Parts, Uniform, Vertex};
+use super::stage_modules::{Sources, passes};
 use super::translation::Translation;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::json;
-use naga::valid::{Capabilities, ValidationFlags, Validator};
-use naga::{AddressSpace, GlobalVariable, Module, StorageAccess};
 use serde::Deserialize;
 use std::fs;
 use std::io;
@@ -21,16 +17,11 @@ use std::path::{Path, PathBuf};
 use tess_core::Domain;
 use tess_gpu::{Capacity, Setup};
 use tess_wgpu::TessellationStage;
-use tess_wgpu::stage::{FixedShaders, Points, ShaderParts, UserShaders, VertexLayout};
+use tess_wgpu::stage::{FixedShaders, Points, ShaderParts, UserShaders};
 
-/// The manifest's file, its first entry, and the files of the shaders.
+/// The manifest's file, and its first entry.
 const FILE: &str = "stage.json";
 const FORMAT: &str = "tess-stage 1";
-const HULL: &str = "stage_hull.wgsl";
-const COPY_FACTORS: &str = "stage_copy_factors.wgsl";
-const FIT: &str = "stage_fit.wgsl";
-const EVALUATE: &str = "stage_evaluate.wgsl";
-const VERTEX: &str = "stage_vertex.wgsl";
 
 /// The names of the files of a stage in a folder that this command has written.
 pub(super) fn files_of(folder: &Path) -> Vec<String> {
@@ -50,6 +41,9 @@ pub(super) fn files_of(folder: &Path) -> Vec<String> {
 
 /// The most bytes of the user's WGSL.
 const MOST_WGSL: u64 = 16 << 20;
+
+/// The most workgroups of the pass that evaluates points, as in `tess-wgpu`.
+const MOST_WORKGROUPS: u32 = 4096;
 
 /// What was asked for.
 #[derive(Clone, Debug)]
@@ -138,6 +132,7 @@ impl Stage {
             translation: asked.translation,
             setup: Described::new(setup),
             workgroup_size: 64,
+            most_workgroups: MOST_WORKGROUPS,
             group: (!is_parts).then_some(group),
             buffers: buffers(setup, &fixed, if is_evaluated { vertices.array_stride } else { 0 }),
             before_batch,
@@ -208,225 +203,9 @@ fn buffers(setup: Setup, fixed: &FixedShaders, stride: u64) -> Vec<Buffer> {
     all
 }
 
-/// Entry points, and what their workgroups depend on.
-type Entry = (&'static str, Workgroups);
-
-const HULL_PASS: Entry = ("tess_hull", Workgroups::Patches);
-const COPY_PASS: Entry = ("copy_factors", Workgroups::Patches);
-const EVALUATE_PASS: Entry = ("tess_evaluate", Workgroups::Points);
-const FIT_PASSES: [Entry; 5] = [
-    ("count_whole", Workgroups::Patches),
-    ("decide", Workgroups::One),
-    ("count_coarse", Workgroups::FitArguments),
-    ("count_fine", Workgroups::FitArguments),
-    ("scale_factors", Workgroups::FitArguments),
-];
-
-/// The buffers of the stage's variables.
-const BUFFERS: [(&str, &str); 13] = [
-    ("tess_written_factors", "factors"),
-    ("tess_drawn_factors", "factors"),
-    ("factors", "factors"),
-    ("tess_frame", "patch_count"),
-    ("patches", "patch_count"),
-    ("given", "given_factors"),
-    ("fit", "fit"),
-    ("terms", "terms"),
-    ("arguments", "fit_arguments"),
-    ("tess_packed_points", "points"),
-    ("tess_vertices", "vertices"),
-    ("tess_status", "status"),
-    ("tess_window", "window"),
-];
-
-/// The buffer of a variable of the stage.
-fn own_buffer(variable: &str) -> Option<&'static str> {
-    BUFFERS.iter().find(|(own, _)| *own == variable).map(|(_, buffer)| *buffer)
-}
-
-/// A module in WGSL with entry points of passes.
-struct Source {
-    file: &'static str,
-    text: String,
-    /// The stage's own bind group; the user's are before it.
-    group: u32,
-    part: &'static str,
-    entries: &'static [Entry],
-}
-
-impl Source {
-    const fn new(
-        file: &'static str,
-        text: String,
-        group: u32,
-        part: &'static str,
-        entries: &'static [Entry],
-    ) -> Self {
-        Self { file, text, group, part, entries }
-    }
-}
-
-/// The modules of a stage.
-struct Sources {
-    before: Vec<Source>,
-    after: Vec<Source>,
-    /// The module of draws, which has the user's fragment shaders too.
-    drawn: Option<String>,
-    group: u32,
-}
-
-impl Sources {
-    fn new(user: UserShaders, fixed: &FixedShaders, is_parts: bool) -> Self {
-        let group = user.group;
-        let hull = user.hull.map(|text| Source::new(HULL, text, group, "hull", &[HULL_PASS]));
-        // The parts have both, so that the host can choose.
-        let copy = (is_parts || hull.is_none()).then(|| {
-            let text = fixed.copy_factors.clone();
-            Source::new(COPY_FACTORS, text, 0, "copy_factors", &[COPY_PASS])
-        });
-        let fit = Source::new(FIT, fixed.fit.clone(), 0, "fit", &FIT_PASSES);
-        let evaluate = user
-            .evaluate
-            .map(|text| Source::new(EVALUATE, text, group, "evaluate", &[EVALUATE_PASS]));
-        Self {
-            before: hull.into_iter().chain(copy).chain([fit]).collect(),
-            after: evaluate.into_iter().collect(),
-            drawn: user.vertex.filter(|_| !is_parts),
-            group,
-        }
-    }
-
-    /// The modules as files.
-    fn files(self) -> Vec<(String, Vec<u8>)> {
-        let passes = self.before.into_iter().chain(self.after);
-        let passes = passes.map(|one| (one.file.to_owned(), one.text.into_bytes()));
-        let drawn = self.drawn.map(|text| (VERTEX.to_owned(), text.into_bytes()));
-        passes.chain(drawn).collect()
-    }
-
-    /// Gives each pass and the draws their shaders for SDL; returns them with the fragment shaders.
-    ///
-    /// # Errors
-    /// The language or SDL cannot express one.
-    fn translated(
-        &self,
-        translation: Translation,
-        [before, after]: [&mut Vec<Pass>; 2],
-        vertex: Option<&mut Vertex>,
-    ) -> Result<(Programs, Vec<Program>), String> {
-        let mut made = Programs::new(translation);
-        translate(&mut made, &self.before, before)?;
-        translate(&mut made, &self.after, after)?;
-        let mut fragments = Vec::new();
-        if let (Some(text), Some(vertex)) = (&self.drawn, vertex) {
-            let own = (text.as_str(), self.group);
-            vertex.file = None;
-            vertex.program = Some(made.add("stage_vertex", own, "tess_vertex", own_buffer)?);
-            for name in programs::fragments(text)? {
-                let file = format!("stage_fragment_{name}");
-                fragments.push(made.add(&file, own, &name, own_buffer)?);
-            }
-        }
-        Ok((made, fragments))
-    }
-}
-
-/// The passes of modules.
-///
-/// # Errors
-/// One is not valid.
-fn passes(sources: &[Source]) -> Result<Vec<Pass>, String> {
-    let mut all = Vec::new();
-    for source in sources {
-        let read = Read::new(&source.text)?;
-        let pass = |&(entry_point, workgroups): &Entry| Pass {
-            entry_point: entry_point.to_owned(),
-            file: Some(source.file),
-            part: source.part,
-            workgroups,
-            bindings: read.bindings(entry_point, source.group),
-            program: None,
-        };
-        all.extend(source.entries.iter().map(pass));
-    }
-    Ok(all)
-}
-
-/// Gives each pass its shader for SDL.
-///
-/// # Errors
-/// The language or SDL cannot express one.
-fn translate(made: &mut Programs, sources: &[Source], all: &mut [Pass]) -> Result<(), String> {
-    let entries = sources.iter().flat_map(|one| one.entries.iter().map(move |_| one));
-    for (source, pass) in entries.zip(all) {
-        let entry = pass.entry_point.as_str();
-        let name = format!("stage_{}", entry.trim_start_matches("tess_"));
-        let text = (source.text.as_str(), source.group);
-        let program = made.add(&name, text, entry, own_buffer)?;
-        (pass.file, pass.program) = (None, Some(program));
-    }
-    Ok(())
-}
-
-impl Vertex {
-    fn new(text: &str, group: u32, layout: &VertexLayout) -> Result<Self, String> {
-        let attribute = |one: &wgpu::VertexAttribute| Attribute {
-            location: one.shader_location,
-            offset: one.offset,
-            format: format!("{:?}", one.format).to_lowercase(),
-        };
-        Ok(Self {
-            file: Some(VERTEX),
-            entry_point: "tess_vertex",
-            stride: layout.array_stride,
-            attributes: layout.attributes.iter().map(attribute).collect(),
-            bindings: Read::new(text)?.bindings("tess_vertex", group),
-            program: None,
-        })
-    }
-}
-
-/// A valid module.
-struct Read {
-    module: Module,
-    info: naga::valid::ModuleInfo,
-}
-
-impl Read {
-    fn new(text: &str) -> Result<Self, String> {
-        let module =
-            naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
-        // What the user's WGSL asks of a device is known only there.
-        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::all());
-        let info = validator.validate(&module).map_err(|error| error.emit_to_string(text))?;
-        Ok(Self { module, info })
-    }
-
-    /// The stage's own bindings that an entry point uses, in order. The user's are in the bind
-    /// groups before `from_group`.
-    fn bindings(&self, entry_point: &str, from_group: u32) -> Vec<Bound> {
-        let Self { module, info } = self;
-        let is_it = |one: &naga::EntryPoint| one.name == entry_point;
-        let Some(number) = module.entry_points.iter().position(is_it) else { return Vec::new() };
-        let used = info.get_entry_point(number);
-        let bound = |(handle, variable): (naga::Handle<GlobalVariable>, &GlobalVariable)| {
-            let binding = variable.binding.filter(|binding| binding.group >= from_group)?;
-            let name = variable.name.as_deref()?;
-            let buffer = own_buffer(name)?;
-            let is_used = !used[handle].is_empty();
-            let AddressSpace::Storage { access } = variable.space else { return None };
-            let is_written = access.contains(StorageAccess::STORE);
-            let (group, binding) = (binding.group, binding.binding);
-            is_used.then_some(Bound { group, binding, is_written, buffer })
-        };
-        let mut all: Vec<_> = module.global_variables.iter().filter_map(bound).collect();
-        all.sort_by_key(|one| (one.group, one.binding));
-        all
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::stage_modules::Read;
     use super::*;
     use tess_core::{Config, OutputPrimitive, Partitioning};
 
@@ -470,6 +249,16 @@ mod tests {
             assert_eq!(uniform[0]["factor"], 1.0, "{uniform}");
             assert_eq!(manifest["ladder"].as_array().map(Vec::len), Some(257), "all steps");
         }
+    }
+
+    /// Hosts evaluate points with as many workgroups as `tess-wgpu` does.
+    #[test]
+    fn hosts_evaluate_as_the_stage_in_rust() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tess-wgpu/src/stage/evaluation.rs");
+        let text = fs::read_to_string(file).expect("the stage in Rust");
+        let declared = format!("\nconst MOST_WORKGROUPS: u32 = {MOST_WORKGROUPS};\n");
+        assert!(text.contains(&declared), "{declared}");
+        assert_eq!(manifest(Domain::Quad)["most_workgroups"], MOST_WORKGROUPS);
     }
 
     /// `fit` and `terms` have the sizes of the structs in the shader.

@@ -17,6 +17,8 @@ pub(super) struct Manifest {
     pub(super) setup: Described,
     /// Threads of a workgroup in every pass whose workgroups depend on patches or points.
     pub(super) workgroup_size: u32,
+    /// The most workgroups of a pass whose workgroups depend on points.
+    pub(super) most_workgroups: u32,
     /// The number of the stage's own bind group, if the user's WGSL is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) group: Option<u32>,
@@ -68,7 +70,7 @@ pub(super) enum Workgroups {
     One,
     /// Indirect: the three words of the buffer `fit_arguments`.
     FitArguments,
-    /// A thread for each point that there is room for, but at most 4096 workgroups.
+    /// A thread for each point that there is room for, but at most `most_workgroups`.
     Points,
 }
 
