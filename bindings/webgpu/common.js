@@ -34,5 +34,21 @@ export function needEncoder(call, encoder) {
   need(encoder?.beginComputePass, `${call} takes a GPUCommandEncoder; \`device.createCommandEncoder()\` makes one`);
 }
 
+// The most patches of a frame, which a call that makes a stage takes.
+export function needMost(call, patches) {
+  need(Number.isInteger(patches) && patches > 0, `${call} takes the most patches of a frame, 1 or more, not ${patches}`);
+}
+
+// A frame's number of patches, of which there are at most so many.
+export function needPatches(call, patches, most) {
+  if (Number.isInteger(patches) && patches >= 0 && patches <= most) return;
+  throw new RangeError(`${call} takes 0 to ${most} patches, which \`patches\` of \`load\` set as the most, not ${patches}`);
+}
+
+// Sets the user's bind groups from number 0: each a GPUBindGroup, or one with its dynamic offsets.
+export function setGroups(pass, groups) {
+  groups.forEach((one, number) => one.group ? pass.setBindGroup(number, one.group, one.offsets) : pass.setBindGroup(number, one));
+}
+
 // The type of a storage or uniform buffer in a bind group's layout.
 export const bindingType = (is_written) => is_written ? "storage" : "read-only-storage";

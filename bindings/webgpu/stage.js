@@ -5,14 +5,13 @@
 // module of WebAssembly: joining is a few replacements, and a page loads nothing but text for it.
 
 import { Tessellator } from "./tess.js";
-import { SHADERS, bindingType, get, need, needEncoder, value } from "./common.js";
+import { SHADERS, bindingType, get, need, needEncoder, needMost, needPatches, setGroups, value } from "./common.js";
 import { compile, joined, uses, vertexOf } from "./compose.js";
 import { Feedbacks } from "./feedback.js";
 import { Material } from "./material.js";
 import { Room } from "./room.js";
 
 const FACTORS = { isoline: "IsolineFactors", tri: "TriFactors", quad: "QuadFactors" };
-const MOST_WORKGROUPS = 4096;
 
 export class Stage {
   static async load(device, options = {}) {
@@ -22,7 +21,7 @@ export class Stage {
       budget = 256 * 2 ** 20,
     } = options;
     need(typeof wgsl === "string", "Stage.load takes `wgsl`, a text with the functions `hull` and `domain`");
-    need(Number.isInteger(patches) && patches > 0, `Stage.load takes the most patches of a frame, 1 or more, not ${patches}`);
+    needMost("Stage.load", patches);
     need(!evaluate || vertex, "to evaluate points, give the members of `Vertex`, such as vertex: { position: \"vec4f\" }");
     need(["coarser", "nothing"].includes(overflow), `\`overflow\` is "coarser" or "nothing", not ${JSON.stringify(overflow)}`);
     const tessellator = await Tessellator.load(device, { domain, partitioning, base });

@@ -1,13 +1,13 @@
 // The source of a geometry where three.js draws with WebGL 2: the CPU backend, in WebAssembly, fills the same attributes.
 
 import { BufferAttribute } from "three/webgpu";
-import { need } from "./common.js";
+import { need, needMost, needPatches } from "./common.js";
 
 export class CpuSource {
   static async load(_, { wgsl = "", uniforms, domain, partitioning, patches }) {
     need(wgsl === "" && !uniforms, "the renderer draws with WebGL 2, which runs no WGSL: leave out `wgsl` and `uniforms`, give " +
       "the factors to `update`, and move the points in the material's `positionNode`; or use a browser that has WebGPU");
-    need(Number.isInteger(patches) && patches > 0, `TessellatedGeometry.load takes the most patches of a frame, 1 or more, not ${patches}`);
+    needMost("TessellatedGeometry.load", patches);
     const cpu = await import("./cpu/tess_webgpu_cpu.js");
     await cpu.default({ module_or_path: new URL("./cpu/tess_webgpu_cpu_bg.wasm", import.meta.url) });
     const tessellator = new cpu.CpuTessellator(domain, partitioning);
@@ -51,11 +51,11 @@ export class CpuSource {
     const [unknown] = Object.keys(values);
     need(unknown === undefined, `there is no uniform \`${unknown}\``);
     need(instances === 1, "with WebGL 2, draw instances with an `InstancedMesh`");
-    const { each } = this, isRight = Number.isInteger(patches) && patches >= 0 && patches <= this.patches;
-    if (!isRight) throw new RangeError(`the geometry was made for 0 to ${this.patches} patches, not ${patches}`);
+    const { each } = this;
+    needPatches("update", patches, this.patches);
     if (factors) {
       need(Number.isInteger(factors.length / each) && typeof factors !== "string", `factors are an array of numbers, ${each} for each patch`);
-      if (factors.length > this.factors.length) throw new RangeError(`${factors.length / each} patches; the geometry was made for ${this.patches}`);
+      needPatches("update", factors.length / each, this.patches);
       this.factors.set(factors);
     }
     const [points, indices] = this.#fill(geometry, patches);
