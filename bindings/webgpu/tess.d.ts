@@ -49,9 +49,10 @@ export class Tessellator {
   /**
    * Makes buffers that you keep for many frames, by default with room for one point and one primitive. Throws a
    * `RangeError` if a number is not whole, or if the batch or its room is too large. Buffers in `given` are used instead of
-   * new ones, by the names of `Batch.buffers`, and stay yours to free.
+   * new ones, by the names of `Batch.buffers`, and stay yours to free. `without` names output that is not written and has no
+   * buffer, `points` or `points` and `indices`, for shaders that compute it.
    */
-  batch(patches: number, room?: Room, given?: Readonly<Record<string, GPUBuffer>>): Batch;
+  batch(patches: number, room?: Room, given?: Readonly<Record<string, GPUBuffer>>, without?: ("points" | "indices")[]): Batch;
 }
 
 export interface Batch {
