@@ -20,6 +20,8 @@ mod stage;
 mod stage_manifest;
 #[cfg(feature = "gpu")]
 mod stage_modules;
+#[cfg(feature = "gpu")]
+mod stage_pulled;
 mod structures;
 mod surfaces;
 #[cfg(test)]

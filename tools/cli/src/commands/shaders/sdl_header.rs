@@ -161,6 +161,8 @@ fn kind(pass: &Pass) -> &'static str {
         (_, Workgroups::Patches) => "PATCHES",
         (_, Workgroups::FitArguments) => "FIT_ARGUMENTS",
         (_, Workgroups::Points) => "POINTS",
+        // Only parts have such a pass.
+        (_, Workgroups::Groups) => "ONE",
     }
 }
 

@@ -6,6 +6,7 @@ use super::manifest::{self, Described};
 use super::sdl_header;
 use super::stage_manifest::{Buffer, Manifest, Parts, Uniform, Vertex};
 use super::stage_modules::{Sources, passes};
+use super::stage_pulled;
 use super::translation::Translation;
 use crate::failure::Failure;
 use crate::input;
@@ -142,7 +143,9 @@ impl Stage {
             users,
             uniform: [1.0, 4.0, 8.0, 64.0].map(|factor| uniform(setup, factor)).into(),
             ladder: fixed.ladder.clone(),
-            parts: is_parts.then(|| Parts::new(setup.domain, fixed)),
+            groups: is_parts.then(|| stage_pulled::groups(setup).0),
+            pulled: is_parts.then(|| stage_pulled::pulled(setup)),
+            parts: is_parts.then(|| Parts::new(setup, fixed)).transpose()?,
         };
         Ok(Self { manifest, files })
     }
@@ -162,9 +165,12 @@ impl Stage {
 }
 
 impl Parts {
-    fn new(domain: Domain, fixed: FixedShaders) -> Self {
-        let parts = ShaderParts::new(domain);
-        Self {
+    /// # Errors
+    /// A part is not valid.
+    fn new(setup: Setup, fixed: FixedShaders) -> Result<Self, String> {
+        let parts = ShaderParts::new(setup.domain);
+        let [vertex_pulled, vertex_unindexed] = stage_pulled::vertex_parts(setup)?;
+        Ok(Self {
             shared: parts.shared,
             hull: parts.hull,
             copy_factors: fixed.copy_factors,
@@ -172,9 +178,12 @@ impl Parts {
             evaluate: parts.evaluate,
             vertex_stored: parts.vertex_stored,
             vertex_evaluated: parts.vertex_evaluated,
+            vertex_pulled,
+            vertex_unindexed,
+            groups: stage_pulled::groups(setup).1,
             factors: parts.factors,
             draws: parts.draws,
-        }
+        })
     }
 }
 

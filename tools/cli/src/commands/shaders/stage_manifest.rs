@@ -36,6 +36,12 @@ pub(super) struct Manifest {
     /// Points and primitives of one patch whose factors all have this value.
     pub(super) uniform: Vec<Uniform>,
     pub(super) ladder: Vec<f32>,
+    /// In parts: the pass after the batch that makes a draw for each group of patches, and what
+    /// vertex shaders bind that compute the points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) groups: Option<Pass>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) pulled: Option<Vec<Bound>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) parts: Option<Parts>,
 }
@@ -70,6 +76,8 @@ pub(super) enum Workgroups {
     One,
     /// Indirect: the three words of the buffer `fit_arguments`.
     FitArguments,
+    /// A thread for each group of patches.
+    Groups,
     /// A thread for each point that there is room for, but at most `most_workgroups`.
     Points,
 }
@@ -111,6 +119,8 @@ pub(super) struct Uniform {
 }
 
 /// The texts from which a host makes the modules: see `tess_wgpu::stage::ShaderParts`.
+/// `vertex_pulled` and `vertex_unindexed` take the place of `vertex_stored` where points are
+/// computed.
 #[derive(Debug, Serialize)]
 pub(super) struct Parts {
     pub(super) shared: String,
@@ -120,6 +130,9 @@ pub(super) struct Parts {
     pub(super) evaluate: String,
     pub(super) vertex_stored: String,
     pub(super) vertex_evaluated: String,
+    pub(super) vertex_pulled: String,
+    pub(super) vertex_unindexed: String,
+    pub(super) groups: String,
     pub(super) factors: String,
     pub(super) draws: Vec<[String; 3]>,
 }
