@@ -49,10 +49,13 @@ export function joined(parts, user, own, group) {
   return [user, parts.shared, (own + factors).replaceAll("GROUP", group) + called.join("")].join("\n");
 }
 
-// The module of a draw. `vertex` is given where points are evaluated.
-export function vertexModule(parts, user, group, { project = "", vertex }) {
+// The parts of draws that compute their points.
+const PULLED = { points: "vertex_pulled", corners: "vertex_unindexed" };
+
+// The module of a draw. `vertex` is given where points are evaluated, and `pull` where the vertex shader computes them.
+export function vertexModule(parts, user, group, { project = "", vertex, pull }) {
   const called = parts.draws.filter(([name]) => uses(user, name));
-  let own = parts.vertex_stored;
+  let own = parts[PULLED[pull] ?? "vertex_stored"];
   if (vertex) {
     const loaded = vertex.attributes.map(({ shaderLocation, type }, i) => `@location(${shaderLocation}) tess_${i}: ${type}`);
     const made = `Vertex(${vertex.attributes.map((_, i) => `tess_${i}`).join(", ")})`;

@@ -30,11 +30,25 @@ export interface StageOptions extends Setup {
   vertex?: Members;
   /** The layouts of your bind groups, which `hull` and, with `evaluate`, `domain` read: visible to `COMPUTE`. */
   layouts?: GPUBindGroupLayout[];
+  /** Values of the `override`s of the WGSL, by name. */
+  constants?: Readonly<Record<string, number>>;
+  /**
+   * Meshes that are drawn one by one, with `Material.drawMesh`: the number of each one's first patch. The numbers ascend, and a
+   * mesh ends where the next one begins. `setMeshes` replaces them. Default: none.
+   */
+  meshes?: number[];
   /**
    * Whether a pass calls `domain` once for each point and keeps the vertices, which all draws then load; `vertex` must be
    * given. Otherwise the vertex shader of each draw calls it. Default: false.
    */
   evaluate?: boolean;
+  /**
+   * Where nothing stores points: with `points` the vertex shader computes each from its index, and with `corners` it computes
+   * the points of each corner of each primitive, so that there are neither points nor indices in memory. The triangles and their
+   * order are the same. Draws then bind five storage buffers and a uniform buffer more. Not together with `evaluate`. Default:
+   * points are stored, 8 bytes each.
+   */
+  pull?: "points" | "corners";
   /**
    * The fate of a frame that does not fit: `coarser` multiplies all factors above 1 by one scale, on the device, so that it
    * fits and edges stay closed; with `nothing`, nothing is drawn. Default: `coarser`.
@@ -56,14 +70,23 @@ export interface Feedback {
   scale: number;
 }
 
+/** A bind group, alone or with the dynamic offsets of its buffers in bytes. */
+export type Group = GPUBindGroup | { group: GPUBindGroup; offsets: number[] };
+
+/** The number of patches in a buffer of the device: a u32 at `offset`, a multiple of 4 bytes that is 0 by default. */
+export interface DeviceCount { buffer: GPUBuffer; offset?: number }
+
 /** A prepared frame. It can be drawn until its stage prepares the next one. */
 export interface Frame { readonly stage: Stage; readonly number: number }
 
 export interface FrameOptions {
-  /** The number of patches; by default as many as the stage was made for. */
-  patches?: number;
+  /**
+   * The number of patches; by default as many as the stage was made for. A number in a buffer, which needs the usage `COPY_SRC`,
+   * is read when the frame runs; if it is larger, all patches are drawn that the stage was made for.
+   */
+  patches?: number | DeviceCount;
   /** Your bind groups, one for each of `layouts`. */
-  groups?: GPUBindGroup[];
+  groups?: Group[];
   /** The instances of each draw; in WGSL, `tess_instance()` is the number of the one that is drawn. Default: 1. */
   instances?: number;
 }
@@ -81,6 +104,11 @@ export class Stage {
    * that are submitted afterwards have them.
    */
   setFactors(factors: ArrayLike<number>): void;
+  /**
+   * Replaces the meshes, from the next frame on. Nothing is compiled. Throws a `RangeError` if a number is less than the one
+   * before it or exceeds the most patches.
+   */
+  setMeshes(first: number[]): void;
   /** Records the passes of a frame. Submit the encoder before or with the one that draws. */
   prepare(encoder: GPUCommandEncoder, options?: FrameOptions): Frame;
   /** Runs a frame, waits for its numbers and makes the room that it needs: the next frame with these factors is exact. */
@@ -89,13 +117,19 @@ export class Stage {
   material(options: MaterialOptions): Promise<Material>;
   /** The latest frame whose numbers have arrived. */
   readonly feedback: Feedback | undefined;
-  /** Vertex buffer of the last frame: `Vertex` structs with `evaluate`, otherwise packed points. Fetch it in each frame. */
-  readonly vertices: GPUBuffer;
-  /** Index buffer of the last frame, 32 bits each. */
-  readonly indices: GPUBuffer;
-  /** Arguments of `drawIndexedIndirect` of the last frame, at offset 0. */
+  /**
+   * Vertex buffer of the last frame: `Vertex` structs with `evaluate`, otherwise packed points; undefined with `pull`. Fetch it in
+   * each frame.
+   */
+  readonly vertices: GPUBuffer | undefined;
+  /** Index buffer of the last frame, 32 bits each; undefined with `pull: "corners"`. */
+  readonly indices: GPUBuffer | undefined;
+  /** Arguments of `drawIndexedIndirect` of the last frame, at offset 0; of `drawIndirect` with `pull: "corners"`. */
   readonly indirect: GPUBuffer;
-  readonly vertexLayout: GPUVertexBufferLayout;
+  /** The same for each mesh, 20 bytes apart; undefined without meshes. */
+  readonly meshIndirect: GPUBuffer | undefined;
+  /** The layout of `vertices`. */
+  readonly vertexLayout: GPUVertexBufferLayout | undefined;
   /** Frees the buffers. */
   destroy(): void;
 }
@@ -115,9 +149,13 @@ export interface MaterialOptions extends Omit<GPURenderPipelineDescriptor, "layo
   targets?: GPUColorTargetState[];
   /** The layouts of the bind groups of the draws. */
   layouts?: GPUBindGroupLayout[];
+  /** Values of the `override`s of the WGSL; by default those of the stage, if the WGSL is the stage's. */
+  constants?: Readonly<Record<string, number>>;
 }
 
 export interface Material {
   /** Draws a frame; `groups` are your bind groups, one for each of `layouts`. Throws if the frame is not the last one. */
-  draw(pass: GPURenderPassEncoder, frame: Frame, groups?: GPUBindGroup[]): void;
+  draw(pass: GPURenderPassEncoder, frame: Frame, groups?: Group[]): void;
+  /** Draws one of the frame's meshes, by its number from 0. Throws a `RangeError` if the frame has no such mesh. */
+  drawMesh(pass: GPURenderPassEncoder, frame: Frame, mesh: number, groups?: Group[]): void;
 }

@@ -9,6 +9,7 @@ import { SHADERS, bindingType, get, need, needEncoder, needMost, needPatches, se
 import { compile, joined, uses, vertexOf } from "./compose.js";
 import { Feedbacks } from "./feedback.js";
 import { Material } from "./material.js";
+import { INSTANCES_AT, Meshes, meshPass } from "./meshes.js";
 import { Room } from "./room.js";
 
 const FACTORS = { isoline: "IsolineFactors", tri: "TriFactors", quad: "QuadFactors" };
@@ -17,20 +18,23 @@ export class Stage {
   static async load(device, options = {}) {
     need(device?.createBuffer, "Stage.load takes a GPUDevice; `await openDevice()` returns one");
     const {
-      domain, partitioning, base = SHADERS, patches, wgsl = "", vertex, layouts = [], evaluate = false, overflow = "coarser",
-      budget = 256 * 2 ** 20,
+      domain, partitioning, base = SHADERS, patches, wgsl = "", vertex, layouts = [], constants, meshes = [], evaluate = false,
+      pull, overflow = "coarser", budget = 256 * 2 ** 20,
     } = options;
     need(typeof wgsl === "string", "Stage.load takes `wgsl`, a text with the functions `hull` and `domain`");
     needMost("Stage.load", patches);
     need(!evaluate || vertex, "to evaluate points, give the members of `Vertex`, such as vertex: { position: \"vec4f\" }");
+    need([undefined, "points", "corners"].includes(pull), `\`pull\` is "points", "corners" or left out, not ${JSON.stringify(pull)}`);
+    need(!(evaluate && pull), "points are evaluated or pulled: leave out `evaluate` or `pull`");
     need(["coarser", "nothing"].includes(overflow), `\`overflow\` is "coarser" or "nothing", not ${JSON.stringify(overflow)}`);
     const tessellator = await Tessellator.load(device, { domain, partitioning, base });
     const manifest = await (await get(`${domain}-${partitioning}/stage.json`, base)).json();
     const stage = Object.assign(new Stage(), {
-      device, tessellator, manifest, patches, layouts, evaluate, isCoarser: overflow === "coarser",
+      device, tessellator, manifest, patches, layouts, constants, evaluate, pull, isCoarser: overflow === "coarser",
       layout: vertex && vertexOf(vertex), wgsl, projects: new Set(), hasHull: /\bfn\s+hull\b/.test(wgsl),
     });
     await stage.#make(budget);
+    stage.setMeshes(meshes);
     return stage;
   }
 
@@ -65,15 +69,17 @@ export class Stage {
       const text = manifest.parts[pass.part];
       const code = isUsers ? joined(manifest.parts, user, text, own) : text;
       const module = await (modules[pass.part] ??= compile(device, pass.part, code, isUsers ? user : "", needs));
-      return this.#pipeline(pass, module, isUsers ? own : 0, user);
+      return this.#pipeline(pass, module, isUsers, user);
     }));
-    [this.before, this.after] = await Promise.all([pipelines(before), pipelines(after)]);
+    const ofMeshes = { ...manifest, job_stride: this.tessellator.manifest.job_stride };
+    [this.before, this.after, this.meshPass] =
+      await Promise.all([pipelines(before), pipelines(after), meshPass(device, ofMeshes)]);
 
-    const each = 8 + (this.evaluate ? this.layout.stride : 0);
+    const each = this.pull ? 0 : 8 + (this.evaluate ? this.layout.stride : 0);
     this.room = new Room({
       uniform: manifest.uniform, patches, budget,
-      bytes: [each, setup.indices_per_primitive * setup.bytes_per_index],
-      largest: Math.max(8, each - 8),
+      bytes: [each, this.pull === "corners" ? 0 : setup.indices_per_primitive * setup.bytes_per_index],
+      largest: this.pull ? 0 : Math.max(8, each - 8),
       // Every buffer is bound whole.
       limit: Math.min(limits.maxBufferSize, limits.maxStorageBufferBindingSize),
     });
@@ -87,8 +93,8 @@ export class Stage {
   }
 
   // The pipeline of a pass. The stage's own bind groups follow the user's, of which there are `own`.
-  async #pipeline(pass, module, own, user) {
-    const { device } = this;
+  async #pipeline(pass, module, isUsers, user) {
+    const { device } = this, own = isUsers ? this.layouts.length : 0;
     const bindings = pass.bindings.filter(({ buffer }) => pass.part !== "evaluate" || buffer !== "factors" || uses(user, "tess_factors"));
     const numbers = [...new Set(bindings.map(({ group }) => group))];
     const layouts = numbers.map((group) => device.createBindGroupLayout({
@@ -97,7 +103,7 @@ export class Stage {
     }));
     const users = own > 0 ? this.layouts : [];
     const layout = device.createPipelineLayout({ bindGroupLayouts: [...users, ...layouts] });
-    const pipeline = await device.createComputePipelineAsync({ layout, compute: { module, entryPoint: pass.entry_point } });
+    const pipeline = await device.createComputePipelineAsync({ layout, compute: { module, entryPoint: pass.entry_point, constants: isUsers ? this.constants : undefined } });
     return { ...pass, pipeline, own, groups: numbers.map((group, i) => [layouts[i], bindings.filter((one) => one.group === group)]) };
   }
 
@@ -105,7 +111,8 @@ export class Stage {
   #output(room) {
     const { device, buffers, evaluate, patches } = this;
     const [points, primitives] = room;
-    const batch = this.tessellator.batch(patches, { points, primitives }, { factors: buffers.factors });
+    const without = { points: ["points"], corners: ["points", "indices"] }[this.pull];
+    const batch = this.tessellator.batch(patches, { points, primitives }, { factors: buffers.factors }, without);
     const { VERTEX, STORAGE, COPY_SRC, COPY_DST } = GPUBufferUsage;
     const vertices = evaluate ? device.createBuffer({
       label: "vertices", size: this.layout.stride * Math.max(points, 1), usage: VERTEX | STORAGE | COPY_SRC,
@@ -122,7 +129,7 @@ export class Stage {
     const { workgroup_size, most_workgroups } = this.manifest;
     const workgroups = Math.min(Math.ceil(points / workgroup_size), most_workgroups);
     const destroy = () => [batch, window, vertices].forEach((one) => one?.destroy());
-    return { room, batch, vertices, before: this.before.map(bound), after: this.after.map(bound), workgroups, destroy };
+    return { room, batch, all, vertices, before: this.before.map(bound), after: this.after.map(bound), workgroups, destroy };
   }
 
   // Replaces the output if another room is better; the memory is there before it is used.
@@ -163,7 +170,13 @@ export class Stage {
     return this.output.batch.buffers.arguments;
   }
 
+  // The arguments of one draw for each mesh, 20 bytes apart; undefined without meshes.
+  get meshIndirect() {
+    return this.meshes?.draws;
+  }
+
   get vertexLayout() {
+    if (this.pull) return undefined;
     if (!this.evaluate) return { arrayStride: 8, attributes: [{ shaderLocation: 0, offset: 0, format: "uint32x2" }] };
     const attributes = this.layout.attributes.map(({ shaderLocation, offset, format }) => ({ shaderLocation, offset, format }));
     return { arrayStride: this.layout.stride, attributes };
@@ -173,15 +186,21 @@ export class Stage {
     need(!this.hasHull, "setFactors is for a stage without a function `hull`, which gives the factors here");
     const each = this.tessellator.manifest.setup.factors_per_patch, count = factors?.length / each;
     need(Number.isInteger(count) && typeof factors !== "string", `setFactors takes an array of numbers, ${each} for each patch`);
-    if (count > this.patches) throw new RangeError(`${count} patches; the stage was made for ${this.patches}`);
+    needPatches("setFactors", count, this.patches);
     this.device.queue.writeBuffer(this.buffers.given_factors, 0, new Float32Array(factors));
+  }
+
+  setMeshes(first) {
+    need(Array.isArray(first), `setMeshes takes an array of the meshes' first patches, such as [0, 40], not ${JSON.stringify(first)}`);
+    const meshes = first.length > 0 ? new Meshes(this.device, this.manifest, first, this.patches) : undefined;
+    // The last frame may not be submitted yet.
+    if (this.meshes) this.retired.push({ output: this.meshes, until: this.frames + 1 });
+    this.meshes = meshes;
   }
 
   prepare(encoder, { patches = this.patches, groups = [], instances = 1 } = {}) {
     needEncoder("prepare", encoder);
-    if (!(Number.isInteger(patches) && patches >= 0 && patches <= this.patches)) {
-      throw new RangeError(`prepare takes 0 to ${this.patches} patches, as many as the stage was made for, not ${patches}`);
-    }
+    const count = this.#count(patches);
     const users = this.layouts.length;
     need(groups.length === users, `prepare takes ${users} bind groups, one for each of \`layouts\`, not ${groups.length}`);
     const frame = this.frames++;
@@ -193,17 +212,32 @@ export class Stage {
     const { output, buffers, device } = this;
     // The frame's numbers travel in a buffer of their own, so that frames may be recorded ahead or dropped.
     const header = device.createBuffer({ label: "frame", size: 20, usage: GPUBufferUsage.COPY_SRC, mappedAtCreation: true });
-    new Uint32Array(header.getMappedRange()).set([patches, ...output.room, frame + 1, instances]);
+    new Uint32Array(header.getMappedRange()).set([count.number, ...output.room, frame + 1, instances]);
     header.unmap();
-    encoder.copyBufferToBuffer(header, 0, buffers.patch_count, 0, 4);
+    encoder.copyBufferToBuffer(count.buffer ?? header, count.offset, buffers.patch_count, 0, 4);
     encoder.copyBufferToBuffer(header, 4, buffers.terms, 0, 8);
     if (this.isCoarser) encoder.clearBuffer(buffers.fit);
     this.#encode(encoder, output.before, groups);
     output.batch.encode(encoder);
-    encoder.copyBufferToBuffer(header, 16, output.batch.buffers.arguments, 4, 4);
+    encoder.copyBufferToBuffer(header, 16, output.batch.buffers.arguments, INSTANCES_AT, 4);
+    this.meshes?.encode(encoder, this.meshPass, output.batch.buffers, [header, 16]);
     this.#encode(encoder, output.after, groups);
     this.feedbacks.record(encoder, [header, 12], output.batch.buffers, this.isCoarser ? buffers.fit : undefined, frame);
-    return Object.freeze({ stage: this, number: frame, output });
+    return Object.freeze({ stage: this, number: frame, output, meshes: this.meshes });
+  }
+
+  // A frame's number of patches: a number, or a buffer of the device and the byte where its number is.
+  #count(patches) {
+    if (!patches?.buffer) {
+      needPatches("prepare", patches, this.patches);
+      return { number: patches, offset: 0 };
+    }
+    const { buffer, offset = 0 } = patches, { size, usage } = buffer;
+    if (Number.isInteger(offset) && offset % 4 === 0 && offset >= 0 && offset + 4 <= size && usage & GPUBufferUsage.COPY_SRC) {
+      return { number: 0, buffer, offset };
+    }
+    throw new RangeError(`prepare reads the number of patches from byte ${offset} of a buffer of ${size} bytes with the usages ` +
+      `${usage}: the byte has to be a multiple of 4 inside of it, and the usages need GPUBufferUsage.COPY_SRC`);
   }
 
   // A pass of WebGPU for each, so that no buffer is bound as storage where its words are the size of a dispatch.
@@ -211,7 +245,7 @@ export class Stage {
     for (const { pipeline, own, groups, workgroups } of passes) {
       const pass = encoder.beginComputePass();
       pass.setPipeline(pipeline);
-      if (own > 0) users.forEach((group, number) => pass.setBindGroup(number, group));
+      if (own > 0) setGroups(pass, users);
       groups.forEach((group, number) => pass.setBindGroup(own + number, group));
       if (workgroups === "fit_arguments") pass.dispatchWorkgroupsIndirect(this.buffers.fit_arguments, 0);
       else if (workgroups === "patches") pass.dispatchWorkgroups(...this.rows);
@@ -236,7 +270,7 @@ export class Stage {
   }
 
   destroy() {
-    [this.output, this.feedbacks, ...this.retired.map(({ output }) => output), ...Object.values(this.buffers)]
+    [this.output, this.feedbacks, ...(this.meshes ? [this.meshes] : []), ...this.retired.map(({ output }) => output), ...Object.values(this.buffers)]
       .forEach((one) => one.destroy());
   }
 }

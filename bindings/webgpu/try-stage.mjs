@@ -82,7 +82,7 @@ export async function tryJoining(packed) {
 }
 
 // Patches whose factors every device computes exactly: multiples of a quarter.
-const TERRAIN = `
+export const TERRAIN = `
 fn corner(number: u32) -> vec2f { return vec2f(vec2u(number % 4u, number / 4u)); }
 fn hull(number: u32) -> QuadFactors {
   let first = 1.5 + 0.75 * f32(number % 8u);
@@ -90,7 +90,7 @@ fn hull(number: u32) -> QuadFactors {
 }
 `;
 const PATCHES = 16;
-const factorsOf = (number) => {
+export const factorsOf = (number) => {
   const first = 1.5 + 0.75 * (number % 8);
   return [first, first + 2, first + 9.25, first + 1, first + 1.5, first + 4.625];
 };
@@ -129,7 +129,7 @@ function compare(name, { points, indices }) {
 }
 
 // Runs in the page: reads buffers back.
-const READ = `
+export const READ = `
 async function read(device, buffer, bytes) {
   const size = Math.ceil(bytes / 4) * 4;
   const copy = device.createBuffer({ size, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });

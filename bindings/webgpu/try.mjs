@@ -6,6 +6,7 @@ import { createRequire } from "node:module";
 import { mkdirSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { tryDraws } from "./try-draws.mjs";
 import { model, tryJoining, tryRoom, tryStage, tryThree } from "./try-stage.mjs";
 
 const [folder, cases] = process.argv.slice(2);
@@ -155,7 +156,8 @@ async function openWithoutGpu(page) {
   console.log("test pages without WebGPU ... ok");
 }
 
-// Opens a page of the README, changed by `change`, and returns its text and the pixels of its canvas. The picture is kept.
+// Opens a page of the README, changed by `change`, and returns its text and the pixels of its canvas, or of its first and last one.
+// The picture is kept.
 async function openReadmePage(browser, name, change = (text) => text, picture = name) {
   const page = await browser.newPage();
   const errors = [];
@@ -177,11 +179,12 @@ async function openReadmePage(browser, name, change = (text) => text, picture = 
   // The frame of the page's first request is drawn by now, and one more.
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 1000)))));
   const path = join(SCREENSHOTS, `${picture.replace(".html", "")}.png`);
-  const shot = await page.locator("canvas").screenshot({ path });
+  const shot = await page.locator("canvas").first().screenshot({ path });
+  const last = await page.locator("canvas").last().screenshot();
   if (errors.length > 0) throw new Error(`${name}: ${errors.join("\n")}`);
-  const data = await page.evaluate(pixels, shot.toString("base64"));
+  const [data, ofLast] = await Promise.all([shot, last].map((one) => page.evaluate(pixels, one.toString("base64"))));
   await page.close();
-  return { text, data };
+  return { text, data, ofLast };
 }
 
 function check(name, is, what) {
@@ -203,6 +206,12 @@ async function openReadmePages(browser) {
   const drawn = share(stage.data, (r, g, b) => { colours.add(r << 16 | g << 8 | b); return b > 0; });
   check("stage.html", drawn > 0.4 && drawn < 0.7 && colours.size > 1000, `${drawn} of it is drawn in ${colours.size} colours`);
   console.log("test the README's page of the stage ... ok");
+
+  const two = await openReadmePage(browser, "canvases.html");
+  check("canvases.html", two.text === `${model([Array(6).fill(8)]).indices.length / 3} triangles on 2 canvases`, two.text);
+  const [whole, quarter] = [two.data, two.ofLast].map((data) => share(data, (r, g, b) => b === 255));
+  check("canvases.html", whole > 0.99 && Math.abs(quarter - 0.25) < 0.01, `${whole} and ${quarter} of its canvases are drawn`);
+  console.log("test the README's page of two canvases ... ok");
 
   const lit = await openReadmePage(browser, "three.html");
   check("three.html", parseInt(lit.text) > 2000, lit.text);
@@ -245,8 +254,9 @@ await page.route(PAGE + "**", (route) => {
 await page.goto(PAGE);
 await openWithoutGpu(page);
 await tryStage(page);
+await tryDraws(page);
 await tryThree(page);
-let compared = 0, passed = 10;
+let compared = 0, passed = 14;
 for (const [setup, batch] of Object.entries(recorded())) {
   if (!folders.includes(setup)) throw new Error(`the package has no ${setup}`);
   const [domain, partitioning] = setup.split("-");
