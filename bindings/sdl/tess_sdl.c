@@ -111,11 +111,14 @@ static struct room possible(const struct tess_sdl_stage *stage, Uint64 points, U
 /* `count` * `part` / `whole`, at most that; `part` is at most `whole`. */
 static Uint32 share(Uint32 count, Uint64 part, Uint64 whole)
 {
-    while (whole > SDL_MAX_UINT32) {
-        part >>= 1;
-        whole = (whole >> 1) + 1;
+    Uint64 quotient = 0, rest = 0;
+    for (int bit = 31; bit >= 0; bit--) {
+        quotient *= 2;
+        rest = 2 * rest + (count >> bit & 1 ? part : 0);
+        for (; rest >= whole; rest -= whole)
+            quotient++;
     }
-    return (Uint32)(count * part / whole);
+    return (Uint32)quotient;
 }
 
 /* The greater of both in each dimension, or as much of it as the budget holds. */
@@ -151,8 +154,12 @@ static struct room next_room(struct tess_sdl_stage *stage, const struct tess_sdl
     Uint64 primitives = SDL_min(frame->primitives, (Uint64)SDL_MAX_UINT32);
     bool is_short = (now.points < most.points && points * 8 > now.points * 7ull) ||
                     (now.primitives < most.primitives && primitives * 8 > now.primitives * 7ull);
-    if (is_short && bytes_of(stage, now) + bytes_of(stage, one) <= stage->options.budget)
-        return at_most(stage, now, possible(stage, points * 5 / 2, primitives * 5 / 2));
+    if (is_short && bytes_of(stage, now) + bytes_of(stage, one) <= stage->options.budget) {
+        struct room grown =
+            at_most(stage, now, possible(stage, points * 5 / 2, primitives * 5 / 2));
+        if (grown.points != now.points || grown.primitives != now.primitives)
+            return grown;
+    }
     stage->most.points = SDL_max(stage->most.points, (Uint32)points);
     stage->most.primitives = SDL_max(stage->most.primitives, (Uint32)primitives);
     bool is_lull =

@@ -45,6 +45,7 @@ const SATELLITES: &[Satellite] = &[
             "Cargo.toml",
             "tools/explorer",
             "bindings/webgpu",
+            "bindings/rooms.txt",
             "tools/cli/src/commands/shaders",
             "tess-core",
             "tess-level",
@@ -97,6 +98,7 @@ const SATELLITES: &[Satellite] = &[
         name: "sdl",
         uses: &[
             "bindings/sdl",
+            "bindings/rooms.txt",
             "bindings/c",
             "tools/cli/src/commands/shaders",
             "tess-core",

@@ -473,4 +473,91 @@ mod tests {
             assert!(8 * u64::from(room.points) <= limit, "{room:?}");
         }
     }
+
+    /// The decisions for a sequence of demands that `bindings/rooms.txt` records, with which the
+    /// hosts in JavaScript and C are compared.
+    fn recorded_rooms() -> String {
+        use Partitioning::{FractionalEven, FractionalOdd, Integer, Pow2};
+        let mut text = String::from(
+            "# The rooms that stages decide on. stage: patches, bytes of a packed point, of a vertex and of a primitive, budget,\n\
+             # most bytes of a buffer. uniform: a factor, and the points and primitives of a patch with it. first: the room\n\
+             # before the first frame. frame: number, points and primitives that it needed, room after it.\n",
+        );
+        for (domain, partitioning, vertex_bytes, patches, most_bytes, buffer_limit) in [
+            (Domain::Quad, Integer, 0, 10, 100_000, 1 << 30),
+            (Domain::Triangle, FractionalOdd, 32, 1000, 16 << 20, 1 << 27),
+            (Domain::Isoline, Pow2, 0, 64, 20_000, 1 << 27),
+            (Domain::Quad, FractionalOdd, 48, 400, 256 << 20, 1_000_004),
+            (Domain::Quad, FractionalEven, 48, 20_000_000, 64 << 30, 1 << 40),
+            (Domain::Triangle, Integer, 0, 5, 150, 1 << 27),
+        ] {
+            let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
+            let setup = Setup::new(domain, config);
+            let points = if vertex_bytes > 0 { Points::Evaluated } else { Points::Stored };
+            let form = Form { setup, points, vertex_bytes, patches, buffer_limit };
+            let (primitive, room) = (setup.primitive_bytes(), Room::Automatic { most_bytes });
+            text += &format!(
+                "stage {patches} 8 {vertex_bytes} {primitive} {most_bytes} {buffer_limit}\nuniform"
+            );
+            for factor in [1, 4, 8, 64] {
+                let Capacity { points, primitives } =
+                    Capacity::uniform(setup, 1, f32::from(u8::try_from(factor).expect("small")));
+                text += &format!(" {factor} {points} {primitives}");
+            }
+            let mut now = form.initial(room);
+            text += &format!("\nfirst {} {}\n", now.points, now.primitives);
+            let (mut lull, mut frame) = (Lull::NEW, 0);
+            // Sixteenths of the room that are needed of points and of primitives, and frames until
+            // then.
+            for [of_points, of_primitives, more, later] in [
+                [14, 14, 0, 0],
+                [14, 3, 1, 1],
+                [20, 40, 0, 1],
+                [14, 14, 1, 1],
+                [1000, 3, 7, 1],
+                [2, 1000, 3, 1],
+                [16, 16, 0, 1],
+                [3, 3, 0, 500],
+                [1, 2, 0, 523],
+                [1, 2, 0, 1],
+                [3, 1, 0, 1024],
+                [1, 3, 5, 1100],
+                [16, 2, 1, 1],
+                [3, 3, 0, 1023],
+                [3, 3, 0, 1],
+                [1_000_000, 1_000_000, 9, 1],
+                [14, 16, 0, 2],
+                [0, 0, 0, 1025],
+                [0, 0, 0, 1025],
+            ] {
+                frame += later;
+                let of = |share: u64, now: u32| u64::from(now) * share / 16 + more;
+                let needed = [of(of_points, now.points), of(of_primitives, now.primitives)];
+                let grown = form.grown(room, now, needed);
+                now = grown
+                    .or_else(|| lull.shrunk((form, room, now), (frame, needed)))
+                    .unwrap_or(now);
+                let [points, primitives] = needed;
+                text += &format!(
+                    "frame {frame} {points} {primitives} {} {}\n",
+                    now.points, now.primitives
+                );
+            }
+        }
+        text
+    }
+
+    const RECORDED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../bindings/rooms.txt");
+
+    #[test]
+    fn rooms_are_those_that_other_hosts_are_compared_with() {
+        let recorded = std::fs::read_to_string(RECORDED).expect("the record");
+        assert_eq!(recorded_rooms(), recorded, "see rooms_are_recorded_on_request");
+    }
+
+    #[test]
+    #[ignore = "writes bindings/rooms.txt: cargo test -p tess-wgpu --lib -- --ignored rooms"]
+    fn rooms_are_recorded_on_request() {
+        std::fs::write(RECORDED, recorded_rooms()).expect("written");
+    }
 }
