@@ -4,7 +4,8 @@ enum {
     MOST_WORKGROUPS = 65535, /* along x; every device has them */
     MOST_READ = 8,
     MOST_TEXTURES = 16,
-    HEADER_WORDS = 4, /* of a frame: patches, room for points and primitives, number */
+    HEADER_WORDS = 5, /* of a frame: patches, room for points and primitives, number, instances */
+    INSTANCES_AT = 4, /* bytes in the arguments of an indexed indirect draw */
     STATUS_AT = 8,
     FIT_AT = 40, /* bytes in the results; the frame's number is at 0 */
     RESULT_BYTES = 72,
@@ -45,7 +46,7 @@ struct tess_sdl_stage {
     struct room room, most;
     Uint32 since;  /* the frame from which on `most` counts */
     bool is_fixed; /* memory ran out: the room stays */
-    Uint32 frames;
+    Uint32 frames, instances;
 };
 
 /* ---- Formulas, and the numbers of workgroups. ---- */
@@ -108,7 +109,8 @@ static struct room possible(const struct tess_sdl_stage *stage, Uint64 points, U
     return (struct room){(Uint32)points, (Uint32)primitives};
 }
 
-/* `count` * `part` / `whole`, at most that; `part` is at most `whole`. */
+/* The whole part of `count` * `part` / `whole`, whose product may have more than 64 bits. `part` is
+   at most `whole`, which is at most 2^62. */
 static Uint32 share(Uint32 count, Uint64 part, Uint64 whole)
 {
     Uint64 quotient = 0, rest = 0;
@@ -505,7 +507,7 @@ static bool begin_frame(
     if (!words)
         return false;
     Uint32 numbers[HEADER_WORDS] = {
-        patches, stage->room.points, stage->room.primitives, stage->frames};
+        patches, stage->room.points, stage->room.primitives, stage->frames, stage->instances};
     SDL_memcpy(words, numbers, sizeof numbers);
     SDL_memset(words + HEADER_WORDS, 0, stage->bytes[TESS_SDL_FIT]);
     SDL_UnmapGPUTransferBuffer(stage->device, stage->header);
@@ -530,6 +532,8 @@ static bool end_frame(struct tess_sdl_stage *stage, SDL_GPUCommandBuffer *comman
                           fit = {stage->buffers[TESS_SDL_FIT], 0};
     SDL_GPUBufferLocation status_to = {stage->results, STATUS_AT},
                           fit_to = {stage->results, FIT_AT};
+    /* The batch has written 1. */
+    copy_up(pass, stage->header, 16, stage->buffers[TESS_SDL_ARGUMENTS], INSTANCES_AT, 4);
     SDL_CopyGPUBufferToBuffer(pass, &status, &status_to, COPIED, false);
     SDL_CopyGPUBufferToBuffer(pass, &fit, &fit_to, COPIED, false);
     SDL_EndGPUCopyPass(pass);
@@ -564,6 +568,11 @@ static bool are_complete(
         if (!is_complete(stage, &programs[i]))
             return false;
     return true;
+}
+
+void tess_sdl_set_instances(struct tess_sdl_stage *stage, Uint32 instances)
+{
+    stage->instances = instances;
 }
 
 bool tess_sdl_prepare(struct tess_sdl_stage *stage, SDL_GPUCommandBuffer *commands, Uint32 patches)
@@ -902,6 +911,7 @@ struct tess_sdl_stage *tess_sdl_create(SDL_GPUDevice *device,
     stage->device = device;
     stage->shaders = shaders;
     stage->patches = patches;
+    stage->instances = 1;
     if (options)
         stage->options = *options;
     if (stage->options.budget == 0)

@@ -55,6 +55,11 @@ bool tess_sdl_set_texture(
 /* For WGSL without a function `hull`: the factors of `patches` patches from the next frame on. */
 bool tess_sdl_set_factors(struct tess_sdl_stage *stage, const float *factors, Uint32 patches);
 
+/* The instances of each draw of the next frames; 1 at first. In your WGSL, `tess_instance()` of
+   `domain` or of the function of --project is the number of the one that is drawn, from 0. With
+   --evaluate, `domain` runs once for all of them. */
+void tess_sdl_set_instances(struct tess_sdl_stage *stage, Uint32 instances);
+
 /* Records a frame of `patches` patches, outside of any pass. What it draws is what later calls of
  * tess_sdl_draw draw. */
 bool tess_sdl_prepare(struct tess_sdl_stage *stage, SDL_GPUCommandBuffer *commands, Uint32 patches);
@@ -207,14 +212,14 @@ struct tess_sdl_shaders {
     SDL_GPUShaderFormat format;
     SDL_GPUPrimitiveType primitive_type;
     Uint32 factors_per_patch, indices_per_primitive;
+    /* Threads of a workgroup of the passes over patches and points, and the most workgroups of one
+       over points. */
+    Uint32 workgroup_size, most_workgroups;
     Uint32 has_hull, is_evaluated;
     const struct tess_sdl_program *batch;
     Uint32 batch_count;
     const struct tess_sdl_program *before;
     Uint32 before_count;
-    /* Threads of a workgroup of the passes over patches and points, and the most workgroups of one
-       over points. */
-    Uint32 workgroup_size, most_workgroups;
     const struct tess_sdl_program *after;
     Uint32 after_count;
     const struct tess_sdl_program *vertex;

@@ -85,19 +85,34 @@ static SDL_GPUBuffer *shades_of(SDL_GPUDevice *device)
     return made;
 }
 
-/* Whether a picture has one colour, that of the texel at half its brightness. */
-static bool is_drawn(const char *picture)
+/* Whether a picture has one colour, that of the texel at so many halves of its brightness. */
+static bool is_drawn(const char *picture, Uint8 halves)
 {
     SDL_Surface *surface = SDL_LoadBMP(picture);
     bool is = surface != NULL;
     for (int y = 0; is && y < HEIGHT; y++)
         for (int x = 0; is && x < WIDTH; x++) {
             Uint8 r, g, b, a;
-            is = SDL_ReadSurfacePixel(surface, x, y, &r, &g, &b, &a) && r == 100 && g == 50 &&
-                 b == 20;
+            is = SDL_ReadSurfacePixel(surface, x, y, &r, &g, &b, &a) && r == 100 * halves &&
+                 g == 50 * halves && b == 20 * halves;
         }
     SDL_DestroySurface(surface);
     return is;
+}
+
+/* Two instances, of which the second one covers the first. */
+static void instances_are_drawn(SDL_GPUDevice *device, struct tess_sdl_stage *stage,
+    SDL_GPUGraphicsPipeline *pipeline, SDL_GPUTexture *target, const char *picture)
+{
+    size_t bytes;
+    tess_sdl_set_instances(stage, 2);
+    should(draw(device, stage, pipeline, target), "instances are drawn");
+    Uint32 *arguments = tess_sdl_read(stage, TESS_SDL_ARGUMENTS, &bytes);
+    should(arguments != NULL && arguments[1] == 2, "the draw has two instances");
+    SDL_free(arguments);
+    should(equals_the_model(stage, &tess_stage), "the frame differs from the model");
+    save(device, target, picture);
+    should(is_drawn(picture, 2), "the second instance has another colour");
 }
 
 int main(int count, char **words)
@@ -141,7 +156,8 @@ int main(int count, char **words)
     must(tess_sdl_make_room(stage, PATCHES), "tess_sdl_make_room");
     should(tess_sdl_last(stage).scale >= 1, "there is room");
     save(device, target, picture);
-    should(is_drawn(picture), "the picture has another colour");
+    should(is_drawn(picture, 1), "the picture has another colour");
+    instances_are_drawn(device, stage, pipeline, target, picture);
     tess_sdl_destroy(stage);
     return 0;
 }
