@@ -2,23 +2,30 @@
 //! points and indices with the model.
 
 use crate::command::{self, cargo, in_file, target, workspace};
-use crate::setup::{self, Need, VULKAN};
+use crate::setup::{self, Need, VULKAN, XVFB};
 use std::ffi::OsString;
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
 
 const COMPILERS: Need = Need {
-    what: "a C compiler, CMake and pkg-config (build SDL and the programs)",
-    packages: &["gcc", "libc6-dev", "cmake", "pkg-config"],
-    is_there: || ["cc", "cmake", "pkg-config"].into_iter().all(setup::has_program),
+    what: "a C compiler, CMake, pkg-config and headers of X11 (build SDL and the programs)",
+    packages: &["gcc", "libc6-dev", "cmake", "pkg-config", "libx11-dev", "libxext-dev"],
+    is_there: || {
+        ["cc", "cmake", "pkg-config"].into_iter().all(setup::has_program)
+            && command::quiet_output(Command::new("pkg-config").args(["--exists", "x11", "xext"]))
+                .is_ok()
+    },
 };
 
 /// How the shaders of try.c are written.
 const TRIANGLES: &str = "--target spirv --domain tri --partitioning fractional_even";
 
 /// Parts of SDL that need libraries of the system, or that are not used.
-const WITHOUT: &str = "X11 WAYLAND KMSDRM AUDIO JOYSTICK HAPTIC HIDAPI CAMERA SENSOR POWER DIALOG TRAY RENDER \
+const WITHOUT: &str = "X11_XCURSOR X11_XDBE X11_XFIXES X11_XINPUT X11_XRANDR X11_XSCRNSAVER X11_XSHAPE X11_XSYNC \
+    X11_XTEST WAYLAND KMSDRM AUDIO JOYSTICK HAPTIC HIDAPI CAMERA SENSOR POWER DIALOG TRAY RENDER \
     DBUS IBUS LIBUDEV TESTS TEST_LIBRARY EXAMPLES";
 
 /// What the programs share.
@@ -29,11 +36,11 @@ const SHARED: [&str; 2] = ["offscreen.c", "compare.c"];
 /// # Errors
 /// A step fails, an output differs from the model's, or a planted fault is not seen.
 pub(crate) fn run() -> Result<(), String> {
-    setup::provide(&[COMPILERS, VULKAN])?;
+    setup::provide(&[COMPILERS, VULKAN, XVFB])?;
     let sdl = Sdl::provide()?;
     let program = command::program()?;
     command::run(&mut cargo("build --package tess-capi"))?;
-    let [terrain, wgsl] = [source("terrain.wgsl"), readme("wgsl")?];
+    let [terrain, waves] = [source("terrain.wgsl"), readme("wgsl")?];
     let shaders = |name: &str, options: &str| shaders(&program, &terrain, name, options);
     let stored = shaders("stored", "--target spirv --domain quad --partitioning fractional_odd")?;
     let evaluated = shaders(
@@ -52,7 +59,7 @@ pub(crate) fn run() -> Result<(), String> {
     let said = Run::of(&own, &stored).words(&["--compare", "--ready"]).ends_with(0)?;
     is_ready(&said)?;
     let of_try = self::shaders(&program, &source("try.wgsl"), "try", TRIANGLES)?;
-    let tried = sdl.program("try", "try.c", &of_try, &host)?;
+    let tried = sdl.program("try", &source("try.c"), &of_try, &host)?;
     Run::of(&tried, &of_try).word(&folder().join("try.bmp")).ends_with(0)?;
 
     let (drawn, again) = (sdl.terrain("evaluated", &evaluated, &host)?, folder().join("again.bmp"));
@@ -72,8 +79,127 @@ pub(crate) fn run() -> Result<(), String> {
         let options = format!("--target {language} --domain quad --evaluate");
         sdl.compiles(&shaders(language, &options)?, &source("terrain.c"))?;
     }
-    let of_readme = self::shaders(&program, &wgsl, "readme", "--target spirv --domain quad")?;
-    sdl.compiles(&of_readme, &readme("c")?)
+    rooms(&sdl, &stored, &host)?;
+    let of_readme = self::shaders(&program, &waves, "readme", WAVES)?;
+    let window = sdl.program("readme", &readme("c")?, &of_readme, &host)?;
+    shows_a_window(&window, &of_readme)
+}
+
+/// How the README translates its WGSL.
+const WAVES: &str = "--target spirv --domain quad --partitioning fractional_odd";
+
+/// The host decides on the rooms that the stage in Rust decides on; one that grows later does not.
+fn rooms(sdl: &Sdl, shaders: &Path, host: &Path) -> Result<(), String> {
+    let record = workspace().join("bindings/rooms.txt");
+    let late = planted(host, "points * 8 > now.points * 7ull", "points * 8 > now.points * 8ull")?;
+    for (name, host, code) in [("rooms", host, 0), ("late", &late, 1)] {
+        let program = folder().join(name);
+        let mut cc = sdl.cc(shaders);
+        cc.arg(format!("-DHOST=\"{}\"", host.display())).arg(source("rooms.c"));
+        command::run(cc.arg("-o").arg(&program).args(&sdl.libraries))?;
+        Run::of(&program, &record).ends_with(code)?;
+    }
+    println!("as it should be: a room that grows later is seen");
+    Ok(())
+}
+
+/// An X server without a screen, whose picture is in a file; it ends when this is dropped.
+struct Server {
+    process: Child,
+    display: String,
+    picture: PathBuf,
+}
+
+impl Server {
+    fn start() -> Result<Self, String> {
+        let wrong = |error| format!("cannot run Xvfb: {error}");
+        let screen = folder().join("screen");
+        fs::create_dir_all(&screen).map_err(|error| in_file(&screen, &error))?;
+        let mut server = Command::new("Xvfb");
+        server.args(["-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"]);
+        server.arg("-fbdir").arg(&screen).stdout(Stdio::piped()).stderr(Stdio::null());
+        let mut process = server.spawn().map_err(wrong)?;
+        let mut number = String::new();
+        let said = process.stdout.take().map(|said| BufReader::new(said).read_line(&mut number));
+        said.transpose().map_err(wrong)?;
+        let (display, picture) = (format!(":{}", number.trim()), screen.join("Xvfb_screen0"));
+        Ok(Self { process, display, picture })
+    }
+
+    /// How many colours its picture has.
+    fn colours(&self) -> Result<usize, String> {
+        let bytes = fs::read(&self.picture).map_err(|error| in_file(&self.picture, &error))?;
+        // A dump of the format XWD: its length, ..., then a map of as many colours as word 19 says.
+        let word = |at: usize| {
+            let word = bytes.get(4 * at..).and_then(|rest| rest.first_chunk());
+            word.map_or(0, |word| u32::from_be_bytes(*word))
+        };
+        let head = usize::try_from(word(0) + 12 * word(19)).unwrap_or(usize::MAX);
+        let pixels = bytes.get(head..).unwrap_or_default();
+        let mut colours: Vec<&[u8; 4]> = pixels.as_chunks().0.iter().collect();
+        colours.sort_unstable();
+        colours.dedup();
+        Ok(colours.len())
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+/// The README's program shows its waves in a window, and ends after as many frames as it was told.
+fn shows_a_window(program: &Path, shaders: &Path) -> Result<(), String> {
+    let server = Server::start()?;
+    let on_display = |mut run: Run| {
+        run.0.env("DISPLAY", &server.display).env("SDL_VIDEO_DRIVER", "x11");
+        run
+    };
+    let before = server.colours()?;
+    let mut shown = on_display(Run::of(program, shaders)).0.spawn();
+    let shown = shown.as_mut().map_err(|error| format!("cannot run the README's: {error}"))?;
+    let began = Instant::now();
+    let mut colours = before;
+    while colours < 1000 && began.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(200));
+        colours = server.colours()?;
+    }
+    let copy = folder().join("window.xwd");
+    fs::copy(&server.picture, &copy).map_err(|error| in_file(&copy, &error))?;
+    let is_open = shown.try_wait().is_ok_and(|ended| ended.is_none());
+    // It may have ended by itself.
+    let _ = shown.kill();
+    let _ = shown.wait();
+    println!("a window: {colours} colours, {before} without it; see {}", copy.display());
+    if before > 100 || colours < 1000 || !is_open {
+        return Err(format!("the README's window shows {colours} colours, or is gone"));
+    }
+    let said = on_display(Run::of(program, shaders).words(&["3"])).ends_with(0)?;
+    must(said.contains(" triangles"), "the number of triangles", &said)?;
+    let mut run = Run::of(program, shaders).words(&["3"]);
+    run.0.env("DISPLAY", ":987654").env("SDL_VIDEO_DRIVER", "x11");
+    run.ends_with(1).map(drop)
+}
+
+/// The variables with which programs outside of the project find SDL, which is built if it is
+/// nowhere. Provides a driver and an X server, too.
+///
+/// # Errors
+/// A tool is missing, or SDL does not compile.
+pub(crate) fn environment() -> Result<[(&'static str, OsString); 2], String> {
+    setup::provide(&[COMPILERS, VULKAN, XVFB])?;
+    let Sdl { place, .. } = Sdl::provide()?;
+    let found = std::env::var_os("LD_LIBRARY_PATH").map_or_else(OsString::new, |more| {
+        let mut found = OsString::from(":");
+        found.push(more);
+        found
+    });
+    let mut libraries = OsString::from(place);
+    libraries.push(found);
+    Ok([("PKG_CONFIG_PATH", packages(&installed())), ("LD_LIBRARY_PATH", libraries)])
 }
 
 /// The folder of everything that is made.
@@ -212,12 +338,19 @@ impl Run {
 struct Sdl {
     flags: Vec<String>,
     libraries: Vec<String>,
+    /// The folder of the library.
+    place: String,
+}
+
+/// Where SDL is installed, if the system has none.
+fn installed() -> PathBuf {
+    folder().join("installed-with-x11")
 }
 
 impl Sdl {
     /// The system's SDL 3, or one that is built from the sources of the crate `sdl3-src`.
     fn provide() -> Result<Self, String> {
-        let installed = folder().join("installed");
+        let installed = installed();
         if pkg_config(&installed, &["--exists"]).is_err() {
             build(&installed)?;
         }
@@ -226,9 +359,9 @@ impl Sdl {
             Ok(said.split_whitespace().map(str::to_owned).collect())
         };
         let mut libraries = words("--libs")?;
-        let place = pkg_config(&installed, &["--variable=libdir"])?;
-        libraries.push(format!("-Wl,-rpath,{}", place.trim()));
-        Ok(Self { flags: words("--cflags")?, libraries })
+        let place = pkg_config(&installed, &["--variable=libdir"])?.trim().to_owned();
+        libraries.push(format!("-Wl,-rpath,{place}"));
+        Ok(Self { flags: words("--cflags")?, libraries, place })
     }
 
     fn cc(&self, shaders: &Path) -> Command {
@@ -240,20 +373,20 @@ impl Sdl {
 
     /// Builds the example with the model, and returns its path.
     fn terrain(&self, name: &str, shaders: &Path, host: &Path) -> Result<PathBuf, String> {
-        self.program(name, "terrain.c", shaders, host)
+        self.program(name, &source("terrain.c"), shaders, host)
     }
 
     fn program(
         &self,
         name: &str,
-        main: &str,
+        main: &Path,
         shaders: &Path,
         host: &Path,
     ) -> Result<PathBuf, String> {
         let program = folder().join(format!("{name}-program"));
         let mut cc = self.cc(shaders);
         cc.arg("-DTESS_MODEL").arg("-I").arg(workspace().join("bindings/c/include"));
-        cc.arg("-o").arg(&program).arg(source(main)).args(SHARED.map(source)).arg(host);
+        cc.arg("-o").arg(&program).arg(main).args(SHARED.map(source)).arg(host);
         cc.args(&self.libraries).arg(target().join("debug/libtess_capi.a"));
         command::run(cc.args(["-lpthread", "-ldl", "-lm"]))?;
         Ok(program)
@@ -266,14 +399,19 @@ impl Sdl {
 
 /// `pkg-config` about SDL 3, in this folder or installed by the system.
 fn pkg_config(installed: &Path, words: &[&str]) -> Result<String, String> {
+    let mut command = Command::new("pkg-config");
+    command.args(words).arg("sdl3").env("PKG_CONFIG_PATH", packages(installed));
+    command::quiet_output(&mut command)
+}
+
+/// Where pkg-config looks first: in this folder.
+fn packages(installed: &Path) -> OsString {
     let mut path = OsString::from(installed.join("lib/pkgconfig"));
     if let Some(more) = std::env::var_os("PKG_CONFIG_PATH") {
         path.push(":");
         path.push(more);
     }
-    let mut command = Command::new("pkg-config");
-    command.args(words).arg("sdl3").env("PKG_CONFIG_PATH", path);
-    command::quiet_output(&mut command)
+    path
 }
 
 /// Builds SDL, which takes minutes, once.

@@ -3,7 +3,7 @@
 mod needs;
 
 use crate::command;
-pub(crate) use needs::{CELLS, ICARUS, NODE, PYTHON, SYSTEMC, VERILATOR, VULKAN, YOSYS, Z3};
+pub(crate) use needs::{CELLS, ICARUS, NODE, PYTHON, SYSTEMC, VERILATOR, VULKAN, XVFB, YOSYS, Z3};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};

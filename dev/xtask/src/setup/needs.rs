@@ -31,15 +31,18 @@ pub(super) const BEYOND: &[Need] = &[
         packages: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
         is_there: has_opengl,
     },
-    Need {
-        what: "an X server without a screen, and its libraries (a test of an example's window)",
-        packages: &["xvfb", "libx11-xcb1", "libxcursor1", "libxi6", "libxkbcommon-x11-0"],
-        is_there: || has_program("Xvfb"),
-    },
+    XVFB,
     VERILATOR,
     SYSTEMC,
     ICARUS,
 ];
+
+/// The need of tests that open windows.
+pub(crate) const XVFB: Need = Need {
+    what: "an X server without a screen, and its libraries (tests of examples' windows)",
+    packages: &["xvfb", "libx11-xcb1", "libxcursor1", "libxi6", "libxkbcommon-x11-0"],
+    is_there: || has_program("Xvfb"),
+};
 
 /// The need of everything that runs shaders.
 pub(crate) const VULKAN: Need = Need {
