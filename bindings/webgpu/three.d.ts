@@ -1,7 +1,7 @@
 import type { BufferGeometry } from "three";
 import type { Feedback, Members, StageOptions } from "./stage.js";
 
-export interface GeometryOptions extends Omit<StageOptions, "evaluate" | "layouts"> {
+export interface GeometryOptions extends Omit<StageOptions, "evaluate" | "layouts" | "meshes" | "pull"> {
   /**
    * The members of `Vertex`, which become attributes of these names: `position`, `normal`, `uv` as three.js knows them, or
    * your own. All are floats. Without `vertex` and without a function `domain`, `position` is u, v and the number of the

@@ -52,6 +52,12 @@ export const run = async (device: GPUDevice): Promise<Output> =>
   (await Tessellator.load(device, { domain: "tri", partitioning: "integer" })).tessellate([1, 2, 3, 4]);
 export const room = async (device: GPUDevice): Promise<Feedback> =>
   (await Stage.load(device, { domain: "tri", partitioning: "pow2", patches: 1, vertex: { position: "vec4f" } })).makeRoom();
+export const pulled = async (device: GPUDevice, buffer: GPUBuffer): Promise<Feedback> => {
+  const setup = { domain: "quad", partitioning: "pow2", patches: 9, vertex: { position: "vec4f" } } as const;
+  const stage = await Stage.load(device, { ...setup, meshes: [0, 4], pull: "corners", constants: { fine: 2 } });
+  stage.setMeshes([0, 2, 5]);
+  return stage.makeRoom({ patches: { buffer, offset: 4 } });
+};
 export const mesh = async (renderer: object): Promise<Mesh> => {
   const ground = await TessellatedGeometry.load(renderer, { domain: "quad", partitioning: "integer", patches: 1 });
   ground.update({ factors: [1, 2, 3, 4, 5, 6] });
@@ -61,6 +67,23 @@ END
     node_modules/.bin/tsc --strict --noEmit --module nodenext --target es2022 program.mts
     unnamed node_modules/tess-webgpu
     node "$ROOT/bindings/webgpu/try.mjs" . "$ROOT/golden/cases.txt" ;;
+sdl)
+    mkdir bin
+    ln -s "$TESS_PROGRAM" bin/tess
+    PATH=$PWD/bin:$PATH
+    follow tess-sdl-*.tar.gz
+    cd tess-sdl-*/
+    unnamed .
+    # 960 by 540 texels of 4 bytes, and the head of the file.
+    equal "$(wc -c < terrain.bmp)" "$((960 * 540 * 4 + 138))"
+    cd ..
+    Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp 3> display 2> /dev/null &
+    server=$!
+    trap 'kill $server' EXIT
+    while ! test -s display; do sleep 0.1; done
+    export DISPLAY=:$(cat display) SDL_VIDEO_DRIVER=x11
+    ./waves shaders 3
+    if ./waves elsewhere 3; then echo 'there are no shaders, and it draws' >&2; exit 1; fi ;;
 covergroups)
     ls "$OUT"/tess-c-*.tar.gz || { echo 'its README also takes the archive of the part c: try both' >&2; exit 1; }
     follow tess-uvm-*.tar.gz
