@@ -12,6 +12,9 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// The largest number of bytes that the page may load; compressed it is a third of that.
 const LARGEST: u64 = 1_680_000;
 
+/// The modules of `bindings/webgpu` that run the page's batches.
+const HOST: [&str; 2] = ["batch.js", "common.js"];
+
 /// The version of the library that drives the browser.
 const PLAYWRIGHT: &str = "playwright-core@1.65.1";
 
@@ -35,7 +38,8 @@ pub(crate) fn build() -> Result<(), String> {
         fs::remove_dir_all(&page).map_err(|error| in_file(&page, &error))?;
     }
     library("tess-explorer", &page)?;
-    for file in files(&source().join("web"))? {
+    let host = HOST.map(|name| workspace().join("bindings/webgpu").join(name));
+    for file in files(&source().join("web"))?.into_iter().chain(host) {
         let to = page.join(file.file_name().unwrap_or_default());
         fs::copy(&file, &to).map_err(|error| in_file(&file, &error))?;
     }

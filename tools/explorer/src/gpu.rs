@@ -5,8 +5,10 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use tess_core::{Config, Counts, Domain, DomainPoint, PatchFactors, Tessellation};
 use tess_gpu::layout::{PackedPoint, factor_words};
+use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{
-    Access, Capacity, Limits, Numbering, Order, Plan, Resource, Setup, Stage, Workgroups, tables,
+    Access, Binding, Capacity, Limits, Numbering, Order, Plan, Resource, Setup, Span, Stage,
+    Workgroups, tables,
 };
 use tess_verify::check::Mismatch;
 use tess_verify::vectors::Listing;
@@ -52,33 +54,77 @@ pub struct GpuBatch {
     plan: Plan,
 }
 
+/// The manifest of one batch, in the form of `tess shaders` (docs/shaders.md) with numbers for its
+/// formulas, and with the WGSL of each stage: as the module `batch.js` of `bindings/webgpu` takes
+/// it.
 #[derive(Serialize)]
 struct Manifest {
+    setup: Described,
+    stages: Vec<Shader>,
+    job_stride: u64,
+    plans: [OnePlan; 1],
+}
+
+#[derive(Serialize)]
+struct Described {
     split: &'static str,
     /// Bytes of a primitive's indices.
-    index_bytes: u32,
-    /// Bytes by resource.
-    buffers: BTreeMap<String, u64>,
-    stages: BTreeMap<&'static str, Shader>,
-    dispatches: Vec<PassStep>,
+    primitive_bytes: u32,
 }
 
 #[derive(Serialize)]
 struct Shader {
+    name: &'static str,
+    entry_point: &'static str,
     source: String,
-    /// `uniform`, `read-only-storage` or `storage`, as WebGPU calls them, binding by binding.
-    bindings: Vec<&'static str>,
+    bindings: Vec<ShaderBinding>,
+}
+
+#[derive(Serialize)]
+struct ShaderBinding {
+    binding: u32,
+    /// `uniform` or `storage`.
+    kind: &'static str,
+    is_written: bool,
+}
+
+#[derive(Serialize)]
+struct OnePlan {
+    min_patches: u32,
+    max_patches: u32,
+    max_points: u32,
+    max_primitives: u32,
+    buffers: Vec<Buffer>,
+    jobs: Vec<Vec<u32>>,
+    dispatches: Vec<PassStep>,
+}
+
+#[derive(Serialize)]
+struct Buffer {
+    resource: String,
+    bytes: u64,
 }
 
 #[derive(Serialize)]
 struct PassStep {
     stage: &'static str,
-    /// Resource, offset and size, binding by binding.
-    bindings: Vec<(String, u64, u64)>,
-    /// Workgroups along x, y and z, unless `indirect` says where they are.
-    workgroups: Option<[u32; 3]>,
-    /// Byte of the buffer `Arguments`.
-    indirect: Option<u64>,
+    bindings: Vec<Bound>,
+    workgroups: Count,
+}
+
+#[derive(Serialize)]
+struct Bound {
+    resource: String,
+    offset: u64,
+    bytes: u64,
+}
+
+/// The number of workgroups, or the byte of the buffer of arguments where it is.
+#[derive(Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Count {
+    Direct(u64),
+    IndirectAt(u64),
 }
 
 #[wasm_bindgen]
@@ -109,12 +155,7 @@ impl GpuBatch {
         json(&self.to_manifest())
     }
 
-    /// The contents of the buffer `Job`.
-    pub fn jobs(&self) -> Vec<u8> {
-        self.plan.jobs()
-    }
-
-    /// The contents of the buffer `Factors`.
+    /// The contents of the buffer of factors.
     pub fn factors(&self) -> Vec<u32> {
         factor_words(&self.patches)
     }
@@ -182,46 +223,75 @@ impl GpuBatch {
     }
 
     fn to_manifest(&self) -> Manifest {
-        let bytes = |&resource: &Resource| (name(resource), self.plan.buffer_size(resource));
-        let shader = |stage: Stage| Shader {
-            source: stage.source(stage.relevant(self.setup)),
-            bindings: stage.bindings().iter().map(|binding| kind(binding.0, binding.1)).collect(),
+        let Self { setup, plan, .. } = self;
+        let stages: Vec<Stage> = plan.dispatches().map(|step| step.stage()).collect();
+        let stages = Stage::ALL.into_iter().filter(|stage| stages.contains(stage));
+        let one = OnePlan {
+            min_patches: plan.patches(),
+            max_patches: plan.patches(),
+            max_points: u32::MAX,
+            max_primitives: u32::MAX,
+            buffers: Resource::ALL.into_iter().filter_map(|it| self.buffer(it)).collect(),
+            jobs: jobs(plan),
+            dispatches: plan.dispatches().map(|step| to_step(&step)).collect(),
         };
-        let stages: Vec<Stage> = self.plan.dispatches().map(|step| step.stage()).collect();
+        let (split, primitive_bytes) = (setup.config.split.name(), setup.primitive_bytes());
         Manifest {
-            split: self.setup.config.split.name(),
-            index_bytes: self.setup.primitive_bytes(),
-            buffers: Resource::ALL.iter().map(bytes).collect(),
-            stages: stages.iter().map(|&stage| (stage.entry_point(), shader(stage))).collect(),
-            dispatches: self.plan.dispatches().map(|step| to_step(&step)).collect(),
+            setup: Described { split, primitive_bytes },
+            stages: stages.map(|stage| shader(stage, *setup)).collect(),
+            job_stride: ALIGNMENT,
+            plans: [one],
         }
     }
+
+    /// `None` for a buffer that a batch without groups does not have.
+    fn buffer(&self, resource: Resource) -> Option<Buffer> {
+        let is_of_groups = matches!(resource, Resource::Groups | Resource::Draws);
+        let bytes = self.plan.buffer_size(resource).next_multiple_of(16).max(16);
+        (!is_of_groups).then(|| Buffer { resource: name(resource), bytes })
+    }
+}
+
+fn shader(stage: Stage, setup: Setup) -> Shader {
+    let binding = |(binding, one): (u32, &Binding)| ShaderBinding {
+        binding,
+        kind: if one.0 == Resource::Job { "uniform" } else { "storage" },
+        is_written: one.1 == Access::ReadWrite,
+    };
+    Shader {
+        name: stage.entry_point(),
+        entry_point: stage.entry_point(),
+        source: stage.source(stage.relevant(setup)),
+        bindings: (0..).zip(stage.bindings()).map(binding).collect(),
+    }
+}
+
+/// The words of each job.
+fn jobs(plan: &Plan) -> Vec<Vec<u32>> {
+    let bytes = plan.jobs();
+    let words =
+        |job: &[u8]| job.as_chunks().0.iter().map(|&word| u32::from_le_bytes(word)).collect();
+    bytes.chunks(usize::try_from(ALIGNMENT).unwrap_or(usize::MAX)).map(words).collect()
 }
 
 fn to_step(dispatch: &tess_gpu::Dispatch) -> PassStep {
-    let (workgroups, indirect) = match dispatch.workgroups() {
-        Workgroups::Direct(along) => (Some(along), None),
-        Workgroups::Indirect(at) => (None, Some(at)),
+    let workgroups = match dispatch.workgroups() {
+        Workgroups::Direct(along) => Count::Direct(along.into_iter().map(u64::from).product()),
+        Workgroups::Indirect(at) => Count::IndirectAt(at),
     };
-    let bindings = dispatch.bindings().map(|(of, span)| (name(of), span.offset, span.size));
+    let bound = |(of, span): (Resource, Span)| Bound {
+        resource: name(of),
+        offset: span.offset,
+        bytes: span.size,
+    };
     let stage = dispatch.stage().entry_point();
-    PassStep { stage, bindings: bindings.collect(), workgroups, indirect }
+    PassStep { stage, bindings: dispatch.bindings().map(bound).collect(), workgroups }
 }
 
 fn name(resource: Resource) -> String {
-    format!("{resource:?}")
+    format!("{resource:?}").to_lowercase()
 }
 
-const fn kind(resource: Resource, access: Access) -> &'static str {
-    match (resource, access) {
-        (Resource::Job, _) => "uniform",
-        (_, Access::Read) => "read-only-storage",
-        (_, Access::ReadWrite) => "storage",
-    }
-}
-
-/// Room for everything, from the model's counts; at least one of each, so that the plan has
-/// outputs.
 fn capacity(config: Config, patches: &[PatchFactors]) -> Capacity {
     let mut capacity = Capacity { points: 0, primitives: 0 };
     for &factors in patches {
@@ -277,10 +347,16 @@ mod tests {
                 .expect("a case")])
             .expect("one");
         let manifest = batch.to_manifest();
-        for step in &manifest.dispatches {
-            let shader = &manifest.stages[step.stage];
+        let [plan] = &manifest.plans;
+        let size = |of: &str| plan.buffers.iter().find(|one| one.resource == of).map(|it| it.bytes);
+        for step in &plan.dispatches {
+            let shader = manifest.stages.iter().find(|one| one.name == step.stage);
+            let shader = shader.expect("its stage is there");
             assert_eq!(shader.bindings.len(), step.bindings.len(), "{}", step.stage);
-            assert_ne!(step.workgroups.is_some(), step.indirect.is_some(), "one of the two");
+            for one in &step.bindings {
+                let end = Some(one.offset + one.bytes);
+                assert!(end <= size(&one.resource), "{}: {}", step.stage, one.resource);
+            }
         }
     }
 }

@@ -15,7 +15,7 @@ test("the first picture waits for nothing that it does not need", async () => {
       fetched: performance.getEntriesByType("resource").map(({ name, startTime }) => [name.split("/").pop(), startTime]),
     }));
     const after = fetched.filter(([, began]) => began > picture).map(([name]) => name).sort();
-    const LATER = ["animation", "ask", "compare", "gpu", "learn", "measure", "orbit", "share", "solid", "surface"];
+    const LATER = ["animation", "ask", "batch", "common", "compare", "gpu", "learn", "measure", "orbit", "share", "solid", "surface"];
     assert.deepEqual(after, LATER.map((name) => `${name}.js`), "the other views come after it");
     // One step from the page to every file that it needs.
     const preloaded = await page.locator("link[rel=modulepreload], link[rel=preload]").evaluateAll((all) => all.map((link) => link.href.split("/").pop()));

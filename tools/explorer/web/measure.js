@@ -89,7 +89,7 @@ async function measureGpu(device, name) {
   if (seconds() > 0) await device.run(prepared);
   const best = await bestOf((times) => device.run(prepared, times));
   const primitives = batch.primitives();
-  device.release(prepared);
+  prepared.destroy();
   batch.free();
   return primitives / best;
 }

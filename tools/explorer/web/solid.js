@@ -77,7 +77,7 @@ export class Solid {
       this.release();
       this.nets = device.createBuffer({ size: nets.byteLength, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
       device.queue.writeBuffer(this.nets, 0, nets);
-      const buffers = [this.scene, this.nets, prepared.buffers.Points, prepared.buffers.Indices];
+      const buffers = [this.scene, this.nets, prepared.buffers.points, prepared.buffers.indices];
       const entries = buffers.map((buffer, binding) => ({ binding, resource: { buffer } }));
       this.group = device.createBindGroup({ layout: this.layout, entries });
       const module = device.createShaderModule({ label: "surface", code });
@@ -102,16 +102,16 @@ export class Solid {
   }
 
   setFactors(words) {
-    this.gpu.device.queue.writeBuffer(this.prepared.buffers.Factors, 0, words);
+    this.gpu.device.queue.writeBuffer(this.prepared.buffers.factors, 0, words);
     this.isStale = true;
   }
 
   // Draws, and tessellates first if there are new factors; resolves when the GPU is done.
   async draw({ matrix, edge, width, light }) {
-    const { gpu: { device }, context: { canvas }, prepared: { buffers } } = this;
+    const { gpu: { device }, context: { canvas }, prepared } = this, { buffers } = prepared;
     device.queue.writeBuffer(this.scene, 0, new Float32Array([...matrix, ...edge, ...light, width]));
     const encoder = device.createCommandEncoder();
-    if (this.isStale) this.gpu.encode(this.prepared, encoder);
+    if (this.isStale) prepared.encode(encoder);
     this.isStale = false;
     const [colour, depth] = this.targetsOf(canvas);
     const pass = encoder.beginRenderPass({
@@ -122,12 +122,12 @@ export class Solid {
     if (width > 0) {
       // The first four arguments of an indexed draw are those of one that counts its vertices.
       pass.setPipeline(this.wired);
-      pass.drawIndirect(buffers.Arguments, 0);
+      pass.drawIndirect(buffers.arguments, 0);
     } else {
       pass.setPipeline(this.filled);
-      pass.setVertexBuffer(0, buffers.Points);
-      pass.setIndexBuffer(buffers.Indices, "uint32");
-      pass.drawIndexedIndirect(buffers.Arguments, 0);
+      pass.setVertexBuffer(0, buffers.points);
+      pass.setIndexBuffer(buffers.indices, "uint32");
+      pass.drawIndexedIndirect(buffers.arguments, 0);
     }
     pass.end();
     device.queue.submit([encoder.finish()]);
@@ -147,12 +147,12 @@ export class Solid {
 
   // How many points and triangles the GPU made.
   async counts() {
-    const [points, , triangles] = await this.gpu.read(this.prepared.buffers.Status, 32);
+    const [points, , triangles] = await this.gpu.read(this.prepared.buffers.status);
     return [points, triangles];
   }
 
   release() {
-    if (this.prepared) this.gpu.release(this.prepared);
+    this.prepared?.destroy();
     this.nets?.destroy();
     this.prepared = null;
   }
