@@ -9,7 +9,7 @@ mod readme;
 mod shaders;
 
 use crate::command::{self, in_file, target, workspace};
-use crate::{explorer, packages, publish, python, setup};
+use crate::{explorer, packages, publish, python, sdl, setup};
 use pack::Release;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -26,6 +26,7 @@ const PARTS: &[(&str, Pack)] = &[
     ("tess", program::pack),
     ("shaders", shaders::pack),
     ("npm", shaders::pack_npm),
+    ("sdl", shaders::pack_sdl),
     ("covergroups", covergroups),
     ("c", c::pack),
     ("deb", c::pack_deb),
@@ -81,6 +82,9 @@ fn try_it(release: &Release, part: &str) -> Result<(), String> {
     script.env_remove("PYTHONPATH");
     if let Some(modules) = modules {
         script.env("EXPLORER_MODULES", modules).env("TESS_PROGRAM", tess()?.get_program());
+    }
+    if part == "sdl" {
+        script.envs(sdl::environment()?).env("TESS_PROGRAM", tess()?.get_program());
     }
     command::run(&mut script)?;
     fs::remove_dir_all(&folder).map_err(|error| in_file(&folder, &error))

@@ -129,7 +129,7 @@ usage: cargo xtask [--yes | --no-install] <command>
   publish [send]
           pack and build every published package as a registry would receive it; without `send`, send nothing
   dist [--try] [PART...]
-          pack a release, or these parts of it, into target/dist: tess shaders npm covergroups c deb python crates;
+          pack a release, or these parts of it, into target/dist: tess shaders npm sdl covergroups c deb python crates;
           with `--try` pack twice, compare the bytes, and use each archive as its README says, where nothing else of
           the project is present
   deny [advisories]

@@ -152,6 +152,7 @@ impl Drop for Server {
 }
 
 /// The README's program shows its waves in a window, and ends after as many frames as it was told.
+#[expect(clippy::disallowed_methods, reason = "no event tells that the server's picture changed")]
 fn shows_a_window(program: &Path, shaders: &Path) -> Result<(), String> {
     let server = Server::start()?;
     let on_display = |mut run: Run| {

@@ -1,5 +1,5 @@
-//! The shaders of the common setups: in every language for hosts without Rust, and as WGSL with a
-//! host for browsers.
+//! The shaders of the common setups: in every language for hosts without Rust, as WGSL with a host
+//! for browsers, and those of an example with the host for SDL.
 
 use super::pack::{Release, copy_flat, copy_tracked};
 use super::{VERSION, readme, tess};
@@ -107,4 +107,29 @@ pub(super) fn pack_npm(release: &Release) -> Result<(), String> {
     share_surfaces(&shaders, &shaders.join("surfaces"))?;
     readme::put("bindings/webgpu/README.md", &stage, "README.md")?;
     release.archive(&stage, &format!("tess-webgpu-{VERSION}.tgz"))
+}
+
+/// The host for SDL and its example.
+const SDL: [&str; 7] = [
+    "tess_sdl.c",
+    "tess_sdl.h",
+    "terrain.c",
+    "terrain.h",
+    "offscreen.c",
+    "terrain.wgsl",
+    "terrain.png",
+];
+
+pub(super) fn pack_sdl(release: &Release) -> Result<(), String> {
+    let name = format!("tess-sdl-{VERSION}");
+    let stage = release.stage(&name)?;
+    for file in SDL {
+        copy_flat(&format!("bindings/sdl/{file}"), &stage)?;
+    }
+    let mut shaders = tess()?;
+    shaders.args(["shaders", "--target", "spirv", "--layout", "sdl", "--domain", "quad"]);
+    shaders.args(["--partitioning", "fractional_odd", "--stage"]).arg(stage.join("terrain.wgsl"));
+    command::output(shaders.arg("-o").arg(stage.join("shaders")))?;
+    readme::put("bindings/sdl/README.md", &stage, "README.md")?;
+    release.archive(&stage, &format!("{name}.tar.gz"))
 }
