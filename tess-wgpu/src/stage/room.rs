@@ -476,6 +476,7 @@ mod tests {
 
     /// The decisions for a sequence of demands that `bindings/rooms.txt` records, with which the
     /// hosts in JavaScript and C are compared.
+    #[expect(clippy::too_many_lines, reason = "half of them are tables")]
     fn recorded_rooms() -> String {
         use Partitioning::{FractionalEven, FractionalOdd, Integer, Pow2};
         let mut text = String::from(
