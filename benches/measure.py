@@ -220,25 +220,11 @@ def of_stage(outputs):
     return [dict(zip(keys, [points, int(drawn), int(prepare), int(draw), float(rate)])) for points, drawn, prepare, draw, rate in lines]
 
 
-ELEMENTS = {"K": 1e3, "M": 1e6, "G": 1e9}
-
-
-def of_arguments(outputs):
-    """Criterion's middle estimate of a call in nanoseconds, with factors made just before it / long before it."""
-    line = r"^(\S+), (\w+)/(\w+)/(?:just|long) before\s+time:.*?thrpt: +\[\S+ \S+ (\S+) (\S)elem/s"
-    rows = {}
-    for workload, level, kind, rate, unit in re.findall(line, outputs[0], re.MULTILINE | re.DOTALL):
-        structure = "structure" if kind in ("QuadFactors", "TriangleFactors") else kind
-        times = rows.setdefault((workload, level), {}).setdefault(structure, [])
-        times.append(f"{1e9 / (float(rate) * ELEMENTS[unit]):.1f}")
-    cells = lambda row: {kind: " / ".join(times) for kind, times in row.items()}
-    return [{"workload": workload, "level": level, **cells(row)} for (workload, level), row in rows.items()]
-
-
 def of_surface(outputs):
     """Criterion's middle estimate of the throughput, as nanoseconds per vertex and as a multiple of a fill."""
     found = re.findall(r"^surface/(.+?)(?:/(\w+))?\s+time:.*?thrpt: +\[\S+ \S+ (\S+) (\S)elem/s", outputs[0], re.MULTILINE | re.DOTALL)
-    times = {(name, level): 1e9 / (float(rate) * ELEMENTS[unit]) for name, level, rate, unit in found}
+    scale = {"K": 1e3, "M": 1e6, "G": 1e9}
+    times = {(name, level): 1e9 / (float(rate) * scale[unit]) for name, level, rate, unit in found}
     fill = times.pop(("fill", ""))
     order = ["bicubic", "PN triangle", "bicubic, displaced"]
     rows = sorted(times.items(), key=lambda row: order.index(row[0][0]))
@@ -303,9 +289,6 @@ MEASUREMENTS = {
         ["workload", *map(str, THREADS)],
     ),
     "first": Measurement("cpu", CPU, [["first", "--bench"]], of_first, ["nanoseconds of", "baseline", "avx2", "avx512"]),
-    "arguments": Measurement(
-        "cpu", Code(["tess-capi", "tess-workloads"], []), [["arguments", "--bench"]], of_arguments, ["workload", "level", "PatchFactors", "structure", "C"]
-    ),
     "surface": Measurement("cpu", Code(["tess-surface"], []), [["surface", "--bench"]], of_surface, ["surface", "level", "ns a vertex", "fills"]),
     "gpu": gpu(workloads=ALL),
     "gpu-u16": gpu("--index-type", "u16", workloads=["uniform-1", "uniform-16", "uniform-64"]),
@@ -367,7 +350,7 @@ MEASUREMENTS = {
 
 # The arguments of cargo that build the programs of a set.
 BUILDS = {
-    "cpu": ["build --release -p tess-program", "bench --no-run -p tess-benches --bench first --bench surface", "bench --no-run -p tess-capi --bench arguments"],
+    "cpu": ["build --release -p tess-program", "bench --no-run -p tess-benches --bench first --bench surface"],
     "gpu": [
         "build --release -p tess-program",
         "build --release -p tess-benches --features gpu --bin gpu",
@@ -452,13 +435,12 @@ def command_of(measurement):
         "tess-examples": "cargo example --release",
         "first": "cargo bench -p tess-benches --bench first",
         "surface": "cargo bench -p tess-benches --bench surface",
-        "arguments": "cargo bench -p tess-capi --bench arguments",
         "study": "cargo run --release -p tess-benches --bin study --",
     }
     command, *words = measurement.commands[0]
     if len(measurement.commands) > 1:
         words = ["BACKEND" if word == "core" else "N" if word == str(THREADS[0]) else word for word in words]
-    return f"{in_workspace[command]} {' '.join(word for word in words if command not in ('first', 'surface', 'arguments'))}".strip().removesuffix(" --")
+    return f"{in_workspace[command]} {' '.join(word for word in words if command not in ('first', 'surface'))}".strip().removesuffix(" --")
 
 
 def record_of(name, measured, commit):
@@ -503,7 +485,7 @@ def main(words):
     for one in (whole, running):
         one.add_argument("set", choices=sorted(BUILDS))
     running.add_argument("folder", help="folder to write NAME.json and NAME.txt to")
-    running.add_argument("--programs", default=TARGET / "release", help="folder of tess, gpu, tess-examples, first, surface, arguments, study")
+    running.add_argument("--programs", default=TARGET / "release", help="folder of tess, gpu, tess-examples, first, surface, study")
     running.add_argument("--only", nargs="+", choices=sorted(MEASUREMENTS), help="run only these measurements of the set")
     taking = commands.add_parser("take", help="make records of the rows that `run` wrote")
     taking.add_argument("folders", nargs="+", metavar="folder", help="of one run, or of several: each row is then the fastest")

@@ -2,7 +2,7 @@
 
 import study
 from fresh import code_in, code_of_file
-from measure import MEASUREMENTS, fastest, of_ablation, of_arguments, of_crossover, of_evaluated, of_first, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
+from measure import MEASUREMENTS, fastest, of_ablation, of_crossover, of_evaluated, of_first, of_groups, of_one_thread, of_probe, of_stage, of_surface, of_threads, record_of
 from records import bench_table, digits, svg, table, with_tables
 
 
@@ -76,9 +76,6 @@ def test_rows_of_each_program():
     assert of_first([criterion]) == [{"nanoseconds of": "a tessellator", "avx2": "70", "avx512": "1500"}], of_first([criterion])
     criterion = "surface/fill            time:   [1 ns 2 ns 3 ns]\n                        thrpt:  [1.0 Gelem/s 2.0000 Gelem/s 3.0 Gelem/s]\n"
     criterion += "surface/PN triangle/avx2\n                        time:   [1 us 2 us 3 us]\n                        thrpt:  [1.0 Melem/s 50.0 Melem/s 60.0 Melem/s]\n"
-    called = "mosaic, avx512/QuadFactors/{} before\n                        time:   [1 us 2 us 3 us]\n                        thrpt:  [1.0 Melem/s {} Melem/s 60.0 Melem/s]\n"
-    row = {"workload": "mosaic", "level": "avx512", "structure": "20.0 / 25.0"}
-    assert of_arguments([called.format("just", "50.0000") + called.format("long", "40.0000")]) == [row], "two columns"
     assert of_surface([criterion]) == [{"surface": "PN triangle", "level": "avx2", "ns a vertex": "20.0", "fills": "40"}], of_surface([criterion])
 
 
