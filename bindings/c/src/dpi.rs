@@ -6,7 +6,7 @@
 //!
 //! A function on a patch takes the four numbers of its configuration and the bits of six binary32
 //! factors, of which it reads the first two, four or six, as the domain has. Points and primitives
-//! are those of a [held](held) patch. Results are written through pointers: all of them, or none if
+//! are those of a [`held`] patch. Results are written through pointers: all of them, or none if
 //! a pointer is null or misaligned.
 
 pub mod held;
