@@ -25,22 +25,6 @@ fn bits(sample: &Sample) -> [u32; 6] {
     bits
 }
 
-/// Calls a function with a sample's patch and these numbers; its status and what it gives.
-macro_rules! asked {
-    ($function:ident($s:expr $(, $input:expr)*) -> [$($out:ident),*]) => {{
-        let TessConfig { domain, partitioning, output, split } = $s.config;
-        let [f0, f1, f2, f3, f4, f5] = bits(&$s);
-        $(let mut $out = 0;)*
-        let status = unsafe {
-            $function(
-                domain, partitioning, output, split, f0, f1, f2, f3, f4, f5
-                $(, $input)* $(, &mut $out)*
-            )
-        };
-        (status, [$($out),*])
-    }};
-}
-
 /// All patches in one handle, one after another: every element, and none behind.
 #[test]
 fn held_patches() {
@@ -53,6 +37,12 @@ fn held_patches() {
         assert_eq!(held_as(held, &s, s.config.domain), (TESS_OK, expected), "{:?}", s.factors);
         let refused = held_as(held, &s, 3);
         assert_eq!(refused, (TESS_UNKNOWN_VALUE, [0; 3]), "a refused patch leaves the one before");
+        let [mut points, mut primitives] = [7; 2];
+        let status = unsafe {
+            let (a, b) = (&raw mut points, &raw mut primitives);
+            tess_dpi_patch(held, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, a, b, null_mut())
+        };
+        assert_eq!((status, points, primitives), (TESS_NULL_POINTER, 7, 7), "and so does this");
         let (points, indices) = unsafe { elements(held, counts.points, counts.primitives) };
         let whole = s.patch.tessellate();
         let bits = |point: &tess_core::DomainPoint| [point.u.to_bits(), point.v.to_bits()];
@@ -109,7 +99,7 @@ fn coverage_bins() {
     for s in samples() {
         let mut observed = Coverage::default();
         for i in 0.. {
-            let (status, [bin]) = asked!(tess_dpi_coverage(s, i) -> [bin]);
+            let (status, bin) = bin(&s, i);
             if status != TESS_OK {
                 assert_eq!(status, TESS_OUT_OF_RANGE, "behind the last bin of {:?}", s.factors);
                 break;
@@ -122,6 +112,17 @@ fn coverage_bins() {
         expected.record_stream(None, [case]);
         assert_eq!(observed, expected, "{case}");
     }
+}
+
+/// The status and the number of the `i`-th bin.
+fn bin(s: &Sample, i: u32) -> (u32, u32) {
+    let TessConfig { domain, partitioning, output, split } = s.config;
+    let [f0, f1, f2, f3, f4, f5] = bits(s);
+    let mut bin = 0;
+    let status = unsafe {
+        tess_dpi_coverage(domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, i, &mut bin)
+    };
+    (status, bin)
 }
 
 #[test]
