@@ -121,8 +121,9 @@ usage: cargo xtask [--yes | --no-install] <command>
   fuzz [SECONDS]
           build every fuzz target and run each, for 10 seconds by default
   mutants PACKAGE [OPTION...]
-          plant faults in tess-core, tess-level, tess-simd, tess-gpu, tess-wgpu, tess-surface or tess-verify; fails if one survives
-          the tests and dev/faults/survivors.tsv does not list it (needs cargo-mutants; takes an hour)
+          plant faults in tess-core, tess-level, tess-simd, tess-gpu, tess-wgpu, tess-surface, tess-mesh, tess-verify or
+          tess-show; fails if one survives the tests and dev/faults/survivors.tsv does not list it (needs
+          cargo-mutants; takes an hour)
   mutants planted [WORD...]
           plant the faults of dev/faults, or those with one of these words, in a copy of the tree; fails
           if the test named next to a fault does not detect it (each compiles a crate again: hours for all)
