@@ -52,3 +52,13 @@ export function setGroups(pass, groups) {
 
 // The type of a storage or uniform buffer in a bind group's layout.
 export const bindingType = (is_written) => is_written ? "storage" : "read-only-storage";
+
+// The same of a binding that the stage's manifest lists; a job is a uniform buffer.
+export const typeOf = ({ buffer, is_written }) => buffer === "job" ? "uniform" : bindingType(is_written);
+
+// The bind group of such bindings over an output's buffers, by name. The first job, of so many bytes, is that of the whole batch.
+export function bindGroup(device, layout, bindings, buffers, job_stride) {
+  const entries = bindings.map(({ binding, buffer }) =>
+    ({ binding, resource: { buffer: buffers[buffer], size: buffer === "job" ? job_stride : undefined } }));
+  return device.createBindGroup({ layout, entries });
+}

@@ -1,6 +1,6 @@
 // Draws the frames of a stage: with a fragment shader, as a shadow map, as a depth prepass.
 
-import { bindingType, need, setGroups } from "./common.js";
+import { bindGroup, need, setGroups, typeOf } from "./common.js";
 import { compile, uses, vertexModule } from "./compose.js";
 import { DRAW_BYTES } from "./meshes.js";
 
@@ -19,8 +19,8 @@ export class Material {
     const needs = "fn domain(number: u32, uv: vec2f) -> Vertex";
     const module = await compile(device, "material", code, user, needs);
     const bindings = Material.#bindings(manifest, pull, uses(user, "tess_factors"));
-    const ownLayout = bindings.length > 0 ? device.createBindGroupLayout({ entries: bindings.map(({ binding, visibility, type }) =>
-      ({ binding, visibility, buffer: { type } })) }) : undefined;
+    const ownLayout = bindings.length > 0 ? device.createBindGroupLayout({ entries: bindings.map((one) =>
+      ({ binding: one.binding, visibility: one.visibility, buffer: { type: typeOf(one) } })) }) : undefined;
     const bindGroupLayouts = [...layouts, ...(ownLayout ? [ownLayout] : [])];
     // Without WGSL of its own it has the stage's, with the stage's constants.
     const values = constants ?? (wgsl === undefined ? stage.constants : undefined);
@@ -41,17 +41,14 @@ export class Material {
     const { VERTEX, FRAGMENT } = GPUShaderStage;
     const factors = manifest.after_batch[0].bindings.filter(({ buffer }) => hasFactors && buffer === "factors");
     const pulled = (pull ? manifest.pulled : []).map((one) => ({ ...one, visibility: VERTEX }));
-    const all = [...pulled, ...factors.map((one) => ({ ...one, visibility: VERTEX | FRAGMENT }))];
-    return all.map((one) => ({ ...one, type: one.buffer === "job" ? "uniform" : bindingType(one.is_written) }));
+    return [...pulled, ...factors.map((one) => ({ ...one, visibility: VERTEX | FRAGMENT }))];
   }
 
   // Their bind group over an output.
   #group(output) {
     if (!this.groups.has(output)) {
-      const { job_stride } = this.stage.tessellator.manifest;
-      const entries = this.bindings.map(({ binding, buffer }) =>
-        ({ binding, resource: { buffer: output.all[buffer], size: buffer === "job" ? job_stride : undefined } }));
-      this.groups.set(output, this.stage.device.createBindGroup({ layout: this.ownLayout, entries }));
+      const { device, tessellator: { manifest } } = this.stage;
+      this.groups.set(output, bindGroup(device, this.ownLayout, this.bindings, output.all, manifest.job_stride));
     }
     return this.groups.get(output);
   }

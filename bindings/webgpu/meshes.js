@@ -1,16 +1,15 @@
 // The meshes of a stage: patches from a first one on, up to those of the next mesh, that are drawn one by one. After the
 // batch, a pass makes the arguments of a draw for each.
 
-import { bindingType } from "./common.js";
+import { bindGroup, typeOf } from "./common.js";
 
 // Bytes of an indexed indirect draw, and where its number of instances is.
 export const DRAW_BYTES = 20, INSTANCES_AT = 4;
 
 // The pass of a manifest on a device, which serves every set of meshes.
 export async function meshPass(device, { groups: pass, parts, job_stride }) {
-  const type = ({ buffer, is_written }) => buffer === "job" ? "uniform" : bindingType(is_written);
   const entries = pass.bindings.map((one) =>
-    ({ binding: one.binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: type(one) } }));
+    ({ binding: one.binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: typeOf(one) } }));
   const group = device.createBindGroupLayout({ entries });
   const module = device.createShaderModule({ label: "meshes", code: parts.groups });
   const layout = device.createPipelineLayout({ bindGroupLayouts: [group] });
@@ -40,9 +39,7 @@ export class Meshes {
   encode(encoder, { pipeline, layout, bindings, job_stride }, buffers, [header, at]) {
     if (!this.bound.has(buffers)) {
       const all = { ...buffers, groups: this.groups, draws: this.draws };
-      const entries = bindings.map(({ binding, buffer }) =>
-        ({ binding, resource: { buffer: all[buffer], size: buffer === "job" ? job_stride : undefined } }));
-      this.bound.set(buffers, this.device.createBindGroup({ layout, entries }));
+      this.bound.set(buffers, bindGroup(this.device, layout, bindings, all, job_stride));
     }
     const pass = encoder.beginComputePass();
     pass.setPipeline(pipeline);

@@ -5,7 +5,7 @@
 // module of WebAssembly: joining is a few replacements, and a page loads nothing but text for it.
 
 import { Tessellator } from "./tess.js";
-import { SHADERS, bindingType, get, need, needEncoder, needMost, needPatches, setGroups, value } from "./common.js";
+import { SHADERS, bindGroup, get, need, needEncoder, needMost, needPatches, setGroups, typeOf, value } from "./common.js";
 import { compile, joined, uses, vertexOf } from "./compose.js";
 import { Feedbacks } from "./feedback.js";
 import { Material } from "./material.js";
@@ -98,8 +98,8 @@ export class Stage {
     const bindings = pass.bindings.filter(({ buffer }) => pass.part !== "evaluate" || buffer !== "factors" || uses(user, "tess_factors"));
     const numbers = [...new Set(bindings.map(({ group }) => group))];
     const layouts = numbers.map((group) => device.createBindGroupLayout({
-      entries: bindings.filter((one) => one.group === group).map(({ binding, is_written }) =>
-        ({ binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: bindingType(is_written) } })),
+      entries: bindings.filter((one) => one.group === group).map((one) =>
+        ({ binding: one.binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: typeOf(one) } })),
     }));
     const users = own > 0 ? this.layouts : [];
     const layout = device.createPipelineLayout({ bindGroupLayouts: [...users, ...layouts] });
@@ -122,9 +122,7 @@ export class Stage {
     const all = { ...batch.buffers, ...buffers, window, vertices };
     const bound = ({ groups, ...pass }) => ({
       ...pass,
-      groups: groups.map(([layout, bindings]) => device.createBindGroup({
-        layout, entries: bindings.map(({ binding, buffer }) => ({ binding, resource: { buffer: all[buffer] } })),
-      })),
+      groups: groups.map(([layout, bindings]) => bindGroup(device, layout, bindings, all)),
     });
     const { workgroup_size, most_workgroups } = this.manifest;
     const workgroups = Math.min(Math.ceil(points / workgroup_size), most_workgroups);
