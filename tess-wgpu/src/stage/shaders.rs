@@ -9,7 +9,6 @@ use super::source::{self, VertexShader};
 use super::vertex::VertexLayout;
 use super::{StageError, build, fit, wgsl};
 use crate::error::Error;
-use tess_core::Domain;
 use tess_gpu::Setup;
 
 /// The complete shaders of a stage that depend on the user's WGSL: each begins with it, so that
@@ -65,6 +64,9 @@ pub struct ShaderParts {
     /// members of `Vertex`, `@location(N) tess_I: TYPE` with commas between them, and `VERTEX` for
     /// `Vertex(tess_0, tess_1, ...)`. The first must be replaced first.
     pub vertex_evaluated: String,
+    /// The same where points are pulled: with an index buffer, and without one. The bindings are
+    /// those of [`tess_gpu::Pull`], from 0 on.
+    pub vertex_pulled: [String; 2],
     /// The function `tess_factors` with its binding.
     pub factors: String,
     /// Functions that return a value of the draw: the function, the builtin, and the part.
@@ -124,9 +126,10 @@ impl FixedShaders {
 }
 
 impl ShaderParts {
-    /// The parts of a domain.
+    /// The parts of a setup.
     #[must_use]
-    pub fn new(domain: Domain) -> Self {
+    pub fn new(setup: Setup) -> Self {
+        let domain = setup.domain;
         let [vertex_stored, vertex_evaluated] = source::vertex_parts();
         let draws = source::OF_DRAWS.map(|(function, builtin)| {
             [function, builtin, &source::draw_part(function)].map(str::to_owned)
@@ -138,6 +141,7 @@ impl ShaderParts {
             vertex_stored,
             vertex_evaluated,
             factors: source::factors_part(domain),
+            vertex_pulled: source::pulled_parts(setup),
             draws: draws.into(),
         }
     }
@@ -147,7 +151,7 @@ impl ShaderParts {
 mod tests {
     use super::*;
     use crate::TessellationStage;
-    use tess_core::{Config, OutputPrimitive, Partitioning};
+    use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
     const WGSL: &str = "@group(1) @binding(0) var<uniform> eye: vec4f;\n\
         struct Vertex { @builtin(position) position: vec4f, @location(0) uv: vec2f }\n\
@@ -165,7 +169,7 @@ mod tests {
     /// What the documentation of [`ShaderParts`] says, done by hand, gives the crate's shaders.
     #[test]
     fn parts_join_to_the_shaders() {
-        let parts = ShaderParts::new(Domain::Quad);
+        let parts = ShaderParts::new(builder(WGSL).setup());
         let [instance, builtin, of_instance] = &parts.draws[0];
         let end = parts.factors.clone() + of_instance;
         let joined = |part: &str| {

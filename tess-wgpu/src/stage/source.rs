@@ -72,6 +72,16 @@ pub(crate) fn vertex_parts() -> [String; 2] {
 }
 
 /// The parameters of the vertex shader's text, apart from the user's text.
+/// The same where points are pulled: with an index buffer, and without one.
+pub(crate) fn pulled_parts(setup: Setup) -> [String; 2] {
+    [PULLED, UNINDEXED].map(|vertex| pulled_part(setup, vertex))
+}
+
+fn pulled_part(setup: Setup, vertex: &str) -> String {
+    let pull = Pull { group: 0, first_binding: 0 }.source_for_drawing(setup);
+    with_own_names(&(pull + vertex)).replace("@group(0)", "@group(GROUP)")
+}
+
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct VertexShader<'a> {
     pub(crate) setup: Setup,
@@ -107,14 +117,13 @@ impl VertexShader<'_> {
     /// The text after the types and helpers, with the parts that the user's choices fill in.
     pub(crate) fn own(self) -> String {
         let Self { setup, group, .. } = self;
-        let pull = || Pull { group, first_binding: 0 }.source_for_drawing(setup);
         let [loaded, vertex] = self.vertices.loads();
         let [stored, evaluated] = vertex_parts();
         match self.points {
             Points::Stored => stored,
             Points::Evaluated => evaluated.replace("LOADED", &loaded).replace("VERTEX", &vertex),
-            Points::Pull => with_own_names(&(pull() + PULLED)),
-            Points::PullWithoutIndices => with_own_names(&(pull() + UNINDEXED)),
+            Points::Pull => in_group(&pulled_part(setup, PULLED), group),
+            Points::PullWithoutIndices => in_group(&pulled_part(setup, UNINDEXED), group),
         }
     }
 }

@@ -145,7 +145,7 @@ impl Stage {
             ladder: fixed.ladder.clone(),
             groups: is_parts.then(|| stage_pulled::groups(setup).0),
             pulled: is_parts.then(|| stage_pulled::pulled(setup)),
-            parts: is_parts.then(|| Parts::new(setup, fixed)).transpose()?,
+            parts: is_parts.then(|| Parts::new(setup, fixed)),
         };
         Ok(Self { manifest, files })
     }
@@ -165,12 +165,10 @@ impl Stage {
 }
 
 impl Parts {
-    /// # Errors
-    /// A part is not valid.
-    fn new(setup: Setup, fixed: FixedShaders) -> Result<Self, String> {
-        let parts = ShaderParts::new(setup.domain);
-        let [vertex_pulled, vertex_unindexed] = stage_pulled::vertex_parts(setup)?;
-        Ok(Self {
+    fn new(setup: Setup, fixed: FixedShaders) -> Self {
+        let parts = ShaderParts::new(setup);
+        let [vertex_pulled, vertex_unindexed] = parts.vertex_pulled;
+        Self {
             shared: parts.shared,
             hull: parts.hull,
             copy_factors: fixed.copy_factors,
@@ -183,7 +181,7 @@ impl Parts {
             groups: stage_pulled::groups(setup).1,
             factors: parts.factors,
             draws: parts.draws,
-        })
+        }
     }
 }
 
