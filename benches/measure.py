@@ -203,12 +203,12 @@ PASSES = {"1": "one pass", "2": "two passes", "4": "four passes"}
 
 
 def of_evaluated(outputs):
-    """Frames of evaluated points as multiples of those of stored points, at factors 4, 16 and 64; and from a storage buffer."""
+    """Frames of evaluated points as multiples of those of stored points, at factors 4, 16 and 64; and as attributes."""
     line = r"^ *(\d+) +(4|16|64) +(\d+) +(\d+)(?: +[\d.]+){4} +([\d.]+) +([\d.]+)$"
     rows = {}
-    for size, _, octaves, passes, evaluated, storage in re.findall(line, outputs[0], re.MULTILINE):
+    for size, _, octaves, passes, evaluated, attributes in re.findall(line, outputs[0], re.MULTILINE):
         row = rows.setdefault((int(size), int(octaves)), {})
-        for key, ratio in ((PASSES[passes], evaluated), (f"{PASSES[passes]}, storage", storage)):
+        for key, ratio in ((PASSES[passes], evaluated), (f"{PASSES[passes]}, attributes", attributes)):
             row.setdefault(key, []).append(f"{float(ratio):.2f}")
     cells = lambda row: {key: " / ".join(ratios) for key, ratios in row.items()}
     return [{"bytes": size, "octaves": octaves, **cells(row)} for (size, octaves), row in rows.items()]
@@ -309,7 +309,7 @@ MEASUREMENTS = {
         Code(GPU.packages, files_of_gpu("evaluated.rs", "evaluated")),
         [["gpu", "evaluated"]],
         of_evaluated,
-        ["bytes", "octaves", *PASSES.values(), "one pass, storage", "four passes, storage"],
+        ["bytes", "octaves", *PASSES.values(), "one pass, attributes", "four passes, attributes"],
     ),
     "gpu-crossover": Measurement(
         "gpu",

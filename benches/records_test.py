@@ -69,7 +69,7 @@ def test_rows_of_each_program():
     assert crossover[0] == {"patches": 1, "uniform-1": "0.3 / 13 / 102"} and len(crossover) == 6, crossover
     row = "   48 {:6}       2 {:6}    100.0    200.0    110.0    {:5}  {:5.3f}    1.300\n"
     evaluated = of_evaluated(["NVIDIA\nbytes factor\n" + row.format(4, 1, 220.0, 1.104) + row.format(16, 1, 300.0, 1.5) + "\n     4      1    VertexCache    200.0     220.0  1.100\n"])
-    assert evaluated == [{"bytes": 48, "octaves": 2, "one pass": "1.10 / 1.50", "one pass, storage": "1.30 / 1.30"}], evaluated
+    assert evaluated == [{"bytes": 48, "octaves": 2, "one pass": "1.10 / 1.50", "one pass, attributes": "1.30 / 1.30"}], evaluated
     stage = of_stage(["head\npoints  triangles  prepare us  draw us  G\nstored     994756         118      802    1.081\n"])
     assert stage == [{"points": "stored", "triangles": 994756, "prepare_us": 118, "draw_us": 802, "G_triangles/s": 1.081}], stage
     criterion = "first/a tessellator/avx2  time:   [1.0 ns 70.4 ns 80 ns]\n                        change: [-1%]\nfirst/a tessellator/avx512\n                        time:   [1 µs 1.5 µs 2 µs]\n"

@@ -11,6 +11,7 @@ mod fit;
 mod frame;
 mod frames;
 mod gl;
+mod loads;
 mod material;
 mod mistakes;
 mod modules;

@@ -5,7 +5,7 @@ use super::choices::{Factors, Overflow, Points, Room};
 use super::program::Program;
 use super::room::Form;
 use super::source::VertexShader;
-use super::vertex::VertexLayout;
+use super::vertex::{Load, VertexLayout};
 use super::wgsl;
 use crate::Tessellator;
 use crate::error::Error;
@@ -152,7 +152,8 @@ impl<'a> StageBuilder<'a> {
         }
         let vertices = &self.vertex_layout()?;
         let (setup, group) = (self.setup(), self.program.own_group());
-        let shader = VertexShader { setup, points: self.points, group, project, vertices };
+        let (points, load) = (self.points, Load::Attributes);
+        let shader = VertexShader { setup, points, load, group, project, vertices };
         Ok(shader.with(source))
     }
 

@@ -33,8 +33,10 @@ pub enum Points {
     /// Computed for each corner of each primitive; there are no buffers of points and indices. The
     /// vertex shader binds the same buffers as with [`Points::Pull`].
     PullWithoutIndices,
-    /// From a vertex buffer of the user's `Vertex` structs, with an index buffer. After the
-    /// tessellation, a compute pass calls `domain` once for each point, and draws load the results.
+    /// From a buffer of the user's `Vertex` structs, with an index buffer. After the tessellation,
+    /// a compute pass calls `domain` once for each point, and draws load the results: as attributes
+    /// up to 32 bytes, and larger ones from a storage buffer, which is faster, where a binding
+    /// holds all of them and a bind group is left (natively, not on OpenGL).
     /// Choose it for a long `domain`, above all if a frame has several passes, and to trace, pick
     /// or export the surface: see
     /// [`TessellationStage::vertices`](super::TessellationStage::vertices).

@@ -8,6 +8,7 @@ pub use builder::MaterialBuilder;
 use super::frame::{Frame, WeakCount};
 use super::own_group::OwnLayout;
 use super::user_groups::UserGroups;
+use super::vertex::Load;
 use super::{StageError, TessellationStage};
 use crate::device::gpu;
 use crate::error::Error;
@@ -21,13 +22,23 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Material {
     device: wgpu::Device,
-    pipeline: Arc<wgpu::RenderPipeline>,
+    /// The better way comes first; the last one is for every frame.
+    ways: Vec<Way>,
     bind_groups: UserGroups,
-    /// The layout of the stage's own bind group, if the draws need one.
-    own: Option<OwnLayout>,
     stage: WeakCount,
     /// Held as long as the material lives, for [`StageError::ProjectForgotten`].
     _kind: Option<Arc<()>>,
+}
+
+/// A way to draw a frame.
+#[derive(Debug)]
+struct Way {
+    load: Load,
+    /// The most bytes of evaluated vertices that a frame may have.
+    most_bytes: u64,
+    pipeline: Arc<wgpu::RenderPipeline>,
+    /// The layout of the stage's own bind group, if the draws need one.
+    own: Option<OwnLayout>,
 }
 
 impl TessellationStage {
@@ -77,10 +88,13 @@ impl Material {
         group: Option<u32>,
     ) -> Result<(), Error> {
         frame.check(&self.stage)?;
-        let own = self.own.as_ref();
-        let own = own.map(|layout| frame.output.own(&self.device, layout)).transpose()?;
+        let bytes = frame.output.vertex_bytes();
+        let fits = |way: &&Way| bytes <= way.most_bytes;
+        let way = self.ways.iter().find(fits).or(self.ways.last());
+        let Some(Way { load, pipeline, own, .. }) = way else { return Ok(()) };
+        let own = own.as_ref().map(|layout| frame.output.own(&self.device, layout)).transpose()?;
         gpu::recorded(&self.device, || {
-            pass.set_pipeline(&self.pipeline);
+            pass.set_pipeline(pipeline);
             let mut next = 0;
             for (number, group, offsets) in self.bind_groups.iter() {
                 pass.set_bind_group(number, group, offsets);
@@ -89,7 +103,7 @@ impl Material {
             if let Some(own) = own {
                 pass.set_bind_group(next, own, &[]);
             }
-            frame.output.draw(pass, group);
+            frame.output.draw(pass, *load, group);
         })
     }
 

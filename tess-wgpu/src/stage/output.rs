@@ -5,6 +5,7 @@ use super::evaluation::{Evaluation, Window};
 use super::gl;
 use super::own_group::{OwnGroups, OwnLayout};
 use super::room::Form;
+use super::vertex::Load;
 use crate::device::gpu;
 use crate::error::Error;
 use crate::{Batch, Outputs, Tessellator};
@@ -45,7 +46,8 @@ impl Stored {
         };
         let primitive_bytes = u64::from(form.setup.primitive_bytes());
         let index_bytes = (u64::from(room.primitives) * primitive_bytes).next_multiple_of(8);
-        let vertex_bytes = u64::from(form.vertex_bytes) * u64::from(room.points);
+        // A binding of vertices holds one at least.
+        let vertex_bytes = u64::from(form.vertex_bytes) * u64::from(room.points.max(1));
         let points = (form.points.are_written())
             .then(|| make("points", 8 * u64::from(room.points), Usage::VERTEX))
             .transpose()?;
@@ -105,19 +107,25 @@ impl StageOutput {
         device: &wgpu::Device,
         layout: &OwnLayout,
     ) -> Result<&wgpu::BindGroup, Error> {
-        self.own.of(device, layout, &self.batch)
+        self.own.of(device, layout, (&self.batch, self.stored.vertices.as_ref()))
+    }
+
+    /// Bytes of the evaluated vertices; 0 if there are none.
+    pub(super) fn vertex_bytes(&self) -> u64 {
+        self.stored.vertices.as_ref().map_or(0, wgpu::Buffer::size)
     }
 
     /// Draws with the arguments of the whole batch or of one of its groups. The caller has set the
-    /// pipeline and all bind groups.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, of_group: Option<u32>) {
+    /// pipeline, whose vertex shader loads in this way, and all bind groups.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, load: Load, of_group: Option<u32>) {
         let (arguments, offset) = match of_group {
             None => (self.batch.draw_arguments(), 0),
             Some(group) => {
                 (self.batch.group_arguments(), u64::from(group) * TessellationStage::GROUP_BYTES)
             }
         };
-        if let Some(vertices) = self.stored.loaded().or(self.stored.unread.as_ref()) {
+        let attributes = self.stored.loaded().or(self.stored.unread.as_ref());
+        if let Some(vertices) = attributes.filter(|_| load == Load::Attributes) {
             pass.set_vertex_buffer(0, vertices.slice(..));
         }
         match &self.stored.indices {

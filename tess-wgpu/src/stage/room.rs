@@ -201,6 +201,18 @@ impl Form {
         all
     }
 
+    /// The most bytes of evaluated vertices that a frame with this room can have.
+    pub(crate) fn most_vertex_bytes(self, room: Room) -> u64 {
+        let of_points = |points: u32| u64::from(points) * u64::from(self.vertex_bytes);
+        match room {
+            Room::Automatic { most_bytes } => {
+                let most = Capacity { points: u32::MAX, primitives: u32::MAX };
+                of_points(self.possible(most).points).min(most_bytes)
+            }
+            _ => of_points(self.initial(room).points),
+        }
+    }
+
     /// Bytes of the raw factors of all patches.
     pub(crate) fn factor_bytes(self) -> u64 {
         4 * u64::from(self.setup.factors()) * u64::from(self.patches)

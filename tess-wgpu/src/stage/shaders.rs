@@ -6,7 +6,7 @@
 use super::builder::StageBuilder;
 use super::choices::Points;
 use super::source::{self, VertexShader};
-use super::vertex::VertexLayout;
+use super::vertex::{Load, VertexLayout};
 use super::{StageError, build, fit, wgsl};
 use crate::error::Error;
 use tess_gpu::Setup;
@@ -97,7 +97,8 @@ impl StageBuilder<'_> {
             return Err(StageError::Wgsl { line: None, message }.into());
         }
         let vertices = self.vertex_layout()?;
-        let shader = VertexShader { setup, points, group, project, vertices: &vertices };
+        let load = Load::Attributes;
+        let shader = VertexShader { setup, points, load, group, project, vertices: &vertices };
         Ok(UserShaders {
             group,
             hull: has("hull").then(|| source::of_hull(user, setup.domain, group)),
@@ -140,8 +141,8 @@ impl ShaderParts {
             evaluate: source::evaluation_part(),
             vertex_stored,
             vertex_evaluated,
-            factors: source::factors_part(domain),
             vertex_pulled: source::pulled_parts(setup),
+            factors: source::factors_part(domain),
             draws: draws.into(),
         }
     }

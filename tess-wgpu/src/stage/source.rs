@@ -3,7 +3,7 @@
 //! The user's text comes first, so that its line numbers stay the same in the joined text.
 
 use super::choices::Points;
-use super::vertex::VertexLayout;
+use super::vertex::{Load, VertexLayout};
 use super::{StageError, wgsl};
 use tess_core::Domain;
 use tess_gpu::{Pull, Setup};
@@ -18,6 +18,7 @@ const STORED: &str = include_str!("../../shaders/vertex_stored.wgsl");
 const PULLED: &str = include_str!("../../shaders/vertex_pulled.wgsl");
 const UNINDEXED: &str = include_str!("../../shaders/vertex_unindexed.wgsl");
 const EVALUATED: &str = include_str!("../../shaders/vertex_evaluated.wgsl");
+const LOADED: &str = include_str!("../../shaders/vertex_loaded.wgsl");
 
 /// The binding of the factors that `tess_factors` reads, in the stage's own group. It is above all
 /// others there.
@@ -71,7 +72,6 @@ pub(crate) fn vertex_parts() -> [String; 2] {
     [UNPACK.to_owned() + "\n" + STORED, EVALUATED.to_owned()]
 }
 
-/// The parameters of the vertex shader's text, apart from the user's text.
 /// The same where points are pulled: with an index buffer, and without one.
 pub(crate) fn pulled_parts(setup: Setup) -> [String; 2] {
     [PULLED, UNINDEXED].map(|vertex| pulled_part(setup, vertex))
@@ -82,10 +82,13 @@ fn pulled_part(setup: Setup, vertex: &str) -> String {
     with_own_names(&(pull + vertex)).replace("@group(0)", "@group(GROUP)")
 }
 
+/// The parameters of the vertex shader's text, apart from the user's text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct VertexShader<'a> {
     pub(crate) setup: Setup,
     pub(crate) points: Points,
+    /// How the shader gets its vertices, where points are evaluated.
+    pub(crate) load: Load,
     /// The number of the stage's own bind group.
     pub(crate) group: u32,
     /// The user's function that every draw runs.
@@ -96,7 +99,7 @@ pub(crate) struct VertexShader<'a> {
 
 impl VertexShader<'_> {
     /// The module whose entry point is `tess_vertex`. Where points are pulled, its own bindings are
-    /// 0 to 5 of the stage's bind group.
+    /// 0 to 5 of the stage's bind group; where vertices are loaded from a storage buffer, it is 0.
     pub(crate) fn with(self, user: &str) -> String {
         let of_draws = of_draws(user, self.setup.domain, self.group);
         let (mut builtins, mut begin) = (String::new(), String::new());
@@ -121,6 +124,7 @@ impl VertexShader<'_> {
         let [stored, evaluated] = vertex_parts();
         match self.points {
             Points::Stored => stored,
+            Points::Evaluated if self.load == Load::Storage => in_group(LOADED, group),
             Points::Evaluated => evaluated.replace("LOADED", &loaded).replace("VERTEX", &vertex),
             Points::Pull => in_group(&pulled_part(setup, PULLED), group),
             Points::PullWithoutIndices => in_group(&pulled_part(setup, UNINDEXED), group),
@@ -303,7 +307,7 @@ mod tests {
         static LAYOUT: std::sync::LazyLock<VertexLayout> = std::sync::LazyLock::new(|| {
             VertexLayout::of(&wgsl::declarations(&user(Domain::Quad))).expect("a sound struct")
         });
-        VertexShader { setup, points, group: 1, project, vertices: &LAYOUT }
+        VertexShader { setup, points, load: Load::Attributes, group: 1, project, vertices: &LAYOUT }
     }
 
     /// Every module of the stage, with names of the stage's own shaders in the user's text.
@@ -323,6 +327,8 @@ mod tests {
                         all.push(vertex_shader(setup, points, None).with(&user));
                         all.push(vertex_shader(setup, points, Some("turned")).with(&busy));
                     }
+                    let loaded = vertex_shader(setup, Points::Evaluated, None);
+                    all.push(VertexShader { load: Load::Storage, ..loaded }.with(&busy));
                 }
             }
         }

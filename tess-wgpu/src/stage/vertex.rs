@@ -1,7 +1,8 @@
 //! The user's `struct Vertex` as a vertex buffer holds it.
 //!
 //! With [`Points::Evaluated`](super::Points::Evaluated) a compute pass writes an array of this
-//! struct, and the vertex shader loads its members as attributes. WGSL fixes the offsets of a
+//! struct, and the vertex shader loads its members as attributes, or large structs whole
+//! (`loads.rs`). WGSL fixes the offsets of a
 //! struct's members, so both see the same bytes:
 //!
 //! ```text
@@ -22,6 +23,15 @@ use super::StageError;
 use super::wgsl::{self, Declaration};
 use std::collections::BTreeMap;
 use wgpu::VertexFormat as Format;
+
+/// How a vertex shader gets evaluated vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Load {
+    /// Each member of `Vertex` is an attribute of a vertex buffer.
+    Attributes,
+    /// The index of the vertex is its place in a storage buffer of the stage's own bind group.
+    Storage,
+}
 
 /// The layout of [`TessellationStage::vertices`](super::TessellationStage::vertices).
 #[derive(Clone, Debug, PartialEq, Eq)]

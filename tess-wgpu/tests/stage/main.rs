@@ -18,6 +18,7 @@ mod evaluated;
 mod frames;
 #[path = "../common/sequences.rs"]
 mod hold;
+mod loaded;
 #[cfg(target_os = "linux")]
 mod lost;
 mod model;

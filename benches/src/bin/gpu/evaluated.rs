@@ -1,6 +1,6 @@
 //! Times frames that draw one tessellation in one, two or four passes: with `domain` in each vertex
-//! shader, or evaluated once. Evaluated vertices are loaded as attributes, as the stage does it,
-//! and for comparison from a storage buffer.
+//! shader, or evaluated once. Evaluated vertices are loaded as the stage does it, from a storage
+//! buffer if they are large, and for comparison as attributes.
 
 mod scene;
 
@@ -90,9 +90,11 @@ impl Bench {
     /// Vertices of each size, with all factors, octaves and numbers of passes.
     fn compare_forms(&self) -> Result<()> {
         println!(
-            "                                    stored us         evaluated us          storage"
+            "                                    stored us         evaluated us       attributes"
         );
-        println!("bytes factor octaves passes  prepare    frame  prepare    frame  ratio    ratio");
+        println!(
+            "bytes factor octaves passes  prepare    frame  prepare    frame  ratio      ratio"
+        );
         for form in &FORMS {
             for size in SIZES {
                 for octaves in OCTAVES {
@@ -112,13 +114,13 @@ impl Bench {
         (text, octaves): (&str, u32),
     ) -> Result<()> {
         let of = |way| Scene::new(&self.gpu, (text, side * side), way, Order::VertexCache);
-        let [stored, evaluated, storage] =
-            [of(Way::Stored)?, of(Way::Evaluated)?, of(Way::Storage)?];
+        let [stored, evaluated, attributes] =
+            [of(Way::Stored)?, of(Way::Evaluated)?, of(Way::Attributes)?];
         for passes in PASSES {
             let [[a, b], [c, d]] = [self.times(&stored, passes)?, self.times(&evaluated, passes)?];
-            let [_, e] = self.times(&storage, passes)?;
+            let [_, e] = self.times(&attributes, passes)?;
             println!(
-                "{:5} {factor:6} {octaves:7} {passes:6} {a:8.1} {b:8.1} {c:8.1} {d:8.1} {:6.3} {:8.3}",
+                "{:5} {factor:6} {octaves:7} {passes:6} {a:8.1} {b:8.1} {c:8.1} {d:8.1} {:6.3} {:10.3}",
                 form.bytes,
                 d / b,
                 e / b
@@ -152,7 +154,7 @@ impl Bench {
     fn times(&self, scene: &Scene, passes: usize) -> Result<[f64; 2]> {
         let time = |passes| {
             let record = |encoder: &mut wgpu::CommandEncoder| {
-                scene.record(&self.gpu, encoder, &self.targets, passes);
+                scene.record(encoder, &self.targets, passes);
             };
             device_time(&self.gpu, &self.stopwatch, LONG_ENOUGH, record)
         };

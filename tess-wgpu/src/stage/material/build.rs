@@ -1,17 +1,17 @@
 //! Builds a material: checks what the builder got, then makes the render pipeline.
 
-use super::Material;
 use super::builder::{MaterialBuilder, Project, Render};
+use super::{Material, Way};
 use crate::device::pipeline;
 use crate::device::pipelines::PipelineKey;
 use crate::error::{Error, checked};
 use crate::stage::build::now;
-use crate::stage::own_group::{self, OwnLayout};
+use crate::stage::own_group::{self, OwnLayout, Reads};
 use crate::stage::source::VertexShader;
 use crate::stage::user_groups::UserGroups;
-use crate::stage::vertex::VertexLayout;
+use crate::stage::vertex::{Load, VertexLayout};
 use crate::stage::wgsl::{self, Declaration};
-use crate::stage::{Points, StageError, gl, mistakes, modules, passes, source};
+use crate::stage::{Points, StageError, gl, loads, mistakes, modules, passes, source};
 use std::sync::Arc;
 use tess_gpu::Setup;
 
@@ -50,20 +50,49 @@ async fn material(builder: MaterialBuilder<'_>) -> Result<Material, Error> {
     };
     let (setup, points) = (form.setup, form.points);
     let (group, vertices) = (builder.program.own_group(), &stage.vertices);
-    let shader = VertexShader { setup, points, group, project, vertices };
+    let load = Load::Attributes;
+    let shader = VertexShader { setup, points, load, group, project, vertices };
     check(&builder, shader)?;
     let kind = kind(&builder)?;
-    let has_factors = builder.program.has_factors();
-    let own = OwnLayout::new(&stage.tessellator, form, has_factors)?;
-    let pipeline = render_pipeline(&builder, shader, own.as_ref()).await?;
+    let ways = ways(&builder, shader).await?;
     Ok(Material {
         device: stage.tessellator.device().clone(),
-        pipeline,
+        ways,
         bind_groups: UserGroups::new(builder.program.bind_groups),
-        own,
         stage: stage.frames.downgrade(),
         _kind: kind,
     })
+}
+
+/// The ways to draw that the stage's frames need.
+async fn ways(builder: &MaterialBuilder<'_>, shader: VertexShader<'_>) -> Result<Vec<Way>, Error> {
+    let mut ways = Vec::new();
+    for &load in loads::of(builder.stage, &builder.program) {
+        match way(builder, VertexShader { load, ..shader }).await {
+            Ok(way) => ways.push(way),
+            // The user's bind groups may leave no storage buffer. What else is wrong, attributes
+            // tell as well.
+            Err(_) if load == Load::Storage => {}
+            Err(error) => return Err(error),
+        }
+    }
+    if ways.is_empty() {
+        ways.push(way(builder, shader).await?);
+    }
+    Ok(ways)
+}
+
+/// Draws whose vertex shader loads as `shader` does.
+async fn way(builder: &MaterialBuilder<'_>, shader: VertexShader<'_>) -> Result<Way, Error> {
+    let (tessellator, load) = (&builder.stage.tessellator, shader.load);
+    let reads = Reads { load, has_factors: builder.program.has_factors() };
+    let own = OwnLayout::new(tessellator, builder.stage.form, reads)?;
+    let pipeline = render_pipeline(builder, shader, own.as_ref()).await?;
+    let most_bytes = match load {
+        Load::Attributes => u64::MAX,
+        Load::Storage => tessellator.device().limits().max_storage_buffer_binding_size,
+    };
+    Ok(Way { load, most_bytes, pipeline, own })
 }
 
 /// Refuses what the device or the stage cannot do.
@@ -152,7 +181,7 @@ async fn render_pipeline(
     let mut pipelines = tessellator.pipelines();
     let of = (&module, &layout);
     let cache = pipelines.cache.as_ref();
-    let made = new_render_pipeline(builder, of, (&key, cache));
+    let made = new_render_pipeline(builder, of, (&key, cache), shader.load);
     let made = made.map_err(|error| mistakes::explained(error, user, "VERTEX_FRAGMENT"))?;
     Ok(pipelines.draws.keep(key, made))
 }
@@ -161,9 +190,10 @@ fn new_render_pipeline(
     MaterialBuilder { stage, render, .. }: &MaterialBuilder<'_>,
     (module, layout): (&wgpu::ShaderModule, &wgpu::PipelineLayout),
     (key, cache): (&PipelineKey, Option<&wgpu::PipelineCache>),
+    load: Load,
 ) -> Result<wgpu::RenderPipeline, Error> {
     let (device, vertices) = (stage.tessellator.device(), &stage.vertices);
-    let has_points = stage.form.points.are_written();
+    let has_points = stage.form.points.are_written() && load == Load::Attributes;
     let own = if has_points { &vertices.attributes[..] } else { &[] };
     let attributes = gl::attributes(device, own);
     let buffer = wgpu::VertexBufferLayout {

@@ -45,7 +45,8 @@ impl<'a> MaterialBuilder<'a> {
 
     /// Adds the user's next bind group of the draws: the first call adds `@group(0)`, the second
     /// `@group(1)`, and so on. A device allows 4 by default, of which draws take one if points are
-    /// pulled or if the WGSL calls `tess_factors`.
+    /// pulled or if the WGSL calls `tess_factors`, and where it is left for large evaluated
+    /// vertices.
     ///
     /// The entries of the layout need the visibility `VERTEX` for the function of
     /// [`Self::project`] and for `domain`, unless points are evaluated, and `FRAGMENT` for the

@@ -3,7 +3,7 @@
 use crate::Result;
 use std::cell::RefCell;
 use tess_core::{Config, Domain, Order, OutputPrimitive, Partitioning};
-use tess_wgpu::stage::{Frame, Material, Points, Room};
+use tess_wgpu::stage::{Frame, Material, Points, Room, VertexLayout};
 use tess_wgpu::{Gpu, TessellationStage};
 
 /// The width and height of a target in pixels.
@@ -19,10 +19,10 @@ const CAMERAS: [&str; 4] = ["camera_0", "camera_1", "camera_2", "camera_3"];
 pub(crate) enum Way {
     /// The vertex shader calls `domain`.
     Stored,
-    /// Evaluated vertices are attributes.
+    /// Evaluated vertices are loaded as the stage does it.
     Evaluated,
-    /// The vertex shader loads evaluated vertices from a storage buffer.
-    Storage,
+    /// Evaluated vertices are attributes.
+    Attributes,
 }
 
 /// The colour and the depth target.
@@ -37,7 +37,7 @@ pub(crate) struct Scene {
 
 enum Pass {
     Material(Material),
-    Storage(wgpu::RenderPipeline),
+    Attributes(wgpu::RenderPipeline),
 }
 
 impl Scene {
@@ -49,20 +49,23 @@ impl Scene {
     ) -> Result<Self> {
         let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
         let points = if way == Way::Stored { Points::Stored } else { Points::Evaluated };
-        let mut stage = TessellationStage::builder(text, Domain::Quad, config, patches)
+        let builder = TessellationStage::builder(text, Domain::Quad, config, patches)
             .points(points)
             .order(order)
-            .room(Room::Automatic { most_bytes: 1 << 30 })
-            .build(&gpu.device)?;
+            .room(Room::Automatic { most_bytes: 1 << 30 });
+        let mut stage = builder.clone().build(&gpu.device)?;
         let passes = CAMERAS.iter().enumerate().map(|(number, camera)| match way {
-            Way::Storage => Ok(Pass::Storage(from_storage(gpu, text, camera, number == 0))),
+            Way::Attributes => {
+                let shader = (builder.vertex_shader(Some(camera))?, stage.vertex_layout());
+                Ok(Pass::Attributes(by_attributes(gpu, shader, number == 0)))
+            }
             Way::Stored | Way::Evaluated => {
                 let material = stage.material(text).project(camera).depth(depth());
                 let material = if number == 0 { material.target(FORMAT) } else { material };
                 material.build().map(Pass::Material)
             }
         });
-        let passes = passes.collect::<std::result::Result<_, _>>()?;
+        let passes = passes.collect::<std::result::Result<_, tess_wgpu::Error>>()?;
         // The first run has the room of a new stage, and makes more; the second tells of that.
         stage.make_room(&gpu.queue, patches)?;
         let found = stage.make_room(&gpu.queue, patches)?;
@@ -75,7 +78,6 @@ impl Scene {
     /// Records a frame: one `prepare`, and this number of passes.
     pub(crate) fn record(
         &self,
-        gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
         passes: usize,
@@ -85,33 +87,20 @@ impl Scene {
         let frame = frame.expect("the device works and the number is the stage's");
         for (number, pass) in self.passes.iter().take(passes).enumerate() {
             let mut target = targets.begin(encoder, number == 0);
-            pass.draw(gpu, &mut target, (&stage, &frame));
+            pass.draw(&mut target, (&stage, &frame));
         }
     }
 }
 
 impl Pass {
-    fn draw(
-        &self,
-        gpu: &Gpu,
-        pass: &mut wgpu::RenderPass<'_>,
-        (stage, frame): (&TessellationStage, &Frame),
-    ) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, (stage, frame): (&TessellationStage, &Frame)) {
         match self {
             Self::Material(material) => material.draw(pass, frame).expect("it is the last frame"),
-            Self::Storage(pipeline) => {
+            Self::Attributes(pipeline) => {
                 let (vertices, indices) =
                     stage.vertices().zip(stage.indices()).expect("they are stored");
-                let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                    label: None,
-                    layout: &pipeline.get_bind_group_layout(0),
-                    entries: &[wgpu::BindGroupEntry {
-                        binding: 0,
-                        resource: vertices.as_entire_binding(),
-                    }],
-                });
                 pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &group, &[]);
+                pass.set_vertex_buffer(0, vertices.slice(..));
                 pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
                 pass.draw_indexed_indirect(&stage.indirect(), 0);
             }
@@ -119,14 +108,13 @@ impl Pass {
     }
 }
 
-/// The pipeline of a vertex shader that loads evaluated vertices by their numbers.
-fn from_storage(gpu: &Gpu, text: &str, camera: &str, has_colour: bool) -> wgpu::RenderPipeline {
-    let own = format!(
-        "@group(0) @binding(0) var<storage, read> loaded: array<Vertex>;\n\
-         @vertex fn from_storage(@builtin(vertex_index) at: u32) -> Vertex {{\n    \
-             return {camera}(loaded[at]);\n}}\n"
-    );
-    let source = wgpu::ShaderSource::Wgsl(TessellationStage::joined(text, &own).into());
+/// The pipeline of a vertex shader that gets evaluated vertices as attributes of this layout.
+fn by_attributes(
+    gpu: &Gpu,
+    (text, layout): (String, &VertexLayout),
+    has_colour: bool,
+) -> wgpu::RenderPipeline {
+    let source = wgpu::ShaderSource::Wgsl(text.into());
     let module =
         gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
     let targets = [Some(FORMAT.into())];
@@ -137,13 +125,13 @@ fn from_storage(gpu: &Gpu, text: &str, camera: &str, has_colour: bool) -> wgpu::
         targets: &targets,
     };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("from a storage buffer"),
+        label: Some("attributes"),
         layout: None,
         vertex: wgpu::VertexState {
             module: &module,
-            entry_point: Some("from_storage"),
+            entry_point: Some("tess_vertex"),
             compilation_options: Default::default(),
-            buffers: &[],
+            buffers: &[Some(layout.buffer())],
         },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: Some(depth()),
