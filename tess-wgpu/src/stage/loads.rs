@@ -1,8 +1,8 @@
 //! How a draw gets its vertices where points are evaluated ([`Points::Evaluated`]).
 //!
 //! A device's fetch of attributes limits frames whose vertices are large: on an H200, two million
-//! triangles of 48 bytes took 1.24, 1.61 and 1.40 times the frame of stored points with attributes,
-//! and 1.10, 1.28 and 1.22 with loads from a storage buffer (factors 4, 16 and 64). Up to 32 bytes
+//! triangles of 48 bytes took 1.21, 1.51 and 1.28 times the frame of stored points with attributes,
+//! and 1.07, 1.25 and 1.13 with loads from a storage buffer (factors 4, 16 and 64). Up to 32 bytes
 //! both took the same time. So large vertices are loaded, wherever the draw can bind all of them:
 //!
 //! ```text
