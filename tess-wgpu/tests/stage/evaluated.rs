@@ -57,10 +57,8 @@ fn the_vertices_are_what_domain_returns_for_the_models_points() {
     }
 }
 
-/// One binding holds only part of the vertices: 4 MiB hold 3968 vertices of 1056 bytes, so these
-/// quads take five windows.
-#[test]
-fn vertices_beyond_one_binding_are_evaluated_in_windows() {
+/// Large quads on a device whose bindings hold 4 MiB.
+pub(crate) fn on_small_bindings() -> Scene {
     let gpu = limited(wgpu::Limits {
         max_storage_buffer_binding_size: 4 << 20,
         ..wgpu::Limits::default()
@@ -68,7 +66,14 @@ fn vertices_beyond_one_binding_are_evaluated_in_windows() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let patches = [40.0, 41.0, 64.0, 0.0, 50.0, 1.0, 63.0, 47.0]
         .map(|factor| PatchFactors::uniform(Domain::Quad, factor));
-    let scene = Scene::on(gpu, Domain::Quad, config, patches.to_vec());
+    Scene::on(gpu, Domain::Quad, config, patches.to_vec())
+}
+
+/// One binding holds only part of the vertices: 4 MiB hold 3968 vertices of 1056 bytes, so these
+/// quads take five windows.
+#[test]
+fn vertices_beyond_one_binding_are_evaluated_in_windows() {
+    let scene = on_small_bindings();
     let wide = source(Domain::Quad)
         .replace("@builtin(position) position", "@size(1040) @builtin(position) position");
     let build =
@@ -77,7 +82,7 @@ fn vertices_beyond_one_binding_are_evaluated_in_windows() {
     let mut stage = build(&wide, Room::Bytes(32 << 20));
     assert_eq!(stage.vertex_layout().array_stride, 1056, "1040, 8 and 4, rounded up to 16");
     let room = stage.capacity();
-    let needed: usize = model(&scene, &patches).len();
+    let needed: usize = model(&scene, &scene.patches).len();
     assert!(room.points as usize > needed && needed > 4 * 3968, "{room:?} for {needed}");
     let expected = scene.frame(&mut narrow, PATCHES.into()).expect("it draws");
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");

@@ -1,12 +1,12 @@
 //! Evaluated vertices of more than 32 bytes: loaded from a storage buffer where a draw can bind
 //! them, and as attributes elsewhere. The pictures are those of small vertices.
 
-use crate::common::device::limited;
 use crate::common::objects::{group, layout, storage, whole};
 use crate::drawing::scene;
+use crate::evaluated::on_small_bindings;
 use crate::model::{compare, drawn};
 use crate::scene::{FORMAT, PATCHES, Scene, source};
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_core::{Domain, Partitioning};
 use tess_gpu::Capacity;
 use tess_wgpu::stage::{Material, Points, Room};
 use wgpu::ShaderStages;
@@ -85,14 +85,7 @@ fn loaded_vertices_go_with_the_factors() {
 /// no frame is lost on the way.
 #[test]
 fn room_that_outgrows_a_binding_is_drawn_with_attributes() {
-    let gpu = limited(wgpu::Limits {
-        max_storage_buffer_binding_size: 4 << 20,
-        ..wgpu::Limits::default()
-    });
-    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-    let patches = [40.0, 41.0, 64.0, 0.0, 50.0, 1.0, 63.0, 47.0]
-        .map(|factor| PatchFactors::uniform(Domain::Quad, factor));
-    let scene = Scene::on(gpu, Domain::Quad, config, patches.to_vec());
+    let scene = on_small_bindings();
     let (small, large) = (source(Domain::Quad), wide(&source(Domain::Quad), 512));
     let of = |text, room| scene.build(scene.builder_of(text).room(room).points(Points::Evaluated));
     let mut stage = of(&large, Room::Automatic { most_bytes: 32 << 20 });
