@@ -45,6 +45,19 @@ pub(crate) fn guarded<T>(
     Ok((made, Guard(number)))
 }
 
+/// Runs all cleanups, also those that are registered meanwhile. Nothing is registered while the
+/// result is held.
+#[cfg(unix)]
+fn undo_all() -> MutexGuard<'static, Cleanups> {
+    loop {
+        let mut cleanups = lock();
+        let Some((_, cleanup)) = cleanups.pending.pop_last() else { return cleanups };
+        // The lock is not held during a cleanup, because a cleanup may write a file.
+        drop(cleanups);
+        cleanup();
+    }
+}
+
 /// Starts to listen for the signals with which users and batch systems end a process. The cleanups
 /// run first; the process then ends as it would have without them. If no thread can be started,
 /// signals end the process at once. A closing terminal is such a signal too, unless it is ignored,
@@ -57,12 +70,9 @@ fn listen() {
     let wait = move || {
         let signal = take.recv().ok().and_then(|mut signals| signals.forever().next());
         let Some(signal) = signal else { return };
-        loop {
-            // The lock is not held during a cleanup, because a cleanup may write a file.
-            let cleanup = lock().pending.pop_last();
-            let Some((_, cleanup)) = cleanup else { break };
-            cleanup();
-        }
+        // With nothing left to undo, the lock is held until the process ends: otherwise another
+        // thread would make something that stays.
+        let _nothing_new = undo_all();
         _ = low_level::emulate_default_handler(signal);
     };
     // Signals are caught once there is a thread to handle them, and before anything is made.
