@@ -60,6 +60,7 @@ pub fn main() -> ExitCode {
         Err(error) if error.use_stderr() => error.exit(),
         Err(help) => show(&help),
     };
+    output::ending::leave_to_signal();
     match ended {
         Ok(exit) => exit.into(),
         Err(failure) => {

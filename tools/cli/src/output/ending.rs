@@ -11,9 +11,12 @@ struct Cleanups {
     /// In the order of registration; the last one runs first.
     pending: BTreeMap<u64, Cleanup>,
     next: u64,
+    /// A signal came that ends the process.
+    ending: bool,
 }
 
-static CLEANUPS: Mutex<Cleanups> = Mutex::new(Cleanups { pending: BTreeMap::new(), next: 0 });
+static CLEANUPS: Mutex<Cleanups> =
+    Mutex::new(Cleanups { pending: BTreeMap::new(), next: 0, ending: false });
 
 fn lock() -> MutexGuard<'static, Cleanups> {
     CLEANUPS.lock().unwrap_or_else(PoisonError::into_inner)
@@ -45,12 +48,27 @@ pub(crate) fn guarded<T>(
     Ok((made, Guard(number)))
 }
 
+/// Does work during which no signal ends the process.
+pub(crate) fn uninterrupted<T>(work: impl FnOnce() -> T) -> T {
+    let _cleanups = lock();
+    work()
+}
+
+/// Leaves the end of the process to a signal that has come: what failed because a cleanup removed
+/// it is no error to report, and the cleanups run to their end.
+pub(crate) fn leave_to_signal() {
+    while lock().ending {
+        std::thread::park();
+    }
+}
+
 /// Runs all cleanups, also those that are registered meanwhile. Nothing is registered while the
 /// result is held.
 #[cfg(unix)]
 fn undo_all() -> MutexGuard<'static, Cleanups> {
     loop {
         let mut cleanups = lock();
+        cleanups.ending = true;
         let Some((_, cleanup)) = cleanups.pending.pop_last() else { return cleanups };
         // The lock is not held during a cleanup, because a cleanup may write a file.
         drop(cleanups);

@@ -51,7 +51,7 @@ impl NewFolder {
             builder.permissions(super::file::permissions(0o777));
             let folder = builder.tempdir_in(folder_of(path))?;
             let temporary = folder.path().to_owned();
-            Ok((folder, Box::new(move || _ = fs::remove_dir_all(temporary))))
+            Ok((folder, Box::new(move || remove(&temporary))))
         })?;
         Ok(Self { folder, becomes: path.to_owned(), replaces: true, _guard: guard })
     }
@@ -63,6 +63,10 @@ impl NewFolder {
 
     /// Moves the complete folder into its place. Errors: it cannot be moved; then it is removed.
     pub(crate) fn finish(mut self) -> io::Result<()> {
+        ending::uninterrupted(|| self.replace())
+    }
+
+    fn replace(&mut self) -> io::Result<()> {
         let aside = temporary().tempdir_in(folder_of(&self.becomes))?;
         let old = aside.path().join("old");
         if self.replaces {
@@ -74,5 +78,40 @@ impl NewFolder {
         }
         self.folder.disable_cleanup(true);
         Ok(())
+    }
+}
+
+/// Removes a folder in which another thread may still create files. Under another name it gets no
+/// more of them, except one that was on its way: that is removed in another round.
+fn remove(folder: &Path) {
+    let gone = folder.with_extension("gone");
+    let last = if fs::rename(folder, &gone).is_ok() { &gone } else { folder };
+    while let Err(error) = fs::remove_dir_all(last)
+        && error.kind() == io::ErrorKind::DirectoryNotEmpty
+    {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs::File;
+
+    #[test]
+    fn a_folder_that_is_written_is_removed() {
+        let parent = tempfile::tempdir().expect("a folder");
+        for round in 0..20 {
+            let folder = parent.path().join(round.to_string());
+            fs::create_dir(&folder).expect("created");
+            std::thread::scope(|scope| {
+                let write =
+                    || (0..).take_while(|n| File::create(folder.join(n.to_string())).is_ok());
+                let writer = scope.spawn(move || write().count());
+                while fs::read_dir(&folder).expect("there").next().is_none() {}
+                remove(&folder);
+                let left = fs::read_dir(parent.path()).expect("there").count();
+                assert_eq!(left, 0, "it is gone");
+                assert!(writer.join().expect("ended") > 0, "files were created meanwhile");
+            });
+        }
     }
 }
