@@ -23,9 +23,10 @@
 //   2, 2         30          7           42          5           10     walks back: ring 2 is a row, 42 to 38
 //
 // Invariants:
-// - start_patch.primitives is the patch's count, from tess_factors. It ends the walk; a culled patch has 0.
+// - start_patch.primitives is the patch's count, from tess_factors: 0 for a culled patch. It ends a sequence. The stitches of a
+//   patch have as many primitives together (section 12.6), so the place of a stitch says whether it is the last one: `is_last`.
 // - Indices are below 4225, so they fit 13 bits. A patch has at most 8192 primitives, so 14 bits count them.
-// - The primitives that `remaining` and `ahead` hold are those of the patch that are not walked yet.
+// - `edge_further` and `ahead` are exact: the primitives that are described are walked, each once (dv/formal).
 // - Registers after `ahead` change only when `advance` is 1, so nothing is lost while out_ready is 0.
 `include "tess_types.svh"
 module tess_connect (
@@ -69,7 +70,9 @@ module tess_connect (
     at_e                              at;
     logic                             is_first_ring;
     logic [1:0]                       side;       // number of the edge
-    logic [6:0]                       m_u, m_v;   // points on the inner rows of this ring, along u and v
+    logic                             is_last;    // no edge of the patch follows
+    logic [13:0]                      remaining;  // of a sequence: primitives from this edge on, less one
+    logic [6:0]                       m_u, m_v;   // points on the inner rows of this ring, along u and v; m_v: lines that follow
     logic                             strip_along_u;
 
     function automatic logic [6:0] points_of(input logic [tess_pkg::COUNTS_BITS-1:0] all, input logic [2:0] i);
@@ -83,14 +86,15 @@ module tess_connect (
         endcase
     endfunction
 
-    logic       is_quad, is_last_side, is_last_ring;
+    logic       is_quad, is_last_side, last_side_follows, is_last_ring;
     logic [6:0] n_outside, m, detail;
-    assign is_quad       = patch.domain == tess_pkg::QUAD;
-    assign is_last_side  = side == (is_quad ? 2'd3 : 2'd2);
-    assign is_last_ring  = m_u <= 7'd2 || m_v <= 7'd2;
-    assign n_outside     = points_of(counts, {1'b0, side});
-    assign detail        = points_of(counts, 3'd4);
-    assign m             = (at == AT_MIDDLE ? strip_along_u : side[0]) ? m_u : m_v;
+    assign is_quad           = patch.domain == tess_pkg::QUAD;
+    assign is_last_side      = side == (is_quad ? 2'd3 : 2'd2);
+    assign last_side_follows = side == (is_quad ? 2'd2 : 2'd1);
+    assign is_last_ring      = m_u <= 7'd2 || m_v <= 7'd2;
+    assign n_outside         = points_of(counts, {1'b0, side});
+    assign detail            = points_of(counts, 3'd4);
+    assign m                 = (at == AT_MIDDLE ? strip_along_u : side[0]) ? m_u : m_v;
 
     // K - 1 and M - 1 of section 7.1, the number of primitives after the first one, and the kind of stitch.
     logic [6:0] outer_last_next, inner_last_next, further_next, middle_next, offset_next;
@@ -102,12 +106,12 @@ module tess_connect (
     always_comb begin
         outer_last_next = 7'd64;
         inner_last_next = m - 7'd1;
-        further_next    = 7'd127; // ends with the patch
+        further_next    = {6'd0, is_quad}; // of a minimum patch
         middle_next     = (m >> 1) - 7'd1;
         offset_next     = 7'd2;   // from the outer base to the inner base, except for stitches
         kind_next       = tess_pkg::STRAIGHT;
         unique case (at)
-            AT_SEQUENCE: further_next = 7'd63;
+            AT_SEQUENCE: further_next = is_last ? {1'b0, remaining[5:0]} : 7'd63;
             AT_LINE: begin
                 outer_last_next = detail; // no segment begins at the last point of a line
                 further_next    = detail - 7'd2;
@@ -119,8 +123,10 @@ module tess_connect (
                 kind_next       = is_first_ring ? tess_pkg::TRANSITION : tess_pkg::RING;
             end
             default: begin
+                further_next = 7'd0;
                 if (is_quad) begin
                     // Section 7.4: m - 1 quads between two rows of m points.
+                    further_next    = {m[5:0], 1'b0} - 7'd3;
                     outer_last_next = m - 7'd1;
                     middle_next     = (m - 7'd1) >> 1;
                     offset_next     = {m[5:0], 1'b0} - {6'd0, !strip_along_u};
@@ -130,9 +136,11 @@ module tess_connect (
         endcase
     end
 
-    logic describes, passes, ends_patch; // a stitch goes to edge_; from there to ahead; it is the patch's last one
+    logic describes, passes, ends_patch; // a stitch goes to edge_; from there to ahead; the patch's last one goes to edge_
     logic edge_valid, ahead_valid, takes; // edge_ holds a stitch; ahead holds one; the walk takes that of ahead
-    assign describes   = active && (!edge_valid || passes) && !ends_patch;
+    assign describes   = active && (!edge_valid || passes);
+    assign passes      = edge_valid && (!ahead_valid || takes);
+    assign ends_patch  = describes && is_last;
     assign start_ready = !active || ends_patch;
 
     always_ff @(posedge clk) begin
@@ -150,22 +158,35 @@ module tess_connect (
             is_first      <= 1'b1;
             is_first_ring <= 1'b1;
             side          <= 2'd0;
+            remaining     <= start_patch.primitives - 14'd1;
+            is_last       <= 1'b0;
             m_u           <= points_of(start_counts, 3'd4) - 7'd2;
             m_v           <= points_of(start_counts, 3'd5) - 7'd2;
             strip_along_u <= points_of(start_counts, 3'd4) > points_of(start_counts, 3'd5);
-            if (start_patch.out == tess_pkg::POINT) begin
-                at <= AT_SEQUENCE;
+            if (start_patch.out == tess_pkg::POINT
+                    || (start_patch.out == tess_pkg::LINE && start_patch.domain != tess_pkg::ISOLINE)) begin
+                at      <= AT_SEQUENCE;
+                is_last <= start_patch.primitives <= 14'd64;
             end else if (start_patch.domain == tess_pkg::ISOLINE) begin
-                at <= AT_LINE;
-            end else if (start_patch.out == tess_pkg::LINE) begin
-                at <= AT_SEQUENCE;
+                at      <= AT_LINE;
+                is_last <= points_of(start_counts, 3'd5) == 7'd2;
             end else if (start_patch.minimum) begin
-                at <= AT_MINIMUM;
+                at      <= AT_MINIMUM;
+                is_last <= 1'b1;
             end else begin
                 at <= AT_STITCH;
             end
         end else if (describes) begin
-            is_first <= 1'b0;
+            is_first        <= 1'b0;
+            remaining[13:6] <= remaining[13:6] - 8'd1;
+            unique case (at)
+                AT_SEQUENCE: is_last <= remaining[13:6] == 8'd1;
+                AT_LINE:     is_last <= m_v == 7'd1;
+                default:     is_last <= is_last_side ? is_last_ring : last_side_follows && (m_u == 7'd1 || m_v == 7'd1);
+            endcase
+            if (at == AT_LINE) begin
+                m_v <= m_v - 7'd1;
+            end
             if (at == AT_STITCH) begin
                 side <= is_last_side ? 2'd0 : side + 2'd1;
                 if (is_last_side) begin
@@ -183,11 +204,10 @@ module tess_connect (
 
     // ---- the edge ------------------------------------------------------------------------------
 
-    logic        edge_stitch, edge_closes, edge_descends, edge_strip, edge_strip_along_u, edge_center, edge_swaps;
+    logic        edge_last, edge_stitch, edge_closes, edge_descends, edge_strip, edge_strip_along_u, edge_center, edge_swaps;
     logic [1:0]  edge_size;
     logic [6:0]  edge_further, edge_outer_last, edge_inner_last, edge_middle, edge_offset;
     logic [2:0]  edge_kind;
-    logic [13:0] remaining;                // primitives of this edge and later ones of the patch, less one
     logic [12:0] outer_base, inner_base;   // first indices of its rows
     logic [12:0] outer_start, inner_start; // and those of edge 0
 
@@ -200,11 +220,6 @@ module tess_connect (
             size = 2'd2;
         end
     end
-
-    logic is_last_edge;
-    assign is_last_edge = remaining[13:7] == 7'd0 && edge_further >= remaining[6:0];
-    assign passes       = edge_valid && (!ahead_valid || takes);
-    assign ends_patch   = passes && is_last_edge;
 
     logic [12:0] outer_after, inner_after;
     assign outer_after = outer_base + {6'd0, edge_outer_last};
@@ -220,6 +235,7 @@ module tess_connect (
         end
 
         if (describes) begin
+            edge_last          <= is_last;
             edge_stitch        <= at == AT_STITCH;
             edge_closes        <= at == AT_STITCH && is_last_side;
             edge_descends      <= at == AT_MIDDLE || walks_back;
@@ -236,13 +252,11 @@ module tess_connect (
             edge_kind          <= kind_next;
         end
         if (describes && is_first) begin
-            remaining   <= patch.primitives - 14'd1;
             outer_base  <= 13'd0;
             outer_start <= 13'd0;
             inner_base  <= {4'd0, patch.ring_points};
             inner_start <= {4'd0, patch.ring_points};
         end else if (passes) begin
-            remaining  <= remaining - {7'd0, edge_further} - 14'd1;
             outer_base <= outer_after;
             inner_base <= inner_after;
             if (edge_closes) begin
@@ -274,8 +288,8 @@ module tess_connect (
 
     tess_stitch_t described, ahead;
     always_comb begin
-        described.last      = is_last_edge;
-        described.further   = is_last_edge ? remaining[6:0] : edge_further;
+        described.last      = edge_last;
+        described.further   = edge_further;
         described.kind      = edge_kind;
         described.has_ends  = outer_half != 6'd0;
         described.has_inner = edge_inner_last[0];

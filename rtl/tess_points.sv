@@ -27,8 +27,9 @@
 // have no points, so ring 1 is the innermost.
 //
 // Invariants:
-// - start_patch.points is the patch's count, from tess_factors. It ends the walk; a culled patch has 0.
-// - The points that `remaining` and `ahead` hold are those of the patch that are not walked yet (dv/formal).
+// - start_patch.points is the patch's count, from tess_factors: 0 for a culled patch. The edges of a patch have as many points
+//   together (section 12.6), so the place of an edge says whether it is the last one: `is_last`.
+// - `further` and `ahead` are exact: the points that are described are walked, each once (dv/formal).
 // - `along` and `across` are below the points of their contexts, which stay with the edge while the next patch is described.
 // - Registers after `ahead` change only when `advance` is 1, so nothing is lost while out_ready is 0.
 `include "tess_types.svh"
@@ -64,7 +65,7 @@ module tess_points (
     logic                               active;
     logic                               is_quad;
     logic [tess_pkg::CONTEXTS_BITS-1:0] contexts;
-    logic [12:0]                        remaining; // points of this edge and later ones of the patch, less one
+    logic                               is_last;   // no edge of the patch follows
     logic [2:0]                         at;
     logic [1:0]                         side;      // number of the edge or the corner
     logic [5:0]                         ring;      // 0 for outer edges; on isolines the number of the line
@@ -146,16 +147,20 @@ module tess_points (
 
     // ---- the next edge -------------------------------------------------------------------------
 
-    logic describes, is_last_edge, ends_patch;
-    assign is_last_edge = remaining[12:7] == 6'd0 && further >= remaining[6:0];
-    assign ends_patch   = describes && is_last_edge;
-    assign start_ready  = !active || ends_patch;
+    logic describes, ends_patch;
+    assign ends_patch  = describes && is_last;
+    assign start_ready = !active || ends_patch;
 
-    // No ring follows: on the shorter axis its edges would have no points.
-    logic       is_innermost;
-    logic [6:0] next_outer;
-    assign is_innermost = (row_along_u ? rest_v[6:1] : rest_u[6:1]) == 6'd0;
+    // No ring follows the innermost one: on the shorter axis its edges would have no points. A row of points at the centre
+    // follows if that axis has one left.
+    logic       is_innermost, has_centre, last_side_follows;
+    logic [6:0] short_rest, long_rest, next_outer;
+    assign short_rest   = row_along_u ? rest_v : rest_u;
+    assign long_rest    = row_along_u ? rest_u : rest_v;
+    assign is_innermost = short_rest[6:1] == 6'd0;
+    assign has_centre   = short_rest[0];
     assign next_outer   = points_of(contexts, {1'b0, side + 2'd1}) - 7'd2;
+    assign last_side_follows = side == (is_quad ? 2'd2 : 2'd1);
 
     always_ff @(posedge clk) begin
         if (rst) begin
@@ -169,7 +174,6 @@ module tess_points (
         if (start_valid && start_ready) begin
             is_quad     <= start_patch.domain == tess_pkg::QUAD;
             contexts    <= start_contexts;
-            remaining   <= start_patch.points - 13'd1;
             side        <= 2'd0;
             ring        <= 6'd0;
             end_u       <= points_of(start_contexts, 3'd4) - 7'd1;
@@ -179,17 +183,19 @@ module tess_points (
             row_along_u <= points_of(start_contexts, 3'd4) > points_of(start_contexts, 3'd5);
             if (start_patch.domain == tess_pkg::ISOLINE) begin
                 at      <= AT_LINE;
+                is_last <= points_of(start_contexts, 3'd5) == 7'd2;
                 further <= points_of(start_contexts, 3'd4) - 7'd1;
             end else if (start_patch.minimum) begin
                 at      <= AT_CORNER;
+                is_last <= 1'b0;
                 further <= 7'd0;
             end else begin
                 at      <= AT_OUTER;
+                is_last <= 1'b0;
                 further <= points_of(start_contexts, 3'd0) - 7'd2;
             end
         end else if (describes) begin
-            remaining <= remaining - {6'd0, further} - 13'd1;
-            side      <= (at == AT_LINE || is_last_side) ? 2'd0 : side + 2'd1;
+            side <= (at == AT_LINE || is_last_side) ? 2'd0 : side + 2'd1;
             if (at == AT_LINE || is_last_side) begin
                 ring <= ring + 6'd1;
             end
@@ -205,8 +211,13 @@ module tess_points (
                 rest_u  <= rest_u - 7'd2;
                 rest_v  <= rest_v - 7'd2;
                 at      <= is_innermost ? AT_CENTRE : AT_RING;
-                further <= is_innermost ? 7'd127 : rest_v - 7'd2; // the centre ends with the patch
+                further <= is_innermost ? long_rest - 7'd1 : rest_v - 7'd2;
             end
+            unique case (at)
+                AT_LINE:   is_last <= {1'b0, ring} + 7'd1 == rest_v; // lines, less one
+                AT_CORNER: is_last <= last_side_follows;
+                default:   is_last <= is_innermost && (is_last_side || (last_side_follows && !has_centre));
+            endcase
         end
     end
 
@@ -237,9 +248,9 @@ module tess_points (
         end
 
         if (describes) begin
-            ahead         <= {is_last_edge, is_quad, at, side, is_backward, a_runs, across};
+            ahead         <= {is_last, is_quad, at, side, is_backward, a_runs, across};
             ahead_start   <= start;
-            ahead_further <= is_last_edge ? remaining[6:0] : further;
+            ahead_further <= further;
             ahead_a       <= described_a;
             ahead_b       <= contexts[BITS*5 +: BITS];
         end

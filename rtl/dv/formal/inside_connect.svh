@@ -1,15 +1,23 @@
-// tess_connect neither drops nor duplicates a primitive when it describes stitches. It holds the primitives to be described and
-// those of the stitch ahead, which may be taken at any time. The proofs of tess_stitch and tess_rows cover the rest.
+// tess_connect neither drops nor duplicates a primitive when it describes stitches. It holds the primitives to be described,
+// those of the edge and those of the stitch ahead, which may be taken at any time. The proofs of tess_stitch and tess_rows cover
+// the rest. Given that the stitches up to the one with `is_last` have as many primitives as the patch counts, which
+// tess_check_counts asserts in every run.
+logic [13:0] undescribed; // primitives of the next stitch and later ones of the patch, less one
+always_ff @(posedge clk) begin
+    if (start_valid && start_ready) undescribed <= start_patch.primitives - 14'd1;
+    else if (describes) undescribed <= undescribed - 14'(further_next) - 14'd1;
+end
+always_comb assume (!active || (is_last ? undescribed == 14'(further_next) : undescribed > 14'(further_next)));
 always_comb assume (!takes || ahead_valid);
 ledger ledger (
     .clk, .rst, .came((start_valid && start_ready) ? 16'(start_patch.primitives) : 16'd0),
     .left(takes ? 16'(ahead.further) + 16'd1 : 16'd0),
     .came_last(start_valid && start_ready && start_patch.primitives != 14'd0), .left_last(takes && ahead.last),
-    .held((!active ? 16'd0 : is_first ? 16'(patch.primitives) : 16'(remaining) + 16'd1)
+    .held((active ? 16'(undescribed) + 16'd1 : 16'd0) + (edge_valid ? 16'(edge_further) + 16'd1 : 16'd0)
         + (ahead_valid ? 16'(ahead.further) + 16'd1 : 16'd0)),
-    .held_last(8'(active) + 8'(ahead_valid && ahead.last)),
-    .also((!edge_valid || (active && !is_first)) && (!active || !is_first || patch.primitives != 14'd0)));
-// What waits keeps its values: the patch until the next one starts, and the stitch ahead.
+    .held_last(8'(active) + 8'(edge_valid && edge_last) + 8'(ahead_valid && ahead.last)), .also(1'b1));
+// What waits keeps its values: the patch until the next one starts, the edge, and the stitch ahead.
 hold #(.WIDTH($bits(patch) + tess_pkg::COUNTS_BITS + 1)) patch_hold (
     .clk, .keeps(!(start_valid && start_ready)), .state({patch, counts, strip_along_u}));
+hold #(.WIDTH(14)) edge_hold (.clk, .keeps(!describes), .state({edge_last, edge_further, edge_outer_last[5:0]}));
 hold #(.WIDTH($bits(ahead))) ahead_hold (.clk, .keeps(!passes), .state(ahead));

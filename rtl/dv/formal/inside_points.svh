@@ -1,5 +1,12 @@
 // tess_points neither drops nor duplicates a point, for any patches and any stalls of the consumer. It holds the points of the
-// edges to be described, of the edge ahead and of the walk, and those after the walk.
+// edges to be described, of the edge ahead and of the walk, and those after the walk. Given that the edges up to the one with
+// `is_last` have as many points as the patch counts, which tess_check_counts asserts in every run.
+logic [12:0] undescribed; // points of this edge and later ones of the patch, less one
+always_ff @(posedge clk) begin
+    if (start_valid && start_ready) undescribed <= start_patch.points - 13'd1;
+    else if (describes) undescribed <= undescribed - 13'(further) - 13'd1;
+end
+always_comb assume (!active || (is_last ? undescribed == 13'(further) : undescribed > 13'(further)));
 logic [7:0] behind, behind_last;
 always_comb begin
     behind      = 8'(out_valid);
@@ -12,7 +19,7 @@ end
 ledger ledger (
     .clk, .rst, .came((start_valid && start_ready) ? 16'(start_patch.points) : 16'd0), .left(16'(out_valid && out_ready)),
     .came_last(start_valid && start_ready && start_patch.points != 13'd0), .left_last(out_valid && out_ready && out_last),
-    .held((active ? 16'(remaining) + 16'd1 : 16'd0) + (ahead_valid ? 16'(ahead_further) + 16'd1 : 16'd0)
+    .held((active ? 16'(undescribed) + 16'd1 : 16'd0) + (ahead_valid ? 16'(ahead_further) + 16'd1 : 16'd0)
         + (walks ? 16'(to_come) + 16'd1 : 16'd0) + 16'(behind)),
     .held_last(8'(active) + 8'(ahead_valid && ahead.last) + 8'(walks && here.last) + behind_last),
     .also(!walks || ends_edge == (to_come == 7'd0)));
