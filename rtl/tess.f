@@ -14,6 +14,7 @@ tess_place_position.sv
 tess_place_blend.sv
 tess_place.sv
 tess_combine.sv
+tess_lane.sv
 tess_points.sv
 tess_mask.sv
 tess_rows.sv

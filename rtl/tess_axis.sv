@@ -12,6 +12,9 @@
 // The tag and `first` of tess_top's TAG and BASE take as many bytes as they need, none for 0, and so do the indices of BASE,
 // which move what is above them: with BASE 32 they are at 0, 32, 64 and their number at 96. Words have as many bytes more.
 //
+// With POINTS 2 or 4, the word of `point` is so many words of POINTS 1 with the tag in each, the earlier point in the lower bits.
+// tkeep has the bytes of the words that have a point, so a width converter to one word makes the stream of POINTS 1.
+//
 // PADDED selects widths that DMA engines and width converters accept: powers of two. The added bits are above all fields;
 // those of the patch are ignored.
 module tess_axis #(
@@ -19,6 +22,7 @@ module tess_axis #(
     parameter bit BUFFERED = 1'b0, // a register stage at each port: tess_skid
     parameter int TAG      = 0,    // bits of a tag
     parameter int BASE     = 0,    // bits of an index that is counted from `first`; 0: 13 bits, counted from 0
+    parameter int POINTS   = 1,    // points per clock: 1, 2 or 4
     // Bits in whole bytes: the tag, `first`, an index, and the packed words.
     localparam int TAGS      = (TAG + 7) / 8 * 8,
     localparam int FIRSTS    = (BASE + 7) / 8 * 8,
@@ -30,7 +34,8 @@ module tess_axis #(
     // Bits of the words.
     localparam int PATCH_BITS     = PADDED ? 2**$clog2(PATCH) : PATCH,
     localparam int COUNTS_BITS    = PADDED ? 2**$clog2(COUNTS) : COUNTS,
-    localparam int POINT_BITS     = PADDED ? 2**$clog2(POINT) : POINT,
+    localparam int WORD_BITS      = PADDED ? 2**$clog2(POINT) : POINT, // of one point
+    localparam int POINT_BITS     = POINTS * WORD_BITS,
     localparam int PRIMITIVE_BITS = PADDED ? 2**$clog2(PRIMITIVE) : PRIMITIVE
 ) (
     input  logic         aclk,
@@ -49,6 +54,7 @@ module tess_axis #(
     output logic                      m_axis_point_tvalid,
     input  logic                      m_axis_point_tready,
     output logic [POINT_BITS-1:0]     m_axis_point_tdata,
+    output logic [POINT_BITS/8-1:0]   m_axis_point_tkeep, // all 1 with POINTS 1
     output logic                      m_axis_point_tlast,
 
     output logic                      m_axis_primitive_tvalid,
@@ -61,11 +67,12 @@ module tess_axis #(
     localparam int INDEX_BITS = (BASE == 0) ? 13 : BASE;
     logic [12:0]           points;
     logic [13:0]           primitives;
-    logic [16:0]           u, v;
+    logic [POINTS-1:0]     keep;
+    logic [17*POINTS-1:0]  u, v;
     logic [1:0]            size;
     logic [INDEX_BITS-1:0] i0, i1, i2;
     logic [TAG_BITS-1:0]   counts_tag, point_tag, primitive_tag;
-    tess_top #(.BUFFERED(BUFFERED), .TAG(TAG), .BASE(BASE)) top (
+    tess_top #(.BUFFERED(BUFFERED), .TAG(TAG), .BASE(BASE), .POINTS(POINTS)) top (
         .clk               (aclk),
         .rst               (!aresetn),
         .patch_valid       (s_axis_patch_tvalid),
@@ -84,6 +91,7 @@ module tess_axis #(
         .counts_tag,
         .point_valid       (m_axis_point_tvalid),
         .point_ready       (m_axis_point_tready),
+        .point_keep        (keep),
         .point_u           (u),
         .point_v           (v),
         .point_last        (m_axis_point_tlast),
@@ -99,7 +107,11 @@ module tess_axis #(
     );
     // The tag is the highest field, and 0 if there is none.
     assign m_axis_counts_tdata    = COUNTS_BITS'({counts_tag, 2'd0, primitives, 3'd0, points});
-    assign m_axis_point_tdata     = POINT_BITS'({point_tag, 7'd0, v, 7'd0, u});
+    for (genvar k = 0; k < POINTS; k++) begin : g_point
+        assign m_axis_point_tdata[WORD_BITS*k +: WORD_BITS] = WORD_BITS'(
+            {point_tag, 7'd0, v[17*k +: 17], 7'd0, u[17*k +: 17]});
+        assign m_axis_point_tkeep[WORD_BITS/8*k +: WORD_BITS/8] = {(WORD_BITS/8){keep[k]}};
+    end
     assign m_axis_primitive_tdata = PRIMITIVE_BITS'({
         primitive_tag, 6'd0, size, INDICES'(i2), INDICES'(i1), INDICES'(i0)});
 endmodule

@@ -143,6 +143,12 @@ module tess_connect (
     assign ends_patch  = describes && is_last;
     assign start_ready = !active || ends_patch;
 
+    // The registers take the next patch without knowing whether there is one: `ready` comes late, and only their enable waits
+    // for it.
+    logic loads, steps;
+    assign loads = !active || is_last;
+    assign steps = !active || describes;
+
     always_ff @(posedge clk) begin
         if (rst) begin
             active <= 1'b0;
@@ -152,9 +158,12 @@ module tess_connect (
             active <= 1'b0;
         end
 
-        if (start_valid && start_ready) begin
+        if (start_ready) begin
             patch         <= start_patch;
             counts        <= start_counts;
+            strip_along_u <= points_of(start_counts, 3'd4) > points_of(start_counts, 3'd5);
+        end
+        if (steps && loads) begin
             is_first      <= 1'b1;
             is_first_ring <= 1'b1;
             side          <= 2'd0;
@@ -162,7 +171,6 @@ module tess_connect (
             is_last       <= 1'b0;
             m_u           <= points_of(start_counts, 3'd4) - 7'd2;
             m_v           <= points_of(start_counts, 3'd5) - 7'd2;
-            strip_along_u <= points_of(start_counts, 3'd4) > points_of(start_counts, 3'd5);
             if (start_patch.out == tess_pkg::POINT
                     || (start_patch.out == tess_pkg::LINE && start_patch.domain != tess_pkg::ISOLINE)) begin
                 at      <= AT_SEQUENCE;
@@ -176,7 +184,7 @@ module tess_connect (
             end else begin
                 at <= AT_STITCH;
             end
-        end else if (describes) begin
+        end else if (steps) begin
             is_first        <= 1'b0;
             remaining[13:6] <= remaining[13:6] - 8'd1;
             unique case (at)
@@ -251,17 +259,20 @@ module tess_connect (
             edge_offset        <= offset_next;
             edge_kind          <= kind_next;
         end
-        if (describes && is_first) begin
-            outer_base  <= 13'd0;
-            outer_start <= 13'd0;
-            inner_base  <= {4'd0, patch.ring_points};
-            inner_start <= {4'd0, patch.ring_points};
-        end else if (passes) begin
-            outer_base <= outer_after;
-            inner_base <= inner_after;
-            if (edge_closes) begin
-                outer_start <= outer_after;
-                inner_start <= inner_after;
+        // The last edge of a patch leaves before or when the first one of the next comes.
+        if (passes || (is_first && !edge_valid)) begin
+            if (is_first) begin
+                outer_base  <= 13'd0;
+                outer_start <= 13'd0;
+                inner_base  <= {4'd0, patch.ring_points};
+                inner_start <= {4'd0, patch.ring_points};
+            end else begin
+                outer_base <= outer_after;
+                inner_base <= inner_after;
+                if (edge_closes) begin
+                    outer_start <= outer_after;
+                    inner_start <= inner_after;
+                end
             end
         end
     end

@@ -24,29 +24,43 @@ module tess_factor #(
 
     // ---- clamp ---------------------------------------------------------------------------------
 
-    logic        is_nan;
-    logic [30:0] low;
-    logic [30:0] high;
+    // The comparisons with each bound are of fields, without carries; the partitioning selects among their results.
+    logic [7:0]  e; // exponent and mantissa
+    logic [22:0] m;
+    logic        is_nan, is_below_1, is_below_1_frame, is_below_2, is_above_63, is_above_64, is_below, is_above;
+    logic [30:0] low, high;
+    assign e = bits[30:23];
+    assign m = bits[22:0];
+    assign is_nan           = (&e) && (|m);
+    assign is_below_1       = !e[7] && e[6:0] != 7'd127;
+    assign is_below_1_frame = !e[7] && (e[6:0] != 7'd127 || m[22:7] == 16'd0);
+    assign is_below_2       = !e[7];
+    assign is_above_63      = e[7] && (e[6:0] > 7'd4 || (e[6:0] == 7'd4 && (&m[22:18]) && (|m[17:0])));
+    assign is_above_64      = e[7] && (e[6:0] > 7'd5 || (e[6:0] == 7'd5 && (|m)));
     /* verilator lint_off UNUSEDSIGNAL */ // three bits of the exponent are enough
     logic [30:0] clamped;
     /* verilator lint_on UNUSEDSIGNAL */
     always_comb begin
-        is_nan = (&bits[30:23]) && (|bits[22:0]);
-        low  = F32_1;
-        high = F32_64;
+        low      = F32_1;
+        is_below = is_below_1;
+        high     = F32_64;
+        is_above = is_above_64;
         if (partitioning == tess_pkg::FRACTIONAL_EVEN) begin
-            low = F32_2;
+            low      = F32_2;
+            is_below = is_below_2;
         end
         if (partitioning == tess_pkg::FRACTIONAL_ODD) begin
-            high = F32_63;
+            high     = F32_63;
+            is_above = is_above_63;
             if (is_inside && has_frame) begin
-                low = F32_1_FRAME;
+                low      = F32_1_FRAME;
+                is_below = is_below_1_frame;
             end
         end
         clamped = bits[30:0];
-        if (bits[31] || is_nan || bits[30:0] < low) begin
+        if (bits[31] || is_nan || is_below) begin
             clamped = low;
-        end else if (bits[30:0] > high) begin
+        end else if (is_above) begin
             clamped = high;
         end
     end

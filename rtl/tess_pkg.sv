@@ -51,6 +51,8 @@ package tess_pkg;
     localparam int FACTORS = 6;
     localparam int CONTEXTS_BITS = FACTORS * CONTEXT_BITS;
     localparam int COUNTS_BITS = FACTORS * 7;
+    // The width of tess_patch_t.
+    localparam int PATCH_BITS = 2 + 2 + 1 + 1 + 9 + 13 + 14;
 
 endpackage
 /* verilator lint_on UNUSEDPARAM */

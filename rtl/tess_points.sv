@@ -1,8 +1,9 @@
-// The domain points of a patch, one per clock, in the specification's order (section 6).
+// The domain points of a patch, up to POINTS per clock, in the specification's order (section 6).
 //
 // The walk goes edge by edge. The front half describes each edge in `ahead`, one edge in advance, and continues into the
 // next patch. Along an edge, `along` counts forward or backward, and `across` is constant. Each coordinate is a constant or
-// a location, so two placers, A and B, serve every point.
+// a location, so two placers, A and B, serve every point. With POINTS 2 or 4 a step of the walk has as many points, from `along`
+// on, or those that the edge still has; each further one has a lane of its own, tess_lane.
 //
 //   line         u = A: place(detail, along)    v = B: place(density, line)
 //   outer edge   A: place(edge, along); the other coordinate is constant or ONE - A
@@ -33,7 +34,9 @@
 // - `along` and `across` are below the points of their contexts, which stay with the edge while the next patch is described.
 // - Registers after `ahead` change only when `advance` is 1, so nothing is lost while out_ready is 0.
 `include "tess_types.svh"
-module tess_points (
+module tess_points #(
+    parameter int POINTS = 1 // per clock: 1, 2 or 4
+) (
     input  logic                               clk,
     input  logic                               rst,
 
@@ -46,9 +49,10 @@ module tess_points (
 
     output logic                               out_valid,
     input  logic                               out_ready,
-    output logic [16:0]                        out_u,
-    output logic [16:0]                        out_v,
-    output logic                               out_last
+    output logic [POINTS-1:0]                  out_keep, // the lanes that have a point, from the lowest bit on
+    output logic [17*POINTS-1:0]               out_u,    // the earlier point in the lower bits
+    output logic [17*POINTS-1:0]               out_v,
+    output logic                               out_last  // the last point of the patch is among them
 );
     localparam int BITS = tess_pkg::CONTEXT_BITS;
     localparam logic [2:0] AT_LINE   = tess_pkg::AT_LINE;
@@ -151,6 +155,12 @@ module tess_points (
     assign ends_patch  = describes && is_last;
     assign start_ready = !active || ends_patch;
 
+    // The registers take the next patch without knowing whether there is one: `ready` comes late, and only their enable waits
+    // for it.
+    logic loads, steps;
+    assign loads = !active || is_last;
+    assign steps = !active || describes;
+
     // No ring follows the innermost one: on the shorter axis its edges would have no points. A row of points at the centre
     // follows if that axis has one left.
     logic       is_innermost, has_centre, last_side_follows;
@@ -162,6 +172,49 @@ module tess_points (
     assign next_outer   = points_of(contexts, {1'b0, side + 2'd1}) - 7'd2;
     assign last_side_follows = side == (is_quad ? 2'd2 : 2'd1);
 
+    // The first edge of a patch, and the one after this. They are selected by gates instead of conditions, from which synthesis
+    // would make enables and resets of single registers, which come later than `steps`.
+    logic       ends_line, ends_ring, shrinks, start_last, next_last;
+    logic [1:0] next_side;
+    logic [2:0] start_at, next_at;
+    logic [6:0] start_u, start_v, start_further, next_further;
+    assign ends_line = at == AT_LINE;
+    assign ends_ring = is_last_side;
+    assign shrinks   = (at == AT_OUTER || at == AT_RING) && is_last_side;
+    assign start_u   = points_of(start_contexts, 3'd4);
+    assign start_v   = points_of(start_contexts, 3'd5);
+    assign next_side = (ends_line || ends_ring) ? 2'd0 : side + 2'd1;
+    always_comb begin
+        start_at      = AT_OUTER;
+        start_last    = 1'b0;
+        start_further = points_of(start_contexts, 3'd0) - 7'd2;
+        if (start_patch.domain == tess_pkg::ISOLINE) begin
+            start_at      = AT_LINE;
+            start_last    = start_v == 7'd2;
+            start_further = start_u - 7'd1;
+        end else if (start_patch.minimum) begin
+            start_at      = AT_CORNER;
+            start_further = 7'd0;
+        end
+        next_at      = at;
+        next_further = further;
+        if (at == AT_OUTER) begin
+            next_further = next_outer;
+        end
+        if (at == AT_RING) begin
+            next_further = runs_along_v ? rest_u : rest_v;
+        end
+        if (shrinks) begin
+            next_at      = is_innermost ? AT_CENTRE : AT_RING;
+            next_further = is_innermost ? long_rest - 7'd1 : rest_v - 7'd2;
+        end
+        unique case (at)
+            AT_LINE:   next_last = {1'b0, ring} + 7'd1 == rest_v; // lines, less one
+            AT_CORNER: next_last = last_side_follows;
+            default:   next_last = is_innermost && (is_last_side || (last_side_follows && !has_centre));
+        endcase
+    end
+
     always_ff @(posedge clk) begin
         if (rst) begin
             active <= 1'b0;
@@ -171,53 +224,21 @@ module tess_points (
             active <= 1'b0;
         end
 
-        if (start_valid && start_ready) begin
+        if (start_ready) begin
             is_quad     <= start_patch.domain == tess_pkg::QUAD;
             contexts    <= start_contexts;
-            side        <= 2'd0;
-            ring        <= 6'd0;
-            end_u       <= points_of(start_contexts, 3'd4) - 7'd1;
-            end_v       <= points_of(start_contexts, 3'd5) - 7'd1;
-            rest_u      <= points_of(start_contexts, 3'd4) - 7'd2;
-            rest_v      <= points_of(start_contexts, 3'd5) - 7'd2;
-            row_along_u <= points_of(start_contexts, 3'd4) > points_of(start_contexts, 3'd5);
-            if (start_patch.domain == tess_pkg::ISOLINE) begin
-                at      <= AT_LINE;
-                is_last <= points_of(start_contexts, 3'd5) == 7'd2;
-                further <= points_of(start_contexts, 3'd4) - 7'd1;
-            end else if (start_patch.minimum) begin
-                at      <= AT_CORNER;
-                is_last <= 1'b0;
-                further <= 7'd0;
-            end else begin
-                at      <= AT_OUTER;
-                is_last <= 1'b0;
-                further <= points_of(start_contexts, 3'd0) - 7'd2;
-            end
-        end else if (describes) begin
-            side <= (at == AT_LINE || is_last_side) ? 2'd0 : side + 2'd1;
-            if (at == AT_LINE || is_last_side) begin
-                ring <= ring + 6'd1;
-            end
-            if (at == AT_OUTER) begin
-                further <= next_outer;
-            end
-            if (at == AT_RING) begin
-                further <= runs_along_v ? rest_u : rest_v;
-            end
-            if ((at == AT_OUTER || at == AT_RING) && is_last_side) begin
-                end_u   <= end_u - 7'd1;
-                end_v   <= end_v - 7'd1;
-                rest_u  <= rest_u - 7'd2;
-                rest_v  <= rest_v - 7'd2;
-                at      <= is_innermost ? AT_CENTRE : AT_RING;
-                further <= is_innermost ? long_rest - 7'd1 : rest_v - 7'd2;
-            end
-            unique case (at)
-                AT_LINE:   is_last <= {1'b0, ring} + 7'd1 == rest_v; // lines, less one
-                AT_CORNER: is_last <= last_side_follows;
-                default:   is_last <= is_innermost && (is_last_side || (last_side_follows && !has_centre));
-            endcase
+            row_along_u <= start_u > start_v;
+        end
+        if (steps) begin
+            at      <= ({3{loads}} & start_at)     | ({3{!loads}} & next_at);
+            is_last <= (loads & start_last)        | (!loads & next_last);
+            further <= ({7{loads}} & start_further) | ({7{!loads}} & next_further);
+            side    <= {2{!loads}} & next_side;
+            ring    <= {6{!loads}} & (ring + 6'(ends_line || ends_ring));
+            end_u   <= ({7{loads}} & (start_u - 7'd1)) | ({7{!loads}} & (end_u - 7'(shrinks)));
+            end_v   <= ({7{loads}} & (start_v - 7'd1)) | ({7{!loads}} & (end_v - 7'(shrinks)));
+            rest_u  <= ({7{loads}} & (start_u - 7'd2)) | ({7{!loads}} & (rest_u - {5'd0, shrinks, 1'b0}));
+            rest_v  <= ({7{loads}} & (start_v - 7'd2)) | ({7{!loads}} & (rest_v - {5'd0, shrinks, 1'b0}));
         end
     end
 
@@ -258,33 +279,37 @@ module tess_points (
 
     // ---- the walk ------------------------------------------------------------------------------
 
+    localparam int LOG = $clog2(POINTS);
+    localparam logic [6:0] STEP = 7'(POINTS);
     logic          walks;    // there is a point
     logic [6:0]    along;
     logic [6:0]    to_come;  // points of this edge after this one
-    logic          ends_edge; // no point of this edge follows
+    logic          ends_edge; // no point of this edge follows those of this step; 1 if there is no point
     tess_context_t a_context, b_context;
-    assign takes = advance && ahead_valid && (!walks || ends_edge);
+    assign takes = advance && ahead_valid && ends_edge;
 
     always_ff @(posedge clk) begin
         if (rst) begin
-            walks <= 1'b0;
+            walks     <= 1'b0;
+            ends_edge <= 1'b1;
         end else if (takes) begin
-            walks <= 1'b1;
+            walks     <= 1'b1;
+            ends_edge <= ahead_further[6:LOG] == '0;
         end else if (advance && ends_edge) begin
-            walks <= 1'b0;
+            walks     <= 1'b0;
+        end else if (advance) begin
+            ends_edge <= to_come[6:LOG+1] == '0;
         end
 
         if (takes) begin
             here      <= ahead;
             along     <= ahead_start;
             to_come   <= ahead_further;
-            ends_edge <= ahead_further == 7'd0;
             a_context <= ahead_a;
             b_context <= ahead_b;
-        end else if (advance && walks) begin
-            along     <= here.backward ? along - 7'd1 : along + 7'd1;
-            to_come   <= to_come - 7'd1;
-            ends_edge <= to_come == 7'd1;
+        end else if (advance) begin
+            along     <= here.backward ? along - STEP : along + STEP;
+            to_come   <= to_come - STEP;
         end
     end
 
@@ -306,7 +331,8 @@ module tess_points (
     tess_delay #(.WIDTH(1 + 3 + 2), .CLOCKS(PLACING)) beside (
         .clk, .advance, .in({here.is_quad, here.at, here.side}), .out({quad_there, at_there, side_there}));
     tess_combine combine (
-        .clk, .advance, .is_quad(quad_there), .at(at_there), .side(side_there), .in_a(a), .in_b(b), .u(out_u), .v(out_v));
+        .clk, .advance, .is_quad(quad_there), .at(at_there), .side(side_there), .in_a(a), .in_b(b),
+        .u(out_u[16:0]), .v(out_v[16:0]));
 
     logic [BEHIND-1:0] valids, lasts; // of the points after the walk, the newest in the lowest bit
     always_ff @(posedge clk) begin
@@ -318,6 +344,42 @@ module tess_points (
         end
         if (advance) begin
             {out_last, lasts} <= {lasts, here.last && ends_edge};
+        end
+    end
+
+    // ---- the lanes after the first -------------------------------------------------------------
+
+    assign out_keep[0] = 1'b1;
+    if (POINTS > 1) begin : g_lanes
+        localparam int MORE = POINTS - 1;
+        tess_context_t                    run_context;
+        logic                             a_runs_there;
+        logic [MORE-1:0]                  keep;
+        logic [MORE*(PLACING+COMBINING)-1:0] keeps; // after the walk, the newest in the lowest bits
+        always_ff @(posedge clk) begin
+            if (takes) begin
+                run_context <= ahead.a_runs ? ahead_a : ahead_b;
+            end
+            if (advance) begin
+                keeps <= {keeps[MORE*BEHIND-1:0], keep};
+            end
+        end
+        tess_delay #(.WIDTH(1), .CLOCKS(PLACING)) runs (.clk, .advance, .in(here.a_runs), .out(a_runs_there));
+        assign out_keep[POINTS-1:1] = keeps[MORE*BEHIND +: MORE];
+        for (genvar k = 1; k < POINTS; k++) begin : g_lane
+            logic [6:0] p;
+            assign keep[k-1] = !ends_edge || to_come[LOG-1:0] >= LOG'(k);
+            always_ff @(posedge clk) begin
+                if (takes) begin
+                    p <= ahead.backward ? ahead_start - 7'(k) : ahead_start + 7'(k);
+                end else if (advance) begin
+                    p <= here.backward ? p - STEP : p + STEP;
+                end
+            end
+            tess_lane lane (
+                .clk, .advance, .in_context(run_context), .in_p(p),
+                .a_runs(a_runs_there), .in_a(a), .in_b(b), .is_quad(quad_there), .at(at_there), .side(side_there),
+                .u(out_u[17*k +: 17]), .v(out_v[17*k +: 17]));
         end
     end
 endmodule

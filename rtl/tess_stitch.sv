@@ -26,14 +26,14 @@ module tess_stitch (
     logic         walks;
     tess_stitch_t here;
     logic [6:0]   to_come;    // steps of this stitch after this one
-    logic         ends;       // no step of this stitch follows
+    logic         ends;       // no step of this stitch follows; 1 if there is no step
     logic         is_first, is_odd; // the number of the step: 0; odd
     logic [6:0]   pairs;      // pairs before the middle; negative after it
     logic [2:0]   phase;      // of a transition
     logic [5:0]   masked;     // steps of this way after this one
     logic [63:0]  left;       // the rest of the mask
 
-    assign takes = advance && ahead_valid && (!walks || ends);
+    assign takes = advance && ahead_valid && ends;
 
     logic [63:0] reversed;
     for (genvar i = 0; i < 64; i++) begin : g_reversed
@@ -66,16 +66,19 @@ module tess_stitch (
     always_ff @(posedge clk) begin
         if (rst) begin
             walks <= 1'b0;
+            ends  <= 1'b1;
         end else if (takes) begin
             walks <= 1'b1;
+            ends  <= ahead.further == 7'd0;
         end else if (advance && ends) begin
             walks <= 1'b0;
+        end else if (advance) begin
+            ends  <= to_come == 7'd1;
         end
 
         if (takes) begin
             here     <= ahead;
             to_come  <= ahead.further;
-            ends     <= ahead.further == 7'd0;
             is_first <= 1'b1;
             is_odd   <= 1'b0;
             pairs    <= ahead.middle;
@@ -84,7 +87,6 @@ module tess_stitch (
             left     <= ahead.mask;
         end else if (advance) begin
             to_come  <= to_come - 7'd1;
-            ends     <= to_come == 7'd1;
             is_first <= 1'b0;
             is_odd   <= !is_odd;
             // A pair ends with its second step; the first step of a ring precedes its pairs.

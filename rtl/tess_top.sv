@@ -4,16 +4,20 @@
 // Every stream is valid/ready: an element is transferred at a rising edge of clk at which both are 1. Each patch has one
 // element in the stream of counts. Its points and primitives follow the order of the specification, with `last` at the last
 // of each. A culled patch has counts of 0, and no elements in the other streams. The three streams do not wait for each
-// other within a patch; none is more than one patch ahead of another.
+// other within a patch; none is more than two patches ahead of another.
 //
 // TAG adds a value of the user to each patch, which is beside its counts and each of its points and primitives. BASE numbers
 // the points of a patch from `patch_first`: the sum of it and an index is the index that the primitive has. The ports of
 // parameters that are 0 have one bit, which is ignored or 0.
+//
+// With POINTS 2 or 4, an element of the stream of points is up to so many points that follow each other on an edge. They are in
+// the lanes of `point_u` and `point_v` from the lowest on, and `point_keep` has a bit for each.
 `include "tess_types.svh"
 module tess_top #(
     parameter bit BUFFERED = 1'b0, // a register stage at each port: tess_skid
     parameter int TAG      = 0,    // bits of a tag
     parameter int BASE     = 0,    // bits of an index that is counted from patch_first; 0: 13 bits, counted from 0
+    parameter int POINTS   = 1,    // points per clock: 1, 2 or 4
     localparam int TAGS    = (TAG == 0) ? 1 : TAG,
     localparam int FIRSTS  = (BASE == 0) ? 1 : BASE,
     localparam int INDICES = (BASE == 0) ? 13 : BASE
@@ -41,8 +45,9 @@ module tess_top #(
 
     output logic               point_valid,
     input  logic               point_ready,
-    output logic [16:0]        point_u,        // 16.16, 0..ONE
-    output logic [16:0]        point_v,
+    output logic [POINTS-1:0]  point_keep,     // the lanes that have a point, from the lowest bit on: never 0
+    output logic [17*POINTS-1:0] point_u,      // 16.16, 0..ONE; 17 bits of each lane
+    output logic [17*POINTS-1:0] point_v,
     output logic               point_last,
     output logic [TAGS-1:0]    point_tag,
 
@@ -163,8 +168,9 @@ module tess_top #(
     // ---- points --------------------------------------------------------------------------------
 
     logic            place_valid, place_ready, walked_valid, walked_ready, placed_valid, placed_ready, placed_last;
-    logic [16:0]     placed_u, placed_v;
-    logic [TAGS-1:0] placed_tag;
+    logic [POINTS-1:0]    placed_keep;
+    logic [17*POINTS-1:0] placed_u, placed_v;
+    logic [TAGS-1:0]      placed_tag;
     tess_tags #(.USED(TAG != 0), .WIDTH(TAGS)) point_tags (
         .clk, .rst,
         .in_valid  (points_starts),
@@ -180,30 +186,45 @@ module tess_top #(
         .out_ready (placed_ready),
         .out_tag   (placed_tag)
     );
-    tess_points stage_points (
+    // The patch waits here for the walk, so that no `ready` of the walk leads to the fork. A patch has at least two clocks.
+    logic                               to_place_valid, to_place_ready;
+    tess_patch_t                        to_place;
+    logic [tess_pkg::CONTEXTS_BITS-1:0] to_place_contexts;
+    tess_skid #(.WIDTH(tess_pkg::PATCH_BITS + tess_pkg::CONTEXTS_BITS), .ENTRIES(1)) place_stage (
         .clk, .rst,
-        .start_valid   (place_valid),
-        .start_ready   (place_ready),
-        .start_patch   (made),
-        .start_contexts(contexts),
+        .in_valid (place_valid),
+        .in_ready (place_ready),
+        .in_data  ({made, contexts}),
+        .out_valid(to_place_valid),
+        .out_ready(to_place_ready),
+        .out_data ({to_place, to_place_contexts})
+    );
+    tess_points #(.POINTS(POINTS)) stage_points (
+        .clk, .rst,
+        .start_valid   (to_place_valid),
+        .start_ready   (to_place_ready),
+        .start_patch   (to_place),
+        .start_contexts(to_place_contexts),
         .out_valid     (walked_valid),
         .out_ready     (walked_ready),
+        .out_keep      (placed_keep),
         .out_u         (placed_u),
         .out_v         (placed_v),
         .out_last      (placed_last)
     );
-    logic [35+TAG-1:0] point_data;
-    tess_skid #(.WIDTH(35 + TAG), .ENTRIES(EVERY)) point_stage (
+    localparam int POINT = POINTS * (1 + 2 * 17) + 1;
+    logic [POINT+TAG-1:0] point_data;
+    tess_skid #(.WIDTH(POINT + TAG), .ENTRIES(EVERY)) point_stage (
         .clk, .rst,
         .in_valid (placed_valid),
         .in_ready (placed_ready),
-        .in_data  ((35+TAG)'({placed_tag, placed_u, placed_v, placed_last})),
+        .in_data  ((POINT+TAG)'({placed_tag, placed_keep, placed_u, placed_v, placed_last})),
         .out_valid(point_valid),
         .out_ready(point_ready),
         .out_data (point_data)
     );
-    assign {point_u, point_v, point_last} = point_data[34:0];
-    assign point_tag = TAGS'(point_data >> 35);
+    assign {point_keep, point_u, point_v, point_last} = point_data[POINT-1:0];
+    assign point_tag = TAGS'(point_data >> POINT);
 
     // ---- primitives ----------------------------------------------------------------------------
 
@@ -230,12 +251,24 @@ module tess_top #(
         .out_ready (joined_ready),
         .out_tag   (joined_label)
     );
+    logic                             to_join_valid, to_join_ready;
+    tess_patch_t                      to_join;
+    logic [tess_pkg::COUNTS_BITS-1:0] to_join_edges;
+    tess_skid #(.WIDTH(tess_pkg::PATCH_BITS + tess_pkg::COUNTS_BITS), .ENTRIES(1)) join_stage (
+        .clk, .rst,
+        .in_valid (join_valid),
+        .in_ready (join_ready),
+        .in_data  ({made, edges}),
+        .out_valid(to_join_valid),
+        .out_ready(to_join_ready),
+        .out_data ({to_join, to_join_edges})
+    );
     tess_connect stage_connect (
         .clk, .rst,
-        .start_valid (join_valid),
-        .start_ready (join_ready),
-        .start_patch (made),
-        .start_counts(edges),
+        .start_valid (to_join_valid),
+        .start_ready (to_join_ready),
+        .start_patch (to_join),
+        .start_counts(to_join_edges),
         .out_valid   (stepped_valid),
         .out_ready   (stepped_ready),
         .out_size    (joined_size),

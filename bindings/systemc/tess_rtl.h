@@ -34,6 +34,7 @@ class tess_rtl : public tess_ports {
         top.primitive_i2(primitive_i2);
         top.primitive_last(primitive_last);
         for (auto *port : {&top.patch_tag, &top.patch_first}) (*port)(zero);
+        top.point_keep(point_keep);
         top.counts_tag(counts_tag);
         top.point_tag(point_tag);
         top.primitive_tag(primitive_tag);
@@ -41,7 +42,7 @@ class tess_rtl : public tess_ports {
 
   private:
     // The ports of TAG and BASE, which are 0.
-    sc_core::sc_signal<bool> zero{"zero"}, counts_tag{"counts_tag"}, point_tag{"point_tag"}, primitive_tag{"primitive_tag"};
+    sc_core::sc_signal<bool> zero{"zero"}, point_keep{"point_keep"}, counts_tag{"counts_tag"}, point_tag{"point_tag"}, primitive_tag{"primitive_tag"};
     Vtess_top top{"top"};
 };
 

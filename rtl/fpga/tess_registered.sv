@@ -4,11 +4,12 @@ module tess_registered #(
     parameter bit BUFFERED = 1'b0, // of tess_top
     parameter int TAG      = 0,
     parameter int BASE     = 0,
+    parameter int POINTS   = 1,
     localparam int TAGS    = (TAG == 0) ? 1 : TAG,
     localparam int FIRSTS  = (BASE == 0) ? 1 : BASE,
     localparam int INDICES = (BASE == 0) ? 13 : BASE,
     localparam int LABELS  = TAGS + FIRSTS,
-    localparam int MORE    = 3 * TAGS + 3 * INDICES // bits of tags and of the indices' upper parts
+    localparam int MORE    = 3 * TAGS + 3 * INDICES + 35 * POINTS // bits of tags, upper parts of indices, lanes
 ) (
     input  logic         clk,
     input  logic         rst,
@@ -22,7 +23,7 @@ module tess_registered #(
     output logic [27:0]  counts_out, // the fields, then valid
     output logic [35:0]  point_out,
     output logic [42:0]  primitive_out,
-    output logic         label_out   // parity of all tags and of the indices' bits from 13
+    output logic         label_out   // parity of all tags, of the indices' bits from 13, and of the lanes after the first
 );
     logic               at_rst, at_patch_valid, at_counts_ready, at_point_ready, at_primitive_ready;
     logic [198:0]       at_patch;
@@ -34,7 +35,9 @@ module tess_registered #(
     logic [MORE-1:0]    at_more, more_next;
     logic [TAGS-1:0]    counts_tag, point_tag, primitive_tag;
     logic [INDICES-1:0] i0, i1, i2;
-    tess_top #(.BUFFERED(BUFFERED), .TAG(TAG), .BASE(BASE)) top (
+    logic [POINTS-1:0]    keep;
+    logic [17*POINTS-1:0] u, v;
+    tess_top #(.BUFFERED(BUFFERED), .TAG(TAG), .BASE(BASE), .POINTS(POINTS)) top (
         .clk               (clk),
         .rst               (at_rst),
         .patch_valid       (at_patch_valid),
@@ -53,8 +56,9 @@ module tess_registered #(
         .counts_tag        (counts_tag),
         .point_valid       (point_next[35]),
         .point_ready       (at_point_ready),
-        .point_u           (point_next[16:0]),
-        .point_v           (point_next[33:17]),
+        .point_keep        (keep),
+        .point_u           (u),
+        .point_v           (v),
         .point_last        (point_next[34]),
         .point_tag         (point_tag),
         .primitive_valid   (primitive_next[42]),
@@ -67,7 +71,9 @@ module tess_registered #(
         .primitive_tag     (primitive_tag)
     );
     assign primitive_next[38:0] = {i2[12:0], i1[12:0], i0[12:0]};
-    assign more_next = {INDICES'(i2 >> 13), INDICES'(i1 >> 13), INDICES'(i0 >> 13), counts_tag, point_tag, primitive_tag};
+    assign point_next[33:0]     = {v[16:0], u[16:0]};
+    assign more_next = {keep >> 1, (17*POINTS)'(u >> 17), (17*POINTS)'(v >> 17),
+        INDICES'(i2 >> 13), INDICES'(i1 >> 13), INDICES'(i0 >> 13), counts_tag, point_tag, primitive_tag};
     always_ff @(posedge clk) begin
         at_rst             <= rst;
         at_patch_valid     <= patch_valid;

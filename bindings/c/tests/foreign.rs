@@ -35,6 +35,8 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("rules_example_judges_the_model", &["cc"], c::rules_example_judges_the_model),
     ("rtl_equals_model", &["c++", "make", "verilator"], rtl::equals_model),
     ("rtl_buffered_equals_model", &["c++", "make", "verilator"], rtl::buffered_equals_model),
+    ("rtl_two_points_equal_model", &["c++", "make", "verilator"], rtl::two_points_equal_model),
+    ("rtl_four_points_equal_model", &["c++", "make", "verilator"], rtl::four_points_equal_model),
     (
         "rtl_clocks_are_those_of_the_document",
         &["c++", "make", "verilator"],

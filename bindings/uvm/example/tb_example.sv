@@ -27,6 +27,7 @@ module tb_example;
         .counts_tag        (),
         .point_valid       (ports.point_valid),
         .point_ready       (ports.point_ready),
+        .point_keep        (),
         .point_u           (ports.point_u),
         .point_v           (ports.point_v),
         .point_last        (ports.point_last),

@@ -18,6 +18,6 @@ ledger ledger (
     .held_last(8'(active) + 8'(edge_valid && edge_last) + 8'(ahead_valid && ahead.last)), .also(1'b1));
 // What waits keeps its values: the patch until the next one starts, the edge, and the stitch ahead.
 hold #(.WIDTH($bits(patch) + tess_pkg::COUNTS_BITS + 1)) patch_hold (
-    .clk, .keeps(!(start_valid && start_ready)), .state({patch, counts, strip_along_u}));
+    .clk, .keeps(!start_ready), .state({patch, counts, strip_along_u}));
 hold #(.WIDTH(14)) edge_hold (.clk, .keeps(!describes), .state({edge_last, edge_further, edge_outer_last[5:0]}));
 hold #(.WIDTH($bits(ahead))) ahead_hold (.clk, .keeps(!passes), .state(ahead));

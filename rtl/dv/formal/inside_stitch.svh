@@ -4,7 +4,7 @@ ledger ledger (
     .came_last(takes && ahead.last), .left_last(advance && step_valid && step.last),
     .held((walks ? 16'(to_come) + 16'd1 : 16'd0) + 16'(made_valid) + 16'(step_valid)),
     .held_last(8'(walks && here.last) + 8'(made_valid && made.last) + 8'(step_valid && step.last)),
-    .also(!walks || ends == (to_come == 7'd0)));
+    .also(ends == (!walks || to_come == 7'd0)));
 port #(.WIDTH(4 + $bits(step_stitch))) out_port (
     .clk, .rst, .valid(step_valid), .ready(advance), .data({step_begins, step, step_stitch}));
 // The walk keeps its values while it waits.

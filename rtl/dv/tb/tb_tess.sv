@@ -14,7 +14,8 @@ module tb_tess #(
     parameter bit PADDED   = 1'b0, // of tess_axis
     parameter bit BUFFERED = 1'b0,
     parameter int TAG      = 0,    // at most 64
-    parameter int BASE     = 0     // at most 32
+    parameter int BASE     = 0,    // at most 32
+    parameter int POINTS   = 1     // 1, 2 or 4
 );
     import tess_dpi::*;
 
@@ -53,11 +54,10 @@ module tb_tess #(
     logic         counts_ready = 1'b1, point_ready = 1'b1, primitive_ready = 1'b1;
     logic [12:0]  counts_points;
     logic [13:0]  counts_primitives;
-    logic [16:0]  point_u, point_v;
     logic         point_last, primitive_last;
     logic [1:0]   primitive_size;
     logic [31:0]  primitive_i0, primitive_i1, primitive_i2;
-    logic [63:0]  patch_tag, counts_tag, point_tag, primitive_tag;
+    logic [63:0]  patch_tag, counts_tag, primitive_tag;
     logic [31:0]  patch_first;
 
     // The design in its AXI4-Stream wrapper, so that every comparison covers both.
@@ -84,7 +84,10 @@ module tb_tess #(
 
     logic [word(PATCH_TAG)-1:0]     patch_data;
     logic [word(32)-1:0]            counts_data;
-    logic [word(48)-1:0]            point_data;
+    localparam int LANE = word(48); // bits of a lane
+    logic [POINTS*LANE-1:0]         point_data;
+    logic [POINTS*LANE/8-1:0]       point_keep;
+    bit   [LANE-1:0]                point_word; // of the lane that is compared
     logic [word(PRIMITIVE_TAG)-1:0] primitive_data;
     word_t ignored; // the bits of a patch without a field
     always_comb begin
@@ -97,7 +100,7 @@ module tb_tess #(
 `ifdef TESS_GATES
     tess_axis axis (
 `else
-    tess_axis #(.PADDED(PADDED), .BUFFERED(BUFFERED), .TAG(TAG), .BASE(BASE)) axis (
+    tess_axis #(.PADDED(PADDED), .BUFFERED(BUFFERED), .TAG(TAG), .BASE(BASE), .POINTS(POINTS)) axis (
 `endif
         .aclk                   (clk),
         .aresetn                (!rst),
@@ -110,6 +113,7 @@ module tb_tess #(
         .m_axis_point_tvalid    (point_valid),
         .m_axis_point_tready    (point_ready),
         .m_axis_point_tdata     (point_data),
+        .m_axis_point_tkeep     (point_keep),
         .m_axis_point_tlast     (point_last),
         .m_axis_primitive_tvalid(primitive_valid),
         .m_axis_primitive_tready(primitive_ready),
@@ -119,9 +123,6 @@ module tb_tess #(
     assign counts_points     = counts_data[12:0];
     assign counts_primitives = counts_data[29:16];
     assign counts_tag        = 64'(field(word_t'(counts_data), 32, TAG));
-    assign point_u           = point_data[16:0];
-    assign point_v           = point_data[40:24];
-    assign point_tag         = 64'(field(word_t'(point_data), 48, TAG));
     assign primitive_i0      = 32'(field(word_t'(primitive_data), 0, INDEX));
     assign primitive_i1      = 32'(field(word_t'(primitive_data), INDEX_SLOT, INDEX));
     assign primitive_i2      = 32'(field(word_t'(primitive_data), 2 * INDEX_SLOT, INDEX));
@@ -247,8 +248,25 @@ module tb_tess #(
         idle = 0;
     endfunction
 
-    // Patches without elements are not due.
-    function automatic void check_point();
+    // Whether a lane has a point: all its bytes are kept, or none; the first lane has one, and no lane after one without.
+    function automatic bit is_kept(input int unsigned lane);
+        bit [LANE/8-1:0] keep = point_keep[LANE/8*lane +: LANE/8];
+        bit is_wrong = (keep == '0) ? lane == 0 : keep != '1 || (lane != 0 && !point_keep[LANE/8*(lane-1)]);
+        if (is_wrong) tess_check_pkg::failed("points", "keep", "tess_axis");
+        return keep != '0;
+    endfunction
+
+    // The points of all lanes, the first lane first.
+    function automatic void check_points();
+        point_transfers++;
+        for (int unsigned lane = 0; lane < POINTS; lane++) if (is_kept(lane)) begin
+            point_word = point_data[LANE*lane +: LANE];
+            check_point(lane + 1 == POINTS || !point_keep[LANE/8*(lane+1)]);
+        end
+    endfunction
+
+    // The point in `point_word`; patches without elements are not due.
+    function automatic void check_point(input bit is_highest);
         stimulus_t s;
         point_t p;
         while (of_points.size() != 0 && of_points[0].points == 0) void'(of_points.pop_front());
@@ -260,11 +278,11 @@ module tb_tess #(
         s = of_points[0];
         if (next_point == 0) void'(model_patch(held_of_points, config_of(s), s.x));
         p = model_point(held_of_points, next_point);
-        check_word("points", word_t'(point_data), POINT_FIELDS, 48, point_tag, s.tag);
-        compare(s, POINTS_U, next_point, 32'(point_u), p.u);
-        compare(s, POINTS_V, next_point, 32'(point_v), p.v);
+        check_word("points", word_t'(point_word), POINT_FIELDS, 48, 64'(field(word_t'(point_word), 48, TAG)), s.tag);
+        compare(s, POINTS_U, next_point, 32'(point_word[16:0]), p.u);
+        compare(s, POINTS_V, next_point, 32'(point_word[40:24]), p.v);
         next_point++;
-        compare(s, POINTS_LAST, next_point - 1, 32'(point_last), 32'(next_point == s.points));
+        compare(s, POINTS_LAST, next_point - 1, 32'(point_last && is_highest), 32'(next_point == s.points));
         points_checked++;
         idle = 0;
         if (next_point == s.points) begin
@@ -308,7 +326,7 @@ module tb_tess #(
     int unsigned     silent = 0, most_silent = 0; // clocks between two patches in which neither stream has an element
     int unsigned     lost_points = 0, lost_primitives = 0; // clocks without an element, within a patch
     int unsigned     point_latency = 0, primitive_latency = 0;
-    longint unsigned accepted_at = 0;
+    longint unsigned accepted_at = 0, point_transfers = 0;
     bit              has_point = 1'b0, has_primitive = 1'b0; // an element of the last accepted patch was output
 
     function automatic void count_clocks();
@@ -482,7 +500,7 @@ module tb_tess #(
             if (axis.top.stage_factors.context_valid && axis.top.stage_factors.advance) check_factor();
 `endif
             if (counts_valid && counts_ready) check_counts();
-            if (point_valid && point_ready) check_point();
+            if (point_valid && point_ready) check_points();
             if (primitive_valid && primitive_ready) begin
                 cover_primitive();
                 check_primitive();
@@ -611,6 +629,7 @@ module tb_tess #(
             patches_checked, points_checked, primitives_checked, cycles, mismatches);
         if (alone) $display("latency: first point %0d clocks, first primitive %0d clocks", point_latency, primitive_latency);
         else if (!gaps) begin
+            $display("transfers of points: %0d", point_transfers);
             $display("between patches: at most %0d clocks", most_silent);
             $display("within patches: %0d clocks without a point, %0d without a primitive", lost_points, lost_primitives);
         end

@@ -89,8 +89,9 @@ module tess_check_counts #(
     input logic        clk, rst,
     input logic        start,     // a patch begins
     input logic [13:0] elements,  // its number of elements, which may be 0
-    input logic        passes,    // an element leaves
-    input logic        last
+    input logic        passes,    // elements leave
+    input logic [13:0] passing,   // their number
+    input logic        last       // the last element is among them
 );
     logic [13:0] due[$]; // elements that are due of each patch, the oldest patch first
     always @(posedge clk) begin
@@ -99,9 +100,10 @@ module tess_check_counts #(
         end else begin
             if (passes && due.size() == 0) tess_check_pkg::failed(STAGE, "valid", MODULE);
             if (passes && due.size() != 0) begin
-                if (last != (due[0] == 14'd1)) tess_check_pkg::failed(STAGE, "last", MODULE);
-                due[0] = due[0] - 14'd1;
-                if (due[0] == 14'd0) void'(due.pop_front());
+                if (last != (due[0] <= passing)) tess_check_pkg::failed(STAGE, "last", MODULE);
+                if (due[0] < passing) tess_check_pkg::failed(STAGE, "keep", MODULE);
+                if (due[0] <= passing) void'(due.pop_front());
+                else due[0] = due[0] - passing;
             end
             if (start && elements != 14'd0) due.push_back(elements);
         end
@@ -131,19 +133,20 @@ module tess_check_top #(
         .clk, .rst, .valid(primitive_valid), .ready(primitive_ready), .data(element));
 endmodule
 bind tess_top tess_check_top #(
-    .PATCH(199 + TAGS + FIRSTS), .COUNTS(27 + TAGS), .POINT(35 + TAGS), .PRIMITIVE(3 + 3 * INDICES + TAGS)
+    .PATCH(199 + TAGS + FIRSTS), .COUNTS(27 + TAGS), .POINT(35 * POINTS + 1 + TAGS), .PRIMITIVE(3 + 3 * INDICES + TAGS)
 ) checks (
     .clk, .rst, .patch_valid, .patch_ready, .counts_valid, .counts_ready, .point_valid, .point_ready,
     .primitive_valid, .primitive_ready,
     .patch({patch_domain, patch_partitioning, patch_out, patch_center, patch_factors, patch_tag, patch_first}),
     .counts({counts_points, counts_primitives, counts_tag}),
-    .point({point_u, point_v, point_last, point_tag}),
+    .point({point_keep, point_u, point_v, point_last, point_tag}),
     .element({primitive_size, primitive_i0, primitive_i1, primitive_i2, primitive_last, primitive_tag})
 );
 
 // Structures have the widths that tess_pkg states as sums.
 module tess_check_widths;
     if ($bits(tess_context_t) != tess_pkg::CONTEXT_BITS) $error("CONTEXT_BITS is not the width of tess_context_t");
+    if ($bits(tess_patch_t) != tess_pkg::PATCH_BITS) $error("PATCH_BITS is not the width of tess_patch_t");
 endmodule
 bind tess_factors tess_check_widths widths ();
 
@@ -183,14 +186,22 @@ bind tess_factors tess_check_factors checks (
 );
 
 // Positions are on their edges, ring numbers increase by one, locations are at most ONE.
-module tess_check_points (
+module tess_check_points #(
+    parameter int POINTS = 1
+) (
     input logic        clk, rst, active, start_valid, start_ready, walks, out_valid, out_ready, out_last,
     input logic [5:0]  ring,
     input logic [12:0] start_points,
     input logic [6:0]  a_p, a_points, b_p, b_points,
     input logic        is_placed, // the placers' results are used
-    input logic [16:0] out_u, out_v
+    input logic [POINTS-1:0]    out_keep,
+    input logic [17*POINTS-1:0] out_u, out_v
 );
+    logic [13:0] passing; // points of the element that is offered
+    always_comb begin
+        passing = '0;
+        for (int k = 0; k < POINTS; k++) passing = passing + 14'(out_keep[k]);
+    end
     logic [5:0] ring_before;
     logic       was_active, was_start;
     always_ff @(posedge clk) begin
@@ -202,18 +213,20 @@ module tess_check_points (
         ring == ring_before || ring == ring_before + 6'd1)
     `TESS_CHECK(a_p, "points", "a_p", "tess_points", walks && is_placed, a_p < a_points)
     `TESS_CHECK(b_p, "points", "b_p", "tess_points", walks && is_placed, b_p < b_points)
-    `TESS_CHECK(u, "points", "u", "tess_points", out_valid, out_u <= 17'h1_0000)
-    `TESS_CHECK(v, "points", "v", "tess_points", out_valid, out_v <= 17'h1_0000)
-    tess_check_stream #(.STAGE("points"), .MODULE("tess_points"), .WIDTH(35)) stream (
-        .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_u, out_v, out_last}));
+    for (genvar k = 0; k < POINTS; k++) begin : g_lane
+        `TESS_CHECK(u, "points", "u", "tess_points", out_valid && out_keep[k], out_u[17*k +: 17] <= 17'h1_0000)
+        `TESS_CHECK(v, "points", "v", "tess_points", out_valid && out_keep[k], out_v[17*k +: 17] <= 17'h1_0000)
+    end
+    tess_check_stream #(.STAGE("points"), .MODULE("tess_points"), .WIDTH(35 * POINTS + 1)) stream (
+        .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_keep, out_u, out_v, out_last}));
     tess_check_counts #(.STAGE("points"), .MODULE("tess_points")) counts (
         .clk, .rst, .start(start_valid && start_ready), .elements({1'b0, start_points}),
-        .passes(out_valid && out_ready), .last(out_last));
+        .passes(out_valid && out_ready), .passing, .last(out_last));
 endmodule
-bind tess_points tess_check_points checks (
+bind tess_points tess_check_points #(.POINTS(POINTS)) checks (
     .clk, .rst, .active, .start_valid, .start_ready, .walks, .out_valid, .out_ready, .out_last, .ring,
     .start_points(start_patch.points), .a_p, .a_points(a_context.points), .b_p,
-    .b_points(b_context.points), .is_placed(here.at != AT_CORNER), .out_u, .out_v
+    .b_points(b_context.points), .is_placed(here.at != AT_CORNER), .out_keep, .out_u, .out_v
 );
 
 // Indices are below the patch's number of points, and a stitch stays on its rows.
@@ -243,7 +256,7 @@ module tess_check_connect (
         .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_size, out_i0, out_i1, out_i2, out_last}));
     tess_check_counts #(.STAGE("connect"), .MODULE("tess_connect")) counts_check (
         .clk, .rst, .start(start_valid && start_ready), .elements(start_primitives),
-        .passes(out_valid && out_ready), .last(out_last));
+        .passes(out_valid && out_ready), .passing(14'd1), .last(out_last));
 endmodule
 bind tess_connect tess_check_connect checks (
     .clk, .rst, .start_valid, .start_ready, .out_valid, .out_ready, .out_last,

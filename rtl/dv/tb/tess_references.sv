@@ -11,6 +11,7 @@
 //   tess_place_position        two clocks after a position enters            section 5, first half
 //   tess_place_blend           six clocks after                              section 5, second half
 //   tess_combine               ten clocks after                              section 6
+//   tess_lane                  ten clocks after a step of the walk           sections 5 and 6, from the step's first position
 //   tess_mask                  a transition is described                     ruler[] of section 7.2, for 14.3
 //   tess_stitch                a step leaves                                 the steps of sections 7.2 to 7.4
 //   tess_rows                  a primitive leaves                            sections 7.1 and 8
@@ -125,6 +126,61 @@ bind tess_top tess_reference_base #(.INDICES(INDICES)) base_reference (
 
 // ---- points --------------------------------------------------------------------------------------
 
+// The place of a point in one dimension (section 5).
+typedef struct packed {
+    bit        is_used, flip, middle;
+    bit [31:0] coarse, fine, location;
+} tess_place_t;
+
+function automatic tess_place_t tess_placed(input tess_context_t c, input int unsigned from);
+    int unsigned position, half;
+    tess_place_t r;
+    r.is_used  = 1'b1;
+    r.flip     = from >= 32'(c.half_points);
+    position       = r.flip ? 2 * 32'(c.half_points) - from - 32'(c.odd) : from;
+    r.middle   = position == 32'(c.half_points);
+    r.coarse   = (position > 32'(c.split) ? position - 1 : position) * 32'(c.inv_floor);
+    r.fine     = position * 32'(c.inv_ceil);
+    half           = (r.coarse * (32'h1_0000 - 32'(c.fraction)) + r.fine * 32'(c.fraction) + 32'h8000) >> 16;
+    if (r.middle) half = 32'h8000;
+    r.location = r.flip ? 32'h1_0000 - half : half;
+    return r;
+endfunction
+
+// The point of two locations (section 6).
+typedef struct packed {
+    bit        is_used;
+    bit [31:0] u, v;
+} tess_point_t;
+
+function automatic tess_point_t tess_combined(
+        input bit is_quad, input bit [2:0] at, input bit [1:0] side, input bit [16:0] a, input bit [16:0] b);
+    localparam int unsigned ONE = 32'h1_0000;
+    int unsigned along, perp, q;
+    tess_point_t r;
+    along = 32'(a);
+    perp  = (along * 32'hAAAA + 32'h8000) >> 16;
+    q     = 32'(b) - (perp + 1) / 2;
+    r = {1'b1, along, 32'(b)};
+    if (at == tess_pkg::AT_CORNER && is_quad) begin
+        r.u = (side == 2'd1 || side == 2'd2) ? ONE : 0;
+        r.v = (side >= 2'd2) ? ONE : 0;
+    end else if (at == tess_pkg::AT_CORNER) begin
+        r.u = (side == 2'd2) ? ONE : 0;
+        r.v = (side == 2'd0) ? ONE : 0;
+    end else if (at == tess_pkg::AT_OUTER) begin
+        r.u = (side == 2'd0) ? 0 : (side == 2'd2 && is_quad) ? ONE : along;
+        r.v = (side == 2'd1) ? 0 : (side == 2'd3) ? ONE : (side == 2'd2 && !is_quad) ? ONE - along : along;
+    end else if (at == tess_pkg::AT_RING && !is_quad) begin
+        r.u = (side == 2'd0) ? perp : q;
+        r.v = (side == 2'd0) ? q : (side == 2'd1) ? perp : ONE - q - perp;
+    end else if (at == tess_pkg::AT_CENTRE && !is_quad) begin
+        r.u = 32'h5555;
+        r.v = 32'h5555;
+    end
+    return r;
+endfunction
+
 module tess_reference_place (
     input logic          clk, rst, advance,
     input logic          is_used,      // `given` and `p` are those of a point
@@ -134,36 +190,16 @@ module tess_reference_place (
     input logic [16:0]   coarse, fine,
     input logic [16:0]   location      // six clocks later
 );
-    typedef struct packed {
-        bit        is_used, flip, middle;
-        bit [31:0] coarse, fine, location;
-    } place_t;
-
-    function automatic place_t place(input tess_context_t c, input int unsigned from);
-        int unsigned position, half;
-        place_t      r;
-        r.is_used  = 1'b1;
-        r.flip     = from >= 32'(c.half_points);
-        position       = r.flip ? 2 * 32'(c.half_points) - from - 32'(c.odd) : from;
-        r.middle   = position == 32'(c.half_points);
-        r.coarse   = (position > 32'(c.split) ? position - 1 : position) * 32'(c.inv_floor);
-        r.fine     = position * 32'(c.inv_ceil);
-        half           = (r.coarse * (32'h1_0000 - 32'(c.fraction)) + r.fine * 32'(c.fraction) + 32'h8000) >> 16;
-        if (r.middle) half = 32'h8000;
-        r.location = r.flip ? 32'h1_0000 - half : half;
-        return r;
-    endfunction
-
-    place_t expected[6]; // for the points of the previous clock, of the one before that, ..
+    tess_place_t expected[6]; // for the points of the previous clock, of the one before that, ..
     always_ff @(posedge clk) begin
         if (rst) begin
             for (int i = 0; i < 6; i++) expected[i] <= '0;
         end else if (advance) begin
-            expected[0] <= is_used ? place(given, 32'(p)) : '0;
+            expected[0] <= is_used ? tess_placed(given, 32'(p)) : '0;
             for (int i = 1; i < 6; i++) expected[i] <= expected[i-1];
         end
     end
-    place_t position, placed;
+    tess_place_t position, placed;
     logic   is_chosen; // the position is not the middle, which needs no multiplication
     assign position  = expected[1];
     assign placed    = expected[5];
@@ -190,55 +226,66 @@ module tess_reference_combine (
     input logic [16:0] a, b,
     input logic [16:0] u, v // four clocks later
 );
-    localparam int unsigned ONE = 32'h1_0000;
-    typedef struct packed {
-        bit        is_used;
-        bit [31:0] u, v;
-    } point_t;
-
-    function automatic point_t combine();
-        int unsigned along, perp, q;
-        point_t      r;
-        along = 32'(a);
-        perp  = (along * 32'hAAAA + 32'h8000) >> 16;
-        q     = 32'(b) - (perp + 1) / 2;
-        r = {1'b1, along, 32'(b)};
-        if (at == tess_pkg::AT_CORNER && is_quad) begin
-            r.u = (side == 2'd1 || side == 2'd2) ? ONE : 0;
-            r.v = (side >= 2'd2) ? ONE : 0;
-        end else if (at == tess_pkg::AT_CORNER) begin
-            r.u = (side == 2'd2) ? ONE : 0;
-            r.v = (side == 2'd0) ? ONE : 0;
-        end else if (at == tess_pkg::AT_OUTER) begin
-            r.u = (side == 2'd0) ? 0 : (side == 2'd2 && is_quad) ? ONE : along;
-            r.v = (side == 2'd1) ? 0 : (side == 2'd3) ? ONE : (side == 2'd2 && !is_quad) ? ONE - along : along;
-        end else if (at == tess_pkg::AT_RING && !is_quad) begin
-            r.u = (side == 2'd0) ? perp : q;
-            r.v = (side == 2'd0) ? q : (side == 2'd1) ? perp : ONE - q - perp;
-        end else if (at == tess_pkg::AT_CENTRE && !is_quad) begin
-            r.u = 32'h5555;
-            r.v = 32'h5555;
-        end
-        return r;
-    endfunction
-
-    point_t expected[4];
+    tess_point_t expected[4];
     always_ff @(posedge clk) begin
         if (rst) begin
             for (int i = 0; i < 4; i++) expected[i] <= '0;
         end else if (advance) begin
-            expected[0] <= is_used ? combine() : '0;
+            expected[0] <= is_used ? tess_combined(is_quad, at, side, a, b) : '0;
             for (int i = 1; i < 4; i++) expected[i] <= expected[i-1];
         end
     end
-    point_t combined;
+    tess_point_t combined;
     assign combined = expected[3];
     `TESS_CHECK(u, "points", "u", "tess_combine", combined.is_used, 32'(u) == combined.u)
     `TESS_CHECK(v, "points", "v", "tess_combine", combined.is_used, 32'(v) == combined.v)
 endmodule
 bind tess_points tess_reference_combine combine_reference (
     .clk, .rst, .advance, .is_used(valids[PLACING-1]), .is_quad(quad_there), .at(at_there), .side(side_there), .a, .b,
-    .u(out_u), .v(out_v));
+    .u(out_u[16:0]), .v(out_v[16:0]));
+
+// The lanes of tess_points after the first: the k-th point after the position of the step.
+module tess_reference_lanes #(
+    parameter int POINTS = 1
+) (
+    input logic                 clk, rst, advance, walks,
+    input logic                 backward, a_runs, is_quad,
+    input logic [2:0]           at,
+    input logic [1:0]           side,
+    input logic [6:0]           along, across, to_come,
+    input tess_context_t        a_context, b_context,
+    input logic [POINTS-1:0]    keep, // ten clocks later
+    input logic [17*POINTS-1:0] u, v
+);
+    for (genvar k = 1; k < POINTS; k++) begin : g_lane
+        function automatic tess_point_t point();
+            bit [6:0]    p = backward ? along - 7'(k) : along + 7'(k);
+            tess_place_t a = tess_placed(a_context, 32'(a_runs ? p : across));
+            tess_place_t b = tess_placed(b_context, 32'(a_runs ? across : p));
+            return tess_combined(is_quad, at, side, 17'(a.location), 17'(b.location));
+        endfunction
+
+        bit [9:0]    comes; // the steps of the last ten clocks, the newest in the lowest bit
+        tess_point_t expected[10];
+        always_ff @(posedge clk) begin
+            if (rst) begin
+                comes <= '0;
+            end else if (advance) begin
+                comes       <= {comes[8:0], walks};
+                expected[0] <= (walks && to_come >= 7'(k)) ? point() : '0;
+                for (int i = 1; i < 10; i++) expected[i] <= expected[i-1];
+            end
+        end
+        tess_point_t due;
+        assign due = expected[9];
+        `TESS_CHECK(keep, "points", "keep", "tess_points", comes[9], keep[k] == due.is_used)
+        `TESS_CHECK(u, "points", "u", "tess_lane", comes[9] && due.is_used, 32'(u[17*k +: 17]) == due.u)
+        `TESS_CHECK(v, "points", "v", "tess_lane", comes[9] && due.is_used, 32'(v[17*k +: 17]) == due.v)
+    end
+endmodule
+bind tess_points tess_reference_lanes #(.POINTS(POINTS)) lanes_reference (
+    .clk, .rst, .advance, .walks, .backward(here.backward), .a_runs(here.a_runs), .is_quad(here.is_quad), .at(here.at),
+    .side(here.side), .along, .across(here.across), .to_come, .a_context, .b_context, .keep(out_keep), .u(out_u), .v(out_v));
 
 // ---- primitives ----------------------------------------------------------------------------------
 

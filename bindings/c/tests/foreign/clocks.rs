@@ -25,6 +25,11 @@ const HEAD: &str = "\
 | workload | patches | points | primitives | clocks | points per clock | primitives per clock | clocks between patches |
 | --- | --- | --- | --- | --- | --- | --- | --- |";
 
+/// The head of the table of transfers.
+const TRANSFERS: &str = "\
+| workload | `POINTS` 1 | `POINTS` 2 | `POINTS` 4 | points per transfer with 2 | with 4 |
+| --- | --- | --- | --- | --- | --- |";
+
 /// Clocks between two patches, and from a patch to its first element, at most.
 const BETWEEN: u64 = 8;
 const LATENCY: u64 = 30;
@@ -32,14 +37,15 @@ const LATENCY: u64 = 30;
 /// The clocks that `BUFFERED` adds, once: to the first element of a patch.
 const BUFFERS: u64 = 2;
 
-/// Prints latencies, then a row of a table for each workload; docs/rtl.md has both. No stream
+/// Prints latencies, then rows of two tables for each workload; docs/rtl.md has all. No stream
 /// stands still within a patch, and no bar is missed. With register stages everything is the same,
-/// two clocks later.
+/// two clocks later. With several points per clock no workload takes longer.
 #[expect(clippy::print_stdout, reason = "the rows of the document")]
 pub(crate) fn are_those_of_the_document() -> Result<(), Failed> {
     let document = std::fs::read_to_string(repository().join("docs/rtl.md"))?;
-    let [plain, buffered] = [Variant::Plain, Variant::Buffered].map(rtl::bench);
-    let (plain, buffered) = (plain?, buffered?);
+    let variants = [Variant::Plain, Variant::Buffered, Variant::Two, Variant::Four].map(rtl::bench);
+    let [plain, buffered, two, four] = variants;
+    let (plain, buffered, two, four) = (plain?, buffered?, two?, four?);
     let ([point, primitive], later) = (latencies(&plain)?, latencies(&buffered)?);
     println!("\nclocks, one patch alone: {point} to a point, {primitive} to a primitive");
     let documented = format!("{point} clocks for a point and {primitive} for a primitive");
@@ -51,9 +57,10 @@ pub(crate) fn are_those_of_the_document() -> Result<(), Failed> {
         wrong.push(format!("with register stages {later:?} clocks"));
     }
     println!("{HEAD}");
+    let mut transfers = Vec::new();
     for (name, cases) in workloads()? {
         let stimuli = rtl::stimuli(&name.replace('/', "-"), &cases)?;
-        let (verdict, between) = timed(&plain, &stimuli, cases.len())?;
+        let Timed { verdict, between, transfers: one } = timed(&plain, &stimuli, cases.len())?;
         let row = row(&name, verdict, &between);
         println!("{row}");
         if !between.parse().is_ok_and(|clocks: u64| clocks <= BETWEEN) || !document.contains(&row) {
@@ -61,11 +68,26 @@ pub(crate) fn are_those_of_the_document() -> Result<(), Failed> {
         }
         let clocks = verdict.clocks + BUFFERS;
         let later = timed(&buffered, &stimuli, cases.len())?;
-        if later != (BenchVerdict { clocks, ..verdict }, between) {
-            wrong.push(format!(
-                "`{name}` with register stages: {} clocks between, {}",
-                later.1, later.0
-            ));
+        let due = Timed { verdict: BenchVerdict { clocks, ..verdict }, between, transfers: one };
+        if later != due {
+            wrong.push(format!("`{name}` with register stages: {later:?}"));
+        }
+        let [two, four] = [(&two, 0), (&four, BUFFERS)].map(|(bench, added)| {
+            let several = timed(bench, &stimuli, cases.len())?;
+            let is_slower = several.verdict.clocks > verdict.clocks + added;
+            let same = BenchVerdict { clocks: several.verdict.clocks, ..verdict };
+            if is_slower || several.verdict != same {
+                return Err(Failed::from(format!("`{name}` with several points: {several:?}")));
+            }
+            Ok(several.transfers)
+        });
+        transfers.push(transfers_row(&name, verdict.points, [one, two?, four?]));
+    }
+    println!("{TRANSFERS}");
+    for row in transfers {
+        println!("{row}");
+        if !document.contains(&row) {
+            wrong.push(row);
         }
     }
     let wrong = wrong.join("\n");
@@ -84,9 +106,18 @@ fn latencies(bench: &Path) -> Result<[u64; 2], Failed> {
     <[u64; 2]>::try_from(numbers).map_err(|_| latency.into())
 }
 
-/// The verdict on these patches without back-pressure, and the clocks between patches; within
-/// patches no clock may be without an element.
-fn timed(bench: &Path, stimuli: &str, patches: usize) -> Result<(BenchVerdict, String), Failed> {
+/// A run without back-pressure.
+#[derive(Debug, PartialEq)]
+struct Timed {
+    verdict: BenchVerdict,
+    /// The clocks between patches.
+    between: String,
+    /// The transfers of points.
+    transfers: u64,
+}
+
+/// Runs these patches; within patches no clock may be without an element.
+fn timed(bench: &Path, stimuli: &str, patches: usize) -> Result<Timed, Failed> {
     let said = run(Command::new(bench).arg(stimuli))?;
     let verdict = BenchVerdict::read(&said, patches as u64)?;
     let within = line(&said, "within patches: ")?;
@@ -95,7 +126,8 @@ fn timed(bench: &Path, stimuli: &str, patches: usize) -> Result<(BenchVerdict, S
     }
     let between = line(&said, "between patches: at most ")?;
     let clocks = between.strip_suffix(" clocks").ok_or("the clocks between patches")?;
-    Ok((verdict, clocks.to_owned()))
+    let transfers = line(&said, "transfers of points: ")?.parse()?;
+    Ok(Timed { verdict, between: clocks.to_owned(), transfers })
 }
 
 /// Names and patches, with enough points each. Those of `tess bench` that come in batches: the
@@ -136,13 +168,21 @@ fn line<'a>(said: &'a str, prefix: &str) -> Result<&'a str, String> {
 
 fn row(name: &str, verdict: BenchVerdict, between: &str) -> String {
     let BenchVerdict { patches, points, primitives, clocks } = verdict;
-    let rate = |elements: u64| {
-        let thousandths = elements * 1000 / clocks.max(1);
-        format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
-    };
+    let rate = |elements: u64| rate(elements, clocks);
     format!(
         "| `{name}` | {patches} | {points} | {primitives} | {clocks} | {} | {} | {between} |",
         rate(points),
         rate(primitives)
     )
+}
+
+/// Elements per clock or transfer, cut off after three digits.
+fn rate(elements: u64, clocks: u64) -> String {
+    let thousandths = elements * 1000 / clocks.max(1);
+    format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
+}
+
+fn transfers_row(name: &str, points: u64, [one, two, four]: [u64; 3]) -> String {
+    let (of_two, of_four) = (rate(points, two), rate(points, four));
+    format!("| `{name}` | {one} | {two} | {four} | {of_two} | {of_four} |")
 }

@@ -27,13 +27,17 @@ fn script() -> Result<Command, String> {
     Ok(script)
 }
 
-/// The circuit as it is, and with all that its parameters add.
+/// The circuit as it is, and with what its parameters add.
 #[derive(Clone, Copy)]
 pub(crate) enum Variant {
     Plain,
     /// Register stages at the ports (`BUFFERED`), padded AXI4-Stream words (`PADDED`), and tags and
     /// numbered points (`TAG`, `BASE`).
     Buffered,
+    /// Two points per clock (`POINTS`).
+    Two,
+    /// Four, and all of `Buffered`.
+    Four,
 }
 
 impl Variant {
@@ -41,6 +45,8 @@ impl Variant {
         match self {
             Self::Plain => &[],
             Self::Buffered => &["--buffered"],
+            Self::Two => &["--points", "2"],
+            Self::Four => &["--buffered", "--points", "4"],
         }
     }
 
@@ -49,13 +55,15 @@ impl Variant {
         match self {
             Self::Plain => "",
             Self::Buffered => "buffered/bench",
+            Self::Two => "points-2/bench",
+            Self::Four => "buffered/bench/points-4/bench",
         }
     }
 }
 
 /// Lints the design and builds a variant's bench, once.
 pub(crate) fn bench(variant: Variant) -> Result<PathBuf, String> {
-    static BUILT: [OnceLock<Result<PathBuf, String>>; 2] = [const { OnceLock::new() }; 2];
+    static BUILT: [OnceLock<Result<PathBuf, String>>; 4] = [const { OnceLock::new() }; 4];
     BUILT[variant as usize].get_or_init(|| build(variant)).clone()
 }
 
@@ -85,9 +93,17 @@ pub(crate) fn equals_model() -> Result<(), Failed> {
     equals(Variant::Plain, "level-1")
 }
 
-/// The same for the other variant.
+/// The same for the other variants.
 pub(crate) fn buffered_equals_model() -> Result<(), Failed> {
     equals(Variant::Buffered, "level-1-buffered")
+}
+
+pub(crate) fn two_points_equal_model() -> Result<(), Failed> {
+    equals(Variant::Two, "level-1-two")
+}
+
+pub(crate) fn four_points_equal_model() -> Result<(), Failed> {
+    equals(Variant::Four, "level-1-four")
 }
 
 fn equals(variant: Variant, name: &str) -> Result<(), Failed> {
@@ -104,7 +120,8 @@ fn equals(variant: Variant, name: &str) -> Result<(), Failed> {
 /// patch; or it costs clocks.
 #[expect(clippy::print_stdout, reason = "each fault takes a second, and its line says who saw it")]
 pub(crate) fn faults_are_caught() -> Result<(), Failed> {
-    for variant in [Variant::Plain, Variant::Buffered] {
+    let variants = [Variant::Plain, Variant::Buffered, Variant::Four];
+    for variant in variants {
         let mut script = script()?;
         script.env("TESS_VERILOG_BUILD", build_folder().join("rtl")).arg("--faults");
         run(script.args(variant.options()).arg("--build"))?;
@@ -112,16 +129,17 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
     let bench = |fault: usize, arguments: &[&str]| planted(Variant::Plain, fault, arguments);
     let isolines = stimuli("isolines-100", &isolines(100)?)?;
     let timed = [isolines.as_str(), TIMED[0]];
-    for variant in [Variant::Plain, Variant::Buffered] {
+    for variant in variants {
         BenchVerdict::read(&run(&mut planted(variant, 0, &ALL))?, 20_000)?;
     }
     let clocks = BenchVerdict::read(&run(&mut bench(0, &timed))?, 600)?.clocks;
     for (number, fault) in circuit::faults(&repository())? {
         let began = Instant::now();
         let ListedFault { name, tests: seen_by, filters: words, .. } = &fault;
-        // `buffered` selects the variant.
+        // The first word may select the variant.
         let (variant, seen_by, words) = match (seen_by.as_str(), &words[..]) {
             ("buffered", [seen_by, words @ ..]) => (Variant::Buffered, seen_by.as_str(), words),
+            ("four", [seen_by, words @ ..]) => (Variant::Four, seen_by.as_str(), words),
             (seen_by, words) => (Variant::Plain, seen_by, words),
         };
         let (is_seen, said) = if seen_by == "proof" {
@@ -147,11 +165,8 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
 
 /// The bench of a variant with all planted faults, of which it has this one.
 fn planted(variant: Variant, fault: usize, arguments: &[&str]) -> Command {
-    let folder = match variant {
-        Variant::Plain => "faults/bench",
-        Variant::Buffered => "faults/bench/buffered/bench",
-    };
-    let mut bench = Command::new(build_folder().join("rtl").join(folder).join("Vtb_tess"));
+    let folder = build_folder().join("rtl/faults/bench").join(variant.folder());
+    let mut bench = Command::new(folder.join("Vtb_tess"));
     bench.arg(format!("+fault={fault}")).args(arguments);
     bench
 }

@@ -10,7 +10,14 @@ use std::path::Path;
 use std::process::Command;
 
 /// The variants of the design: the parameters of each.
-const VARIANTS: [&str; 4] = [PLAIN, BUFFERED, LABELLED, "-set BUFFERED 1 -set TAG 13 -set BASE 30"];
+const VARIANTS: [&str; 6] = [
+    PLAIN,
+    BUFFERED,
+    LABELLED,
+    "-set BUFFERED 1 -set TAG 13 -set BASE 30",
+    "-set POINTS 4",
+    "-set BUFFERED 1 -set TAG 13 -set BASE 30 -set POINTS 4",
+];
 const PLAIN: &str = "-set BUFFERED 0";
 const BUFFERED: &str = "-set BUFFERED 1";
 const LABELLED: &str = "-set TAG 13 -set BASE 30";
@@ -36,7 +43,7 @@ pub(crate) fn run() -> Result<(), String> {
             return Err(format!("an output depends on these inputs in the same clock: {inputs}"));
         }
     }
-    unused_labels_are_free(&folder)?;
+    unused_parameters_are_free(&folder)?;
     println!("\nno output depends on an input in the same clock, except on the reset");
     for (fault, variant) in FAULTS {
         proofs::copy(Planted::Fault(fault), true)?;
@@ -49,15 +56,16 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
-/// Checks that tags and numbered points cost nothing where their parameters are 0.
+/// Checks that tags, numbered points and lanes cost nothing without their parameters.
 ///
 /// # Errors
 /// Yosys fails, or finds a cell of them; or it finds none although they are used.
-fn unused_labels_are_free(folder: &Path) -> Result<(), String> {
-    for (variant, is_free) in [(PLAIN, true), (BUFFERED, true), (LABELLED, false)] {
+fn unused_parameters_are_free(folder: &Path) -> Result<(), String> {
+    let used = [(PLAIN, true), (BUFFERED, true), (LABELLED, false), ("-set POINTS 2", false)];
+    for (variant, is_free) in used {
         let script = format!(
             "read_verilog -sv -I . {}; chparam {variant} tess_axis; hierarchy -top tess_axis; proc; opt_clean; \
-             tee -o cells.txt select -list *tess_tags*/t:* *tess_base*/t:*",
+             tee -o cells.txt select -list *tess_tags*/t:* *tess_base*/t:* *tess_lane*/t:*",
             proofs::design(folder)?.join(" "),
         );
         command::quiet_output(
@@ -65,10 +73,10 @@ fn unused_labels_are_free(folder: &Path) -> Result<(), String> {
         )?;
         let cells = command::read(&folder.join("cells.txt"))?;
         if cells.trim().is_empty() != is_free {
-            return Err(format!("cells of tags and sums with {variant}:\n{cells}"));
+            return Err(format!("cells of tags, sums and lanes with {variant}:\n{cells}"));
         }
     }
-    println!("tags and numbered points have no cells where their parameters are 0");
+    println!("tags, numbered points and lanes have no cells without their parameters");
     Ok(())
 }
 
@@ -77,7 +85,7 @@ fn unused_labels_are_free(folder: &Path) -> Result<(), String> {
 fn inputs_of_outputs(folder: &Path, variant: &str) -> Result<Vec<String>, String> {
     let script = format!(
         "read_verilog -sv -I . {}; chparam {variant} tess_axis; hierarchy -top tess_axis; proc; flatten; \
-         opt_clean; select -set outputs o:*_tvalid o:*_tready o:*_tdata o:*_tlast; select -assert-count 9 @outputs; \
+         opt_clean; select -set outputs o:*_tvalid o:*_tready o:*_tdata o:*_tkeep o:*_tlast; select -assert-count 10 @outputs; \
          select -set inputs i:*_tvalid i:*_tready i:*_tdata; select -assert-count 5 @inputs; \
          tee -o inputs.txt select -list @outputs %cie* @inputs %i",
         proofs::design(folder)?.join(" "),
