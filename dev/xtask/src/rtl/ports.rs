@@ -72,7 +72,9 @@ fn unused_parameters_are_free(folder: &Path) -> Result<(), String> {
             Command::new("yosys").args(["-q", "-p", &script]).current_dir(folder),
         )?;
         let cells = command::read(&folder.join("cells.txt"))?;
-        if cells.trim().is_empty() != is_free {
+        // Yosys warns of a module that the design does not have.
+        let is_cell = |line: &str| !line.is_empty() && !line.starts_with("Warning: ");
+        if cells.lines().any(is_cell) == is_free {
             return Err(format!("cells of tags, sums and lanes with {variant}:\n{cells}"));
         }
     }
