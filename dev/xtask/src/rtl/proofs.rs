@@ -369,7 +369,9 @@ impl Proof {
     /// Makes Yosys write the problem to be proved.
     fn write(&self, planted: Planted<'_>) -> Result<(), String> {
         copy(planted, self.inside)?;
-        let free: String = self.free.iter().map(|name| format!("cutpoint t:*{name}; ")).collect();
+        // With parameters the name of a module is followed by a backslash and their values.
+        let free = |name| format!("cutpoint t:*{name} t:*{name}?*=*; ");
+        let free: String = self.free.iter().map(free).collect();
         let parameters: String = self
             .parameters
             .iter()
