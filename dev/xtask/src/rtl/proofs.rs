@@ -60,7 +60,7 @@ const PROOFS: &[Proof] = &[
         parameters: &[("TAG", 4), ("BASE", 14)],
         free: &["tess_factors", "tess_points", "tess_connect"],
         depth: 6,
-        reach: 12,
+        reach: 20,
         inside: true,
         faults: &["the tag of counts is that of the next patch"],
     },
