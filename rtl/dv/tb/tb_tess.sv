@@ -5,7 +5,7 @@
 //   +random=N       N random patches after them, most of them small (default 0)
 //   +seed=N         seed of everything random (default 1)
 //   +gaps           random gaps between patches, back-pressure of several kinds on each stream
-//   +resets=N       N resets before anything is checked, each with up to four patches under way
+//   +resets=N       N resets before anything is checked, each with up to eight patches under way
 //   +covered        fails unless every bin of tess_sequences.svh is hit, and every rule of tess_checks.sv has applied
 //   +alone          sends each patch after the output of the previous one is complete, to measure latencies
 //   +fault=N        the design has fault N (`cargo xtask rtl --plant`); ends soon after a difference
@@ -599,7 +599,7 @@ module tb_tess #(
     // Resets with patches under way, one of which may wait in the fork; nothing of them may remain.
     task automatic reset_in_the_middle(input int unsigned count);
         repeat (count) begin
-            repeat (1 + random() % 4) send(random_stimulus());
+            repeat (1 + random() % 8) send(random_stimulus());
             repeat (random() % 40) @(posedge clk);
             // Half of the resets are at the last element of a stream.
             @(negedge clk);
