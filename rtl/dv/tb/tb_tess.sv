@@ -506,7 +506,8 @@ module tb_tess #(
                 check_primitive();
             end
             count_clocks();
-            if (idle > LONGEST_STALL + 2000 && (is_offered || !is_empty())) begin
+            // One of the longest stalls can follow another.
+            if (idle > 3 * LONGEST_STALL && (is_offered || !is_empty())) begin
                 if (of_points.size() != 0) compare(of_points[0], POINTS_VALID, next_point, 0, 1);
                 if (of_primitives.size() != 0) compare(of_primitives[0], CONNECT_VALID, next_primitive, 0, 1);
                 show();
