@@ -19,70 +19,63 @@ module tess_factor_context #(
 );
     localparam int CLOCKS = REGISTERED ? 1 : 0; // of each step
     localparam logic [22:0] ONE  = 23'h01_0000;
-    localparam logic [22:0] HALF = 23'h00_8000;
+    localparam logic [21:0] HALF = 22'h00_8000;
 
     // ---- half ----------------------------------------------------------------------------------
 
-    logic [22:0] rounded_half, half_next, half;
+    logic [21:0] rounded_half, half_next, half;
     always_comb begin
-        rounded_half = (factor + 23'd1) >> 1;
-        half_next = rounded_half + ((odd || factor == ONE) ? HALF : 23'd0);
+        rounded_half = 22'((factor + 23'd1) >> 1);
+        half_next    = rounded_half + ((odd || factor == ONE) ? HALF : 22'd0);
     end
-    tess_delay #(.WIDTH(23), .CLOCKS(CLOCKS)) at_points (.clk, .advance, .in(half_next), .out(half));
+    tess_delay #(.WIDTH(22), .CLOCKS(CLOCKS)) at_points (.clk, .advance, .in(half_next), .out(half));
 
     // ---- points --------------------------------------------------------------------------------
 
-    logic       odd_here, is_odd, is_center, has_fraction;
-    logic [6:0] floor_points, ceil_points;
-    logic [6:0] floor_before, ceil_before; // one less if odd
+    logic       odd_here, is_odd, is_center, has_fraction, splits;
+    logic [5:0] floor_points, ceil_points, points_after; // points_after: the floor and one more
+    logic [5:0] less_odd, floor_before, ceil_before;     // points, one less if odd
     tess_delay #(.WIDTH(1), .CLOCKS(CLOCKS)) parity_here (.clk, .advance, .in(odd), .out(odd_here));
     assign has_fraction = half[15:0] != 16'd0;
-    logic [6:0] less_odd;
-    assign less_odd = half[22:16] - {6'd0, odd_here};
-    tess_delay #(.WIDTH(23 + 3 * 7), .CLOCKS(CLOCKS)) at_rest (
+    assign floor_points = half[21:16];
+    assign less_odd     = floor_points - {5'd0, odd_here};
+    tess_delay #(.WIDTH(16 + 4 * 6), .CLOCKS(CLOCKS)) at_rest (
         .clk, .advance,
-        .in ({half, half[22:16] + 7'(has_fraction), less_odd, less_odd + 7'(has_fraction)}),
-        .out({floor_points, fraction, ceil_points, floor_before, ceil_before})
+        .in ({half[15:0], floor_points + 6'd1, floor_points + 6'(has_fraction), less_odd, less_odd + 6'(has_fraction)}),
+        .out({fraction, points_after, ceil_points, floor_before, ceil_before})
     );
-    tess_delay #(.WIDTH(1), .CLOCKS(CLOCKS)) parity (.clk, .advance, .in(odd_here), .out(is_odd));
+    tess_delay #(.WIDTH(2), .CLOCKS(CLOCKS)) parity (.clk, .advance, .in({odd_here, has_fraction}), .out({is_odd, splits}));
     tess_delay #(.WIDTH(1), .CLOCKS(2 * CLOCKS)) order (.clk, .advance, .in(center), .out(is_center));
 
     // ---- the rest ------------------------------------------------------------------------------
 
-    function automatic logic [6:0] drop_msb(input logic [6:0] x);
-        drop_msb = x;
-        for (int i = 0; i < 7; i++) begin
+    function automatic logic [4:0] drop_msb(input logic [5:0] x);
+        drop_msb = 5'd0;
+        for (int i = 1; i < 6; i++) begin
             if (x[i]) begin // the highest set bit is assigned last
-                drop_msb = x & ~(7'd1 << i);
+                drop_msb = x[4:0] & ~(5'h1F << i);
             end
         end
     endfunction
 
-    logic [6:0] odd_top, even_top; // the points of the floor without their highest bit
-    assign odd_top  = drop_msb(floor_before);
-    assign even_top = drop_msb(floor_points);
     always_comb begin
-        half_points = ceil_points[5:0];
-        points      = {ceil_points[5:0], !is_odd}; // section 14.1
-        if (floor_points == ceil_points) begin // no position splits
-            split = 6'(ceil_points + 7'd1);
+        half_points = ceil_points;
+        points      = {ceil_points, !is_odd}; // section 14.1
+        if (!splits) begin
+            split = points_after;
         end else if (is_center) begin
-            split = 6'(ceil_before - 7'd1);
-        end else if (is_odd && floor_points == 7'd1) begin
-            split = 6'd0;
-        end else if (is_odd) begin
-            split = 6'((odd_top << 1) + 7'd1);
+            split = floor_before; // the ceiling is one more
         end else begin
-            split = 6'((even_top << 1) + 7'd1);
+            split = {drop_msb(floor_before), floor_before != 6'd0}; // 0 if the floor is 1 and odd
         end
     end
 
     tess_reciprocal floor_reciprocal (
-        .n    ({floor_before[5:0], is_odd}),
+        .n    ({floor_before, is_odd}),
         .value(inv_floor)
     );
     tess_reciprocal ceil_reciprocal (
-        .n    ({ceil_before[5:0], is_odd}),
+        .n    ({ceil_before, is_odd}),
         .value(inv_ceil)
     );
 endmodule

@@ -209,6 +209,23 @@ module tess_factors (
     assign sets_tall  = context_k == (is_quad ? 3'd5 : is_isoline ? 3'd0 : 3'd3);
     assign half       = made.points >> 1;
 
+    // Quad: (n4 - 2)(n5 - 2). Isoline: n1 (n0 - 1). Triangle, with h = n3 / 2: (h - 1)(3h - 3), or (h - 1) 3h + 1 if n3 is odd.
+    // Each is one sum, whose terms are selected before the addition.
+    logic [6:0] wide_next, tall_next;
+    logic [1:0] tall_less;
+    always_comb begin
+        wide_next = (is_quad || is_isoline ? made.points : half) - {5'd0, is_quad, !is_quad && !is_isoline};
+        tall_less = 2'd0;
+        if (is_quad) begin
+            tall_less = 2'd2;
+        end else if (is_isoline) begin
+            tall_less = 2'd1;
+        end else if (!made.points[0]) begin
+            tall_less = 2'd3;
+        end
+        tall_next = (is_quad || is_isoline ? made.points : half) + (is_quad || is_isoline ? 7'd0 : half << 1) - {5'd0, tall_less};
+    end
+
     always_ff @(posedge clk) begin
         if (rst) begin
             is_complete <= 1'b0;
@@ -228,22 +245,13 @@ module tess_factors (
                     contexts[BITS*i +: BITS] <= made;
                 end
             end
-            // Quad: (n4 - 2)(n5 - 2). Isoline: n1 (n0 - 1). Triangle, with h = n3 / 2: 3h (h - 1) + 1 or 3(h - 1)(h - 1).
             if (sets_wide) begin
                 contexts[BITS*4 +: BITS] <= made;
-                wide <= is_quad ? made.points - 7'd2 : is_isoline ? made.points : half - 7'd1;
+                wide <= wide_next;
             end
             if (sets_tall) begin
                 contexts[BITS*5 +: BITS] <= made;
-                if (is_quad) begin
-                    tall <= made.points - 7'd2;
-                end else if (is_isoline) begin
-                    tall <= made.points - 7'd1;
-                end else if (made.points[0]) begin
-                    tall <= half + (half << 1);
-                end else begin
-                    tall <= half + (half << 1) - 7'd3;
-                end
+                tall <= tall_next;
             end
         end
     end
