@@ -26,7 +26,7 @@
 // - start_patch.primitives is the patch's count, from tess_factors: 0 for a culled patch. It ends a sequence. The stitches of a
 //   patch have as many primitives together (section 12.6), so the place of a stitch says whether it is the last one: `is_last`.
 // - Indices are below 4225, so they fit 13 bits. A patch has at most 8192 primitives, so 14 bits count them.
-// - `edge_further` and `ahead` are exact: the primitives that are described are walked, each once (dv/formal).
+// - `described` and `ahead` are exact: the primitives that are described are walked, each once (dv/formal).
 // - Registers after `ahead` change only when `advance` is 1, so nothing is lost while out_ready is 0.
 `include "tess_types.svh"
 module tess_connect (
@@ -48,13 +48,11 @@ module tess_connect (
     output logic [12:0]                      out_i2,
     output logic                             out_last
 );
-    typedef enum logic [2:0] {
-        AT_SEQUENCE, // points; lines that join all points
-        AT_LINE,     // the segments of isolines
-        AT_MINIMUM,
-        AT_STITCH,
-        AT_MIDDLE    // a strip, or the triangle in the middle of a triangle
-    } at_e;
+    localparam logic [2:0] AT_SEQUENCE = 3'd0; // points; lines that join all points
+    localparam logic [2:0] AT_LINE     = 3'd1; // the segments of isolines
+    localparam logic [2:0] AT_MINIMUM  = 3'd2;
+    localparam logic [2:0] AT_STITCH   = 3'd3;
+    localparam logic [2:0] AT_MIDDLE   = 3'd4; // a strip, or the triangle in the middle of a triangle
 
     logic advance; // the registers after `ahead` may change
     assign advance = !out_valid || out_ready;
@@ -67,11 +65,12 @@ module tess_connect (
     /* verilator lint_on UNUSEDSIGNAL */
     logic [tess_pkg::COUNTS_BITS-1:0] counts;
     logic                             is_first;   // no edge of the patch has been described
-    at_e                              at;
+    logic [2:0]                       at;
     logic                             is_first_ring;
     logic [1:0]                       side;       // number of the edge
     logic                             is_last;    // no edge of the patch follows
     logic [13:0]                      remaining;  // of a sequence: primitives from this edge on, less one
+    logic                             along_u;    // the inner row of this edge, or the strip, runs along u
     logic [6:0]                       m_u, m_v;   // points on the inner rows of this ring, along u and v; m_v: lines that follow
     logic                             strip_along_u;
 
@@ -94,40 +93,45 @@ module tess_connect (
     assign is_last_ring      = m_u <= 7'd2 || m_v <= 7'd2;
     assign n_outside         = points_of(counts, {1'b0, side});
     assign detail            = points_of(counts, 3'd4);
-    assign m                 = (at == AT_MIDDLE ? strip_along_u : side[0]) ? m_u : m_v;
+    assign m                 = along_u ? m_u : m_v;
 
-    // K - 1 and M - 1 of section 7.1, the number of primitives after the first one, and the kind of stitch.
-    logic [6:0] outer_last_next, inner_last_next, further_next, middle_next, offset_next;
+    // K - 1 and M - 1 of section 7.1, whose sum is the number of primitives, also where no stitch is; and the kind of stitch.
+    logic [6:0] outer_last_next, inner_last_next, middle_next, offset_next;
     logic [2:0] kind_next;
     logic       walks_back;
     // The inner row is a row of points that is walked back: the parity across the edge is even, and the ring is the last
     // one of that axis.
     assign walks_back = at == AT_STITCH && is_quad && side[1] && (side[0] ? m_v : m_u) == 7'd1;
     always_comb begin
-        outer_last_next = 7'd64;
+        outer_last_next = 7'd1;
         inner_last_next = m - 7'd1;
-        further_next    = {6'd0, is_quad}; // of a minimum patch
         middle_next     = (m >> 1) - 7'd1;
         offset_next     = 7'd2;   // from the outer base to the inner base, except for stitches
         kind_next       = tess_pkg::STRAIGHT;
         unique case (at)
-            AT_SEQUENCE: further_next = is_last ? {1'b0, remaining[5:0]} : 7'd63;
+            AT_SEQUENCE: begin
+                outer_last_next = is_last ? {1'b0, remaining[5:0]} : 7'd64;
+                inner_last_next = {6'd0, is_last};
+            end
             AT_LINE: begin
                 outer_last_next = detail; // no segment begins at the last point of a line
-                further_next    = detail - 7'd2;
+                inner_last_next = -7'd1;
             end
-            AT_MINIMUM: offset_next = is_quad ? 7'd3 : 7'd2; // triangle 0 1 2; quad 0 1 3 and 1 2 3
+            AT_MINIMUM: begin
+                outer_last_next = is_quad ? 7'd2 : 7'd1;
+                inner_last_next = 7'd0;
+                offset_next     = is_quad ? 7'd3 : 7'd2; // triangle 0 1 2; quad 0 1 3 and 1 2 3
+            end
             AT_STITCH: begin
                 outer_last_next = is_first_ring ? n_outside - 7'd1 : m + 7'd1;
-                further_next    = is_first_ring ? n_outside + m - 7'd3 : {m[5:0], 1'b0} - 7'd1;
                 kind_next       = is_first_ring ? tess_pkg::TRANSITION : tess_pkg::RING;
             end
             default: begin
-                further_next = 7'd0;
+                inner_last_next = 7'd0;
                 if (is_quad) begin
                     // Section 7.4: m - 1 quads between two rows of m points.
-                    further_next    = {m[5:0], 1'b0} - 7'd3;
                     outer_last_next = m - 7'd1;
+                    inner_last_next = m - 7'd1;
                     middle_next     = (m - 7'd1) >> 1;
                     offset_next     = {m[5:0], 1'b0} - {6'd0, !strip_along_u};
                     kind_next       = (!strip_along_u && !m_v[0]) ? tess_pkg::STRIP_EXCEPT_MIDDLE : tess_pkg::STRIP;
@@ -149,6 +153,41 @@ module tess_connect (
     assign loads = !active || is_last;
     assign steps = !active || describes;
 
+    // The first edge of a patch, and the one after this. They are selected by gates instead of conditions, from which synthesis
+    // would make enables and resets of single registers, which come later than `steps`.
+    logic        ends_ring, shrinks, start_last, next_last;
+    logic [1:0]  next_side;
+    logic [2:0]  start_at, next_at;
+    logic [6:0]  start_u, start_v;
+    logic [13:0] remaining_next;
+    assign ends_ring      = at == AT_STITCH && is_last_side;
+    assign shrinks        = ends_ring && !is_last_ring;
+    assign start_u        = points_of(start_counts, 3'd4);
+    assign start_v        = points_of(start_counts, 3'd5);
+    assign next_side      = ends_ring ? 2'd0 : side + {1'b0, at == AT_STITCH};
+    assign next_at        = (ends_ring && is_last_ring) ? AT_MIDDLE : at;
+    assign remaining_next = {remaining[13:6] - 8'd1, remaining[5:0]};
+    always_comb begin
+        start_at   = AT_STITCH;
+        start_last = 1'b0;
+        if (start_patch.out == tess_pkg::POINT
+                || (start_patch.out == tess_pkg::LINE && start_patch.domain != tess_pkg::ISOLINE)) begin
+            start_at   = AT_SEQUENCE;
+            start_last = start_patch.primitives <= 14'd64;
+        end else if (start_patch.domain == tess_pkg::ISOLINE) begin
+            start_at   = AT_LINE;
+            start_last = start_v == 7'd2;
+        end else if (start_patch.minimum) begin
+            start_at   = AT_MINIMUM;
+            start_last = 1'b1;
+        end
+        unique case (at)
+            AT_SEQUENCE: next_last = remaining[13:6] == 8'd1;
+            AT_LINE:     next_last = m_v == 7'd1;
+            default:     next_last = is_last_side ? is_last_ring : last_side_follows && (m_u == 7'd1 || m_v == 7'd1);
+        endcase
+    end
+
     always_ff @(posedge clk) begin
         if (rst) begin
             active <= 1'b0;
@@ -161,52 +200,18 @@ module tess_connect (
         if (start_ready) begin
             patch         <= start_patch;
             counts        <= start_counts;
-            strip_along_u <= points_of(start_counts, 3'd4) > points_of(start_counts, 3'd5);
+            strip_along_u <= start_u > start_v;
         end
-        if (steps && loads) begin
-            is_first      <= 1'b1;
-            is_first_ring <= 1'b1;
-            side          <= 2'd0;
-            remaining     <= start_patch.primitives - 14'd1;
-            is_last       <= 1'b0;
-            m_u           <= points_of(start_counts, 3'd4) - 7'd2;
-            m_v           <= points_of(start_counts, 3'd5) - 7'd2;
-            if (start_patch.out == tess_pkg::POINT
-                    || (start_patch.out == tess_pkg::LINE && start_patch.domain != tess_pkg::ISOLINE)) begin
-                at      <= AT_SEQUENCE;
-                is_last <= start_patch.primitives <= 14'd64;
-            end else if (start_patch.domain == tess_pkg::ISOLINE) begin
-                at      <= AT_LINE;
-                is_last <= points_of(start_counts, 3'd5) == 7'd2;
-            end else if (start_patch.minimum) begin
-                at      <= AT_MINIMUM;
-                is_last <= 1'b1;
-            end else begin
-                at <= AT_STITCH;
-            end
-        end else if (steps) begin
-            is_first        <= 1'b0;
-            remaining[13:6] <= remaining[13:6] - 8'd1;
-            unique case (at)
-                AT_SEQUENCE: is_last <= remaining[13:6] == 8'd1;
-                AT_LINE:     is_last <= m_v == 7'd1;
-                default:     is_last <= is_last_side ? is_last_ring : last_side_follows && (m_u == 7'd1 || m_v == 7'd1);
-            endcase
-            if (at == AT_LINE) begin
-                m_v <= m_v - 7'd1;
-            end
-            if (at == AT_STITCH) begin
-                side <= is_last_side ? 2'd0 : side + 2'd1;
-                if (is_last_side) begin
-                    is_first_ring <= 1'b0;
-                    if (is_last_ring) begin
-                        at <= AT_MIDDLE;
-                    end else begin
-                        m_u <= m_u - 7'd2;
-                        m_v <= m_v - 7'd2;
-                    end
-                end
-            end
+        if (steps) begin
+            at            <= ({3{loads}} & start_at) | ({3{!loads}} & next_at);
+            is_last       <= (loads & start_last) | (!loads & next_last);
+            is_first      <= loads;
+            is_first_ring <= loads | (is_first_ring & !ends_ring);
+            side          <= {2{!loads}} & next_side;
+            along_u       <= !loads & (next_at == AT_MIDDLE ? strip_along_u : next_side[0]);
+            remaining     <= ({14{loads}} & (start_patch.primitives - 14'd1)) | ({14{!loads}} & remaining_next);
+            m_u           <= ({7{loads}} & (start_u - 7'd2)) | ({7{!loads}} & (m_u - {5'd0, shrinks, 1'b0}));
+            m_v           <= ({7{loads}} & (start_v - 7'd2)) | ({7{!loads}} & (m_v - {5'd0, shrinks, at == AT_LINE}));
         end
     end
 
@@ -214,7 +219,7 @@ module tess_connect (
 
     logic        edge_last, edge_stitch, edge_closes, edge_descends, edge_strip, edge_strip_along_u, edge_center, edge_swaps;
     logic [1:0]  edge_size;
-    logic [6:0]  edge_further, edge_outer_last, edge_inner_last, edge_middle, edge_offset;
+    logic [6:0]  edge_outer_last, edge_inner_last, edge_middle, edge_offset;
     logic [2:0]  edge_kind;
     logic [12:0] outer_base, inner_base;   // first indices of its rows
     logic [12:0] outer_start, inner_start; // and those of edge 0
@@ -252,7 +257,6 @@ module tess_connect (
             edge_center        <= patch.center;
             edge_size          <= size;
             edge_swaps         <= size == 2'd3 && patch.out == tess_pkg::TRIANGLE_CCW;
-            edge_further       <= further_next;
             edge_outer_last    <= outer_last_next;
             edge_inner_last    <= inner_last_next;
             edge_middle        <= middle_next;
@@ -300,7 +304,7 @@ module tess_connect (
     tess_stitch_t described, ahead;
     always_comb begin
         described.last      = edge_last;
-        described.further   = edge_further;
+        described.further   = edge_outer_last + edge_inner_last - 7'd1;
         described.kind      = edge_kind;
         described.has_ends  = outer_half != 6'd0;
         described.has_inner = edge_inner_last[0];
