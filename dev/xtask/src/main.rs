@@ -8,7 +8,7 @@
 //! scripts in Python          script (checks of texts; records of measurements, tables and charts)
 //! for users                  install (header, libraries, tess.pc), dist (a release's archives), examples (of tess-wgpu)
 //! the circuit                rtl (ports, tests of bindings/c, proofs, costs; with the feature `kit` long comparisons)
-//! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels), digest (of files)
+//! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels); more in dev/commands
 //! ```
 //!
 //! A command is an arm of [`run`], a paragraph of [`USAGE`], and a function of its module that
@@ -18,7 +18,6 @@
 
 mod ci;
 mod command;
-mod digest;
 mod dist;
 mod examples;
 mod explorer;

@@ -6,11 +6,12 @@
 //! Continuous integration tests what is stale, except for the long ones, of which it says so.
 
 use crate::command::{self, in_file, workspace};
-use crate::{digest, dist, explorer, mesa, python, rtl, sdl};
+use crate::{dist, explorer, mesa, python, rtl, sdl};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
+use tess_commands::digest;
 
 /// A satellite.
 struct Satellite {

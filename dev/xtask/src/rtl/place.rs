@@ -3,9 +3,10 @@
 
 use super::{budgets, sources};
 use crate::command::{self, in_file, target, workspace};
-use crate::{digest, setup};
+use crate::setup;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use tess_commands::digest;
 
 /// The tools, in the versions that the numbers in docs/rtl.md are from.
 const TOOLS: [&str; 2] =

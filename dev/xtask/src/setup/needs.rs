@@ -1,9 +1,9 @@
 //! The tests' needs from the system.
 
-use super::{Need, has_program};
-use crate::command;
+use super::{Need, PYTHON, has_program};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
+use tess_commands::setup::VERILATOR;
 
 /// The needs of `cargo xtask test`.
 pub(super) const COMPARISONS: &[Need] = &[
@@ -51,13 +51,6 @@ pub(crate) const VULKAN: Need = Need {
     is_there: has_vulkan,
 };
 
-/// The interpreter that makes virtual environments.
-pub(crate) const PYTHON: Need = Need {
-    what: "Python 3.9 or later with the modules venv and ensurepip (tests of the Python package, tables of measurements)",
-    packages: &["python3", "python3-venv"],
-    is_there: has_python,
-};
-
 /// The runtime for JavaScript programs.
 pub(crate) const NODE: Need = Need {
     what: "Node.js with npm (drives the browser, runs the validator of glTF)",
@@ -65,11 +58,11 @@ pub(crate) const NODE: Need = Need {
     is_there: || has_program("node") && has_program("npm"),
 };
 
-/// The simulator of the benches.
-pub(crate) const VERILATOR: Need = Need {
-    what: "Verilator with a C++ compiler and make (benches of the SystemVerilog interface and of the circuit)",
-    packages: &["verilator", "g++", "make"],
-    is_there: || ["verilator", "c++", "make"].into_iter().all(has_program),
+/// The solver of the proof about triangles.
+pub(crate) const Z3: Need = Need {
+    what: "Z3 (a proof about the points of triangles)",
+    packages: &["z3"],
+    is_there: || has_program("z3"),
 };
 
 /// The library for the `SystemC` modules.
@@ -84,13 +77,6 @@ pub(crate) const YOSYS: Need = Need {
     what: "Yosys (synthesis and proofs of the circuit)",
     packages: &["yosys"],
     is_there: || has_program("yosys") && has_program("yosys-smtbmc"),
-};
-
-/// The solver of the proof about triangles.
-pub(crate) const Z3: Need = Need {
-    what: "Z3 (a proof about the points of triangles)",
-    packages: &["z3"],
-    is_there: || has_program("z3"),
 };
 
 /// The library of cells that a netlist of the circuit is made of.
@@ -130,11 +116,4 @@ fn has_files(folder: &str) -> bool {
 fn has_library(name: &str) -> bool {
     let known = Command::new("/sbin/ldconfig").arg("-p").output();
     known.is_ok_and(|list| String::from_utf8_lossy(&list.stdout).contains(name))
-}
-
-fn has_python() -> bool {
-    let test = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 9))";
-    let mut python = command::python();
-    python.args(["-c", test]).stdout(Stdio::null()).stderr(Stdio::null());
-    python.status().is_ok_and(|status| status.success())
 }

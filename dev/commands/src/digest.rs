@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 ///
 /// # Errors
 /// Git fails.
-pub(crate) fn of_files(paths: &[String]) -> Result<String, String> {
+pub fn of_files(paths: &[String]) -> Result<String, String> {
     let mut list = git(&["ls-files", "--cached", "--others", "--exclude-standard", "--"]);
     let names = command::quiet_output(list.args(paths))?;
     // A file that was removed is still listed until the removal is committed.
