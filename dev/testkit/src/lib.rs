@@ -1,8 +1,7 @@
 //! Shared parts of the project's own tests. Without features it has no dependencies, so that the
-//! development commands can use it: lists of faults in sources, the planted faults of the circuit
-//! and the verdict of its bench, and options crossed by pairs. The features are in `Cargo.toml`.
+//! development commands can use it: lists of faults in sources, and options crossed by pairs. The
+//! features are in `Cargo.toml`.
 
-pub mod circuit;
 #[cfg(feature = "kit")]
 pub mod faults;
 #[cfg(feature = "kit")]
@@ -15,5 +14,4 @@ pub mod listed;
 pub mod pairs;
 #[cfg(feature = "strategies")]
 pub mod strategies;
-pub mod verdict;
 pub mod wgsl_faults;

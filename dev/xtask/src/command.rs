@@ -43,9 +43,9 @@ pub(crate) fn flags_without_folders(first: &str) -> Result<String, String> {
     Ok(flags.join("\u{1f}"))
 }
 
-/// `cargo xtask` with these words, in a process that has the feature `kit`.
-pub(crate) fn with_kit(words: &[&str]) -> Command {
-    let mut command = cargo("run --quiet --package xtask --features kit --");
+/// `cargo xtask` with these words, in a process that has the feature `pictures`.
+pub(crate) fn with_pictures(words: &[&str]) -> Command {
+    let mut command = cargo("run --quiet --package xtask --features pictures --");
     command.args(words);
     command
 }

@@ -7,7 +7,7 @@
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! scripts in Python          script (checks of texts; records of measurements, tables and charts)
 //! for users                  install (header, libraries, tess.pc), dist (a release's archives), examples (of tess-wgpu)
-//! the circuit                rtl (ports, tests of bindings/c, proofs, costs; with the feature `kit` long comparisons)
+//! the circuit                rtl (passes its words on to rtl/dv/rig)
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels); more in dev/commands
 //! ```
 //!
@@ -24,7 +24,7 @@ mod explorer;
 mod features;
 mod fuzz;
 mod install;
-#[cfg(feature = "kit")]
+#[cfg(feature = "pictures")]
 mod integrations;
 mod levels;
 mod mesa;
@@ -83,18 +83,8 @@ usage: cargo xtask [--yes | --no-install] <command>
   integrations
           build the plugin for Bevy, run its tests and its example, and compare the pictures of its two
           ways to tessellate
-  rtl     check the circuit's style and ports, lint it and compare both its variants with the model in Verilator: level 1,
-          random patches under back-pressure, single stages; plant its faults; print clocks for the workloads of
-          `tess bench` and isolines
-  rtl --plant FOLDER [NUMBER]
-          write the design to FOLDER with every fault of rtl/dv/circuit.faults, which a simulation selects with
-          `+fault=NUMBER`, or with one fault; print their numbers
-  rtl --names
-          write the lists of sources for Bender and FuseSoC again
-  rtl --long | --prove | --synth | --place
-          compare level 2, 10 million random patches and every input of single stages, which takes hours and continues
-          where it stopped; prove handshakes and placement, and compare the netlist as gates; print the circuit's cost;
-          print the clock that it reaches and the time that each port leaves
+  rtl [WORD...]
+          check the circuit in `rtl`, which is a workspace of its own: `cargo xtask rtl help` lists the words
   install --prefix FOLDER [--target TARGET]
           build the C library and install headers, both libraries, `tess.pc` and CMake's package there, so that
           `cc program.c $(pkg-config --cflags --libs tess)` works
@@ -197,11 +187,8 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["explorer"] => explorer::build(),
         ["explorer", "--serve"] => explorer::serve(),
         ["explorer", "--test"] => explorer::test(),
-        ["integrations"] => return with_kit(words),
-        ["rtl", "--plant", folder] => mutants::plant_in_circuit(folder, None),
-        ["rtl", "--plant", folder, number] => mutants::plant_in_circuit(folder, Some(number)),
-        ["rtl", "--long"] => return with_kit(words),
-        ["rtl", ..] => return rtl::run(words),
+        ["integrations"] => integrations(),
+        ["rtl", ref words @ ..] => rtl::run(words),
         ["install", "--prefix", folder] => install::run(folder, None),
         ["install", "--prefix", folder, "--target", target] => install::run(folder, Some(target)),
         ["mesa", ref words @ ..] => mesa::run(words),
@@ -222,13 +209,10 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
     })
 }
 
-/// Runs a command that needs the feature `kit`, in a process that has it.
-fn with_kit(words: &[&str]) -> Option<Result<(), String>> {
-    #[cfg(feature = "kit")]
-    return match *words {
-        ["integrations"] => Some(setup::run().and_then(|()| integrations::run())),
-        _ => rtl::run(words),
-    };
-    #[cfg(not(feature = "kit"))]
-    Some(command::run(&mut command::with_kit(words)))
+/// Checks the integrations, in a process that has the feature `pictures`.
+fn integrations() -> Result<(), String> {
+    #[cfg(feature = "pictures")]
+    return setup::run().and_then(|()| integrations::run());
+    #[cfg(not(feature = "pictures"))]
+    command::run(&mut command::with_pictures(&["integrations"]))
 }

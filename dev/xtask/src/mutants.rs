@@ -5,7 +5,6 @@ mod planted;
 
 use crate::command::{cargo, in_file, read, shown, workspace};
 use std::fs;
-use tess_testkit::circuit;
 
 /// A crate, and the tests that must detect its faults, the fastest pass first. Each pass tries the
 /// faults that the one before it missed.
@@ -104,23 +103,6 @@ const EQUIVALENT: &str = "dev/faults/survivors.tsv";
 /// Plants the faults of `dev/faults`; see [`planted::run`].
 pub(crate) fn planted(words: &[&str]) -> Result<(), String> {
     planted::run(words)
-}
-
-/// Writes the design of the circuit to a folder, with all faults or with one, and prints the
-/// numbers of those it has.
-///
-/// # Errors
-/// `number` is not the number of a fault, or see [`circuit::plant`].
-pub(crate) fn plant_in_circuit(folder: &str, number: Option<&str>) -> Result<(), String> {
-    let number = number.map(|number| number.parse().map_err(|error| format!("{number}: {error}")));
-    let number: Option<usize> = number.transpose()?;
-    circuit::plant(&workspace(), folder.as_ref(), number)?;
-    for (own, fault) in circuit::faults(&workspace())? {
-        if number.is_none_or(|number| number == own) {
-            println!("{own:>3} {}: {}", fault.folder, fault.name);
-        }
-    }
-    Ok(())
 }
 
 /// Plants every fault in `package`. `rest` has options for `cargo mutants`, such as a file or a

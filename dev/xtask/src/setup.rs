@@ -3,10 +3,10 @@
 mod needs;
 
 use crate::command;
-pub(crate) use needs::{CELLS, ICARUS, NODE, SYSTEMC, VULKAN, XVFB, YOSYS, Z3};
+pub(crate) use needs::{ICARUS, NODE, VULKAN, XVFB, Z3};
 use std::process::{Command, Stdio};
 pub(crate) use tess_commands::setup::{
-    NO_INSTALL, Need, PYTHON, VERILATOR, YES, consent, has_program, installs, provide,
+    NO_INSTALL, Need, PYTHON, YES, consent, has_program, installs, option, provide,
 };
 
 /// Provides everything that the tests need.

@@ -45,7 +45,7 @@ def simulate(options: argparse.Namespace, build: Path) -> bool:
     design = RTL
     if options.fault:
         design = build / "design"
-        subprocess.run(["cargo", "xtask", "rtl", "--plant", design, str(options.fault)], check=True, cwd=RTL)
+        subprocess.run([RTL / "dv/rig/run", "--plant", design, str(options.fault)], check=True)
     sources = [design / file for file in FILES]
     verilator = options.sim == "verilator"
     if options.foreign:

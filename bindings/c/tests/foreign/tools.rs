@@ -10,13 +10,8 @@ pub(crate) fn crate_folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The folder of the repository.
-pub(crate) fn repository() -> PathBuf {
-    crate_folder().join("../..")
-}
-
-/// A folder for what the tests build. It stays, so that a simulator's build is soon done again. One
-/// process has it at a time: another that runs the same tests waits.
+/// A folder for what the tests build. One process has it at a time: another that runs the same
+/// tests waits.
 pub(crate) fn build_folder() -> &'static Path {
     static LOCK: OnceLock<File> = OnceLock::new();
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
@@ -28,17 +23,8 @@ pub(crate) fn build_folder() -> &'static Path {
     folder
 }
 
-/// Whether a tool can be run; of the library `systemc`, whether its header is there; of `UVM_HOME`,
-/// whether it names a folder with a UVM.
+/// Whether a tool can be run.
 pub(crate) fn has(tool: &str) -> bool {
-    if tool == "UVM_HOME" {
-        let home = std::env::var_os("UVM_HOME");
-        return home.is_some_and(|home| Path::new(&home).join("src/uvm_pkg.sv").exists());
-    }
-    if tool == "systemc" {
-        let include = std::env::var_os("SYSTEMC_INCLUDE").unwrap_or_else(|| "/usr/include".into());
-        return Path::new(&include).join("systemc").exists();
-    }
     let mut command = Command::new(tool);
     command.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
     command.status().is_ok_and(|status| status.success())

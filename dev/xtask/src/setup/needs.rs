@@ -33,7 +33,6 @@ pub(super) const BEYOND: &[Need] = &[
     },
     XVFB,
     VERILATOR,
-    SYSTEMC,
     ICARUS,
 ];
 
@@ -63,27 +62,6 @@ pub(crate) const Z3: Need = Need {
     what: "Z3 (a proof about the points of triangles)",
     packages: &["z3"],
     is_there: || has_program("z3"),
-};
-
-/// The library for the `SystemC` modules.
-pub(crate) const SYSTEMC: Need = Need {
-    what: "SystemC (tests of the SystemC modules)",
-    packages: &["libsystemc-dev"],
-    is_there: || Path::new("/usr/include/systemc").exists(),
-};
-
-/// Synthesis of the circuit, and what proofs are made of.
-pub(crate) const YOSYS: Need = Need {
-    what: "Yosys (synthesis and proofs of the circuit)",
-    packages: &["yosys"],
-    is_there: || has_program("yosys") && has_program("yosys-smtbmc"),
-};
-
-/// The library of cells that a netlist of the circuit is made of.
-pub(crate) const CELLS: Need = Need {
-    what: "the OSU 0.18 um cells (the circuit as gates)",
-    packages: &["qflow-tech-osu018"],
-    is_there: || Path::new("/usr/share/qflow/tech/osu018/osu018_stdcells.lib").exists(),
 };
 
 /// The second simulator of the cocotb bench.

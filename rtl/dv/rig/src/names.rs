@@ -1,9 +1,9 @@
 //! The lists of the design's files for Bender and `FuseSoC`, generated from `rtl/tess.f`; and tests
 //! of the signals in `rtl/stages.tsv`.
 
-use super::sources;
-use crate::command::{self, in_file};
+use crate::tools::sources;
 use std::path::{Path, PathBuf};
+use tess_commands::command::{self, in_file};
 
 /// Writes the files again.
 ///
@@ -47,14 +47,13 @@ fn with_list(text: &str, list: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::command::workspace;
-    use crate::rtl::{ports, proofs};
-    use tess_testkit::circuit;
+    use crate::{faults, ports, proofs};
+    use tess_commands::command::workspace;
     use tess_testkit::listed::ListedFault;
 
     /// The signals that benches and `tess explain --observed` compare, in an order in which each
     /// feeds those after it.
-    const STAGES: &str = include_str!("../../../../rtl/stages.tsv");
+    const STAGES: &str = include_str!("../../../stages.tsv");
 
     /// A signal of the circuit.
     struct Signal {
@@ -96,7 +95,7 @@ mod tests {
     /// Each fault of the circuit is detected by a signal that exists, or by a proof that names it.
     #[test]
     fn faults_name_signals() {
-        let faults = circuit::faults(&workspace()).expect("a list");
+        let faults = faults::listed().expect("a list");
         assert!(faults.len() >= 100, "all faults");
         for (_, ListedFault { name, tests, filters, .. }) in &faults {
             let (stage, filters) = match (&tests[..], &filters[..]) {

@@ -4,15 +4,15 @@
 //! The netlist has register stages at its ports and padded AXI4-Stream words, so these are tested
 //! here too.
 
-use super::bench::Bench;
-use crate::setup;
+use crate::bench::{self, stimuli};
+use crate::clocks::isolines;
+use crate::tools::{self, CELLS, YOSYS};
 use std::time::Instant;
+use tess_commands::setup;
 
 /// The options for random values in all registers at power-up.
 const POWER_UP: [&str; 2] = ["+verilator+rand+reset+2", "+verilator+seed+7"];
 const PATCHES: usize = 200;
-/// Four lines of eight segments.
-const ISOLINE: &str = "isoline integer line ruler 40800000 41000000\n";
 
 /// Builds the netlist and its bench. Then compares random patches after resets, and isolines
 /// without a lost clock.
@@ -20,14 +20,16 @@ const ISOLINE: &str = "isoline integer line ruler 40800000 41000000\n";
 /// # Errors
 /// A tool or the cell library is missing, an element differs, or the register stages lose clocks.
 pub(crate) fn run() -> Result<(), String> {
-    setup::provide(&[setup::YOSYS, setup::CELLS])?;
-    let bench = Bench::built(&["--gates"], "gates/bench")?;
+    setup::provide(&[YOSYS, CELLS])?;
+    let folder = bench::folder();
+    tools::run(bench::script(&folder)?.args(["--gates", "--build"]))?;
+    let bench = folder.join("gates/bench/Vtb_tess");
     let began = Instant::now();
     let random = ["+random=200", "+gaps", "+resets=20", POWER_UP[0], POWER_UP[1]];
-    let (verdict, _) = bench.compare(&random, PATCHES)?;
+    let (verdict, _) = bench::compare(&bench, &random, PATCHES)?;
     println!("gates: {verdict}, {:.1} s", began.elapsed().as_secs_f32());
-    let stimuli = bench.stimuli("isolines", &ISOLINE.repeat(PATCHES))?;
-    let (_, said) = bench.compare(&[&stimuli, POWER_UP[0]], PATCHES)?;
+    let stimuli = stimuli("isolines-200", &isolines(PATCHES)?)?;
+    let (_, said) = bench::compare(&bench, &[&stimuli, POWER_UP[0]], PATCHES)?;
     for expected in [
         "between patches: at most 0 clocks",
         "within patches: 0 clocks without a point, 0 without a primitive",

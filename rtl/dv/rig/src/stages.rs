@@ -1,12 +1,12 @@
 //! Compares single stages for every input of a range: context and place by factor, factor
 //! processing by binary32 pattern.
 
-use super::bench::{library, output};
-use super::sources;
-use crate::command;
+use crate::bench;
+use crate::tools::{output, said};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use tess_commands::command;
 
 /// The factors from 1 to 64 in 15.16.
 const FACTORS: Range<u32> = 0x1_0000..0x40_0001;
@@ -79,10 +79,7 @@ impl Stages {
     /// # Errors
     /// Verilator fails.
     pub(crate) fn built(folder: &Path) -> Result<Self, String> {
-        let mut script = Command::new(sources().join("dv/run"));
-        script.args(["--stages", "--build"]);
-        script.env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", folder);
-        command::run(&mut script)?;
+        command::run(bench::script(folder)?.args(["--stages", "--build"]))?;
         Ok(Self(folder.join("stages/Vtb_stages")))
     }
 
@@ -92,10 +89,11 @@ impl Stages {
     /// Something differs; the error has the bench's output.
     pub(crate) fn compare(&self, inputs: Inputs) -> Result<String, String> {
         let arguments = inputs.arguments();
-        let (succeeded, said) = output(&self.0, &arguments.each_ref().map(String::as_str))?;
+        let output = output(Command::new(&self.0).args(&arguments))?;
+        let said = said(&output);
         let tally = inputs.tally();
         let says = |expected: &str| said.lines().any(|line| line == expected);
-        match succeeded && says(&tally) && says("PASS") {
+        match output.status.success() && says(&tally) && says("PASS") {
             true => Ok(format!("stages {}: {tally}", arguments.join(" "))),
             false => Err(format!(
                 "{} {}: not said `{tally}`:\n{said}",

@@ -4,12 +4,11 @@ use std::fmt;
 
 /// The numbers of elements that a run compared and found equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "they are numbers of what their names say")]
-pub struct BenchVerdict {
-    pub patches: u64,
-    pub points: u64,
-    pub primitives: u64,
-    pub clocks: u64,
+pub(crate) struct BenchVerdict {
+    pub(crate) patches: u64,
+    pub(crate) points: u64,
+    pub(crate) primitives: u64,
+    pub(crate) clocks: u64,
 }
 
 impl BenchVerdict {
@@ -17,7 +16,7 @@ impl BenchVerdict {
     ///
     /// # Errors
     /// Something differs, or fewer than `patches` were compared.
-    pub fn read(said: &str, patches: u64) -> Result<Self, String> {
+    pub(crate) fn read(said: &str, patches: u64) -> Result<Self, String> {
         let tally = said.lines().find_map(|line| line.strip_suffix(" clocks, 0 mismatches"));
         let number = |word: &str| word.split(' ').next()?.parse::<u64>().ok();
         let numbers: Vec<u64> = tally.unwrap_or_default().split(", ").filter_map(number).collect();

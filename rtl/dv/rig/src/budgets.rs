@@ -10,9 +10,9 @@
 //! register of point_ready -> wire -> LUT -> wire -> register of the circuit      6.2 ns: 3.8 ns of 10 are left
 //! ```
 
-use crate::command::{self, in_file};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
+use tess_commands::command::{self, in_file};
 
 /// The clock period in `rtl/fpga/ecp5.lpf`, in ps.
 const PERIOD: u64 = 10_000;
@@ -26,7 +26,7 @@ const OUTPUTS: [&str; 4] = ["patch_ready", "counts_out", "point_out", "primitive
 ///
 /// # Errors
 /// The file cannot be read, or it lacks a port's register.
-pub(super) fn print(sdf: &Path) -> Result<(), String> {
+pub(crate) fn print(sdf: &Path) -> Result<(), String> {
     let delays = Delays::read(&command::read(sdf)?);
     println!("\n| port | ns of {} left |\n| --- | --- |", PERIOD / 1000);
     for (ports, path) in [(&INPUTS[..], Direction::In), (&OUTPUTS[..], Direction::Out)] {

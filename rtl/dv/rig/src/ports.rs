@@ -4,10 +4,10 @@
 //! Yosys selects the logic between the outputs and the registers that feed them, and the inputs in
 //! it.
 
-use super::proofs::{self, Planted};
-use crate::command;
+use crate::proofs::{self, Planted};
 use std::path::Path;
 use std::process::Command;
+use tess_commands::command;
 
 /// The variants of the design: the parameters of each.
 const VARIANTS: [&str; 6] = [
@@ -23,7 +23,7 @@ const BUFFERED: &str = "-set BUFFERED 1";
 const LABELLED: &str = "-set TAG 13 -set BASE 30";
 
 /// The planted faults that the check must detect, each with the variant that has it.
-pub(super) const FAULTS: [(&str, &str); 3] = [
+pub(crate) const FAULTS: [(&str, &str); 3] = [
     ("a patch waits until the one before is taken from the front end", PLAIN),
     ("the buffer of one entry is ready only for an element that is offered", BUFFERED),
     ("the place of a tag that leaves is free in the same clock", LABELLED),

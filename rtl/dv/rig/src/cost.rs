@@ -1,18 +1,18 @@
 //! The circuit's cost: `rtl/synth` runs Yosys, and its reports become tables.
 
-use super::sources;
-use crate::command::{self, in_file, target};
-use crate::setup;
+use crate::tools::{YOSYS, sources};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
+use tess_commands::command::{self, in_file, target};
+use tess_commands::setup;
 
 /// Prints a table of cells and flip-flops by module, and the resources of two FPGA families.
 ///
 /// # Errors
 /// Yosys is missing or fails, or its output is not understood.
 pub(crate) fn run() -> Result<(), String> {
-    setup::provide(&[setup::YOSYS])?;
+    setup::provide(&[YOSYS])?;
     let folder = target().join("rtl/synth");
     command::run(Command::new(sources().join("synth")).arg(&folder))?;
     println!("\n| module | cells | of them flip-flops |\n| --- | --- | --- |");

@@ -1,16 +1,15 @@
-//! The circuit in `rtl/` against the model, in Verilator, with the script that its users run.
+//! The circuit against the model in Verilator, its planted faults, and the `SystemC` modules.
 
-use super::clocks::isolines;
-use super::tools::{build_folder, crate_folder, libraries, output, repository, run, text};
-use libtest_mimic::Failed;
-use std::fmt::Write as _;
-use std::path::PathBuf;
+use crate::bench::{self, Variant, bench, library, script, stimuli};
+use crate::clocks::{self, isolines};
+use crate::faults;
+use crate::tools::{build_folder, output, run, said, text};
+use crate::verdict::BenchVerdict;
+use libtest_mimic::{Arguments, Failed, Trial};
 use std::process::Command;
-use std::sync::OnceLock;
 use std::time::Instant;
-use tess_testkit::circuit;
+use tess_commands::command::workspace;
 use tess_testkit::listed::ListedFault;
-use tess_testkit::verdict::BenchVerdict;
 use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection};
 
@@ -20,89 +19,51 @@ const TIMED: [&str; 1] = ["+random=500"];
 /// Registers without reset hold anything at first.
 const POWER_UP: &str = "+verilator+rand+reset+2";
 
-/// The script that builds and runs the benches.
-fn script() -> Result<Command, String> {
-    let mut script = Command::new(repository().join("rtl/dv/run"));
-    script.env("TESS_LIBRARY", libraries()?.archive);
-    Ok(script)
-}
+type Test = fn() -> Result<(), Failed>;
 
-/// The circuit as it is, and with what its parameters add.
-#[derive(Clone, Copy)]
-pub(crate) enum Variant {
-    Plain,
-    /// Register stages at the ports (`BUFFERED`), padded AXI4-Stream words (`PADDED`), and tags and
-    /// numbered points (`TAG`, `BASE`).
-    Buffered,
-    /// Two points per clock (`POINTS`).
-    Two,
-    /// Four, and all of `Buffered`.
-    Four,
-}
+const TESTS: &[(&str, Test)] = &[
+    ("equals_model", equals_model),
+    ("buffered_equals_model", buffered_equals_model),
+    ("two_points_equal_model", two_points_equal_model),
+    ("four_points_equal_model", four_points_equal_model),
+    ("clocks_are_those_of_the_document", clocks::are_those_of_the_document),
+    ("faults_are_caught", faults_are_caught),
+    ("stages_equal_model", stages_equal_model),
+    ("stages_faults_are_caught", stages_faults_are_caught),
+    ("systemc_modules_are_equal", systemc_modules_are_equal),
+    ("stimuli_are_checked", stimuli_are_checked),
+];
 
-impl Variant {
-    fn options(self) -> &'static [&'static str] {
-        match self {
-            Self::Plain => &[],
-            Self::Buffered => &["--buffered"],
-            Self::Two => &["--points", "2"],
-            Self::Four => &["--buffered", "--points", "4"],
-        }
+/// Runs the comparisons, or those whose names contain this word.
+///
+/// # Errors
+/// One fails, or there is none.
+pub(crate) fn chosen(word: Option<&str>) -> Result<(), String> {
+    let trials = TESTS.iter().map(|&(name, test)| Trial::test(name, test)).collect();
+    let arguments = Arguments { filter: word.map(str::to_owned), ..Arguments::default() };
+    let conclusion = libtest_mimic::run(&arguments, trials);
+    match (conclusion.num_failed, conclusion.num_passed) {
+        (0, 0) => Err(format!("no comparison has `{}` in its name", word.unwrap_or_default())),
+        (0, _) => Ok(()),
+        (failed, _) => Err(format!("{failed} comparisons failed")),
     }
-
-    /// The folder of its bench, below that of all benches.
-    fn folder(self) -> &'static str {
-        match self {
-            Self::Plain => "",
-            Self::Buffered => "buffered/bench",
-            Self::Two => "points-2/bench",
-            Self::Four => "buffered/bench/points-4/bench",
-        }
-    }
-}
-
-/// Lints the design and builds a variant's bench, once.
-pub(crate) fn bench(variant: Variant) -> Result<PathBuf, String> {
-    static BUILT: [OnceLock<Result<PathBuf, String>>; 4] = [const { OnceLock::new() }; 4];
-    BUILT[variant as usize].get_or_init(|| build(variant)).clone()
-}
-
-fn build(variant: Variant) -> Result<PathBuf, String> {
-    let folder = build_folder().join("rtl");
-    let mut script = script()?;
-    script.env("TESS_VERILOG_BUILD", &folder).args(variant.options());
-    let said = run(script.args(["+random=100", "+resets=10"]))?;
-    BenchVerdict::read(&said, 100)?;
-    Ok(folder.join(variant.folder()).join("Vtb_tess"))
-}
-
-/// Writes cases to a file, one a line; the argument that has the bench read it.
-pub(crate) fn stimuli(name: &str, cases: &[Case]) -> Result<String, Failed> {
-    let mut lines = String::new();
-    for case in cases {
-        let case = case.to_string();
-        writeln!(lines, "{}", case.strip_prefix("case ").ok_or("a case line")?)?;
-    }
-    let file = build_folder().join(format!("rtl-{name}.txt"));
-    std::fs::write(&file, lines)?;
-    Ok(format!("+stimuli={}", file.display()))
 }
 
 /// Level 1, then random patches, with random gaps and back-pressure.
-pub(crate) fn equals_model() -> Result<(), Failed> {
+fn equals_model() -> Result<(), Failed> {
     equals(Variant::Plain, "level-1")
 }
 
 /// The same for the other variants.
-pub(crate) fn buffered_equals_model() -> Result<(), Failed> {
+fn buffered_equals_model() -> Result<(), Failed> {
     equals(Variant::Buffered, "level-1-buffered")
 }
 
-pub(crate) fn two_points_equal_model() -> Result<(), Failed> {
+fn two_points_equal_model() -> Result<(), Failed> {
     equals(Variant::Two, "level-1-two")
 }
 
-pub(crate) fn four_points_equal_model() -> Result<(), Failed> {
+fn four_points_equal_model() -> Result<(), Failed> {
     equals(Variant::Four, "level-1-four")
 }
 
@@ -118,22 +79,20 @@ fn equals(variant: Variant, name: &str) -> Result<(), Failed> {
 
 /// Each planted fault makes the bench fail, naming the stage, the signal, both values and the
 /// patch; or it costs clocks.
-#[expect(clippy::print_stdout, reason = "each fault takes a second, and its line says who saw it")]
-pub(crate) fn faults_are_caught() -> Result<(), Failed> {
+fn faults_are_caught() -> Result<(), Failed> {
     let variants = [Variant::Plain, Variant::Buffered, Variant::Four];
     for variant in variants {
-        let mut script = script()?;
-        script.env("TESS_VERILOG_BUILD", build_folder().join("rtl")).arg("--faults");
-        run(script.args(variant.options()).arg("--build"))?;
+        let mut script = script(&bench::folder())?;
+        run(script.arg("--faults").args(variant.options()).arg("--build"))?;
     }
-    let bench = |fault: usize, arguments: &[&str]| planted(Variant::Plain, fault, arguments);
+    let plain = |fault: usize, arguments: &[&str]| planted(Variant::Plain, fault, arguments);
     let isolines = stimuli("isolines-100", &isolines(100)?)?;
     let timed = [isolines.as_str(), TIMED[0]];
     for variant in variants {
         BenchVerdict::read(&run(&mut planted(variant, 0, &ALL))?, 20_000)?;
     }
-    let clocks = BenchVerdict::read(&run(&mut bench(0, &timed))?, 600)?.clocks;
-    for (number, fault) in circuit::faults(&repository())? {
+    let clocks = BenchVerdict::read(&run(&mut plain(0, &timed))?, 600)?.clocks;
+    for (number, fault) in faults::listed()? {
         let began = Instant::now();
         let ListedFault { name, tests: seen_by, filters: words, .. } = &fault;
         // The first word may select the variant.
@@ -145,7 +104,7 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
         let (is_seen, said) = if seen_by == "proof" {
             continue; // `cargo xtask rtl --prove` plants it
         } else if seen_by == "clocks" {
-            let said = run(&mut bench(number, &timed))?;
+            let said = run(&mut plain(number, &timed))?;
             (BenchVerdict::read(&said, 600)?.clocks > clocks, said)
         } else {
             let output = output(&mut planted(variant, number, &ALL))?;
@@ -165,7 +124,7 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
 
 /// The bench of a variant with all planted faults, of which it has this one.
 fn planted(variant: Variant, fault: usize, arguments: &[&str]) -> Command {
-    let folder = build_folder().join("rtl/faults/bench").join(variant.folder());
+    let folder = bench::folder().join("faults/bench").join(variant.folder());
     let mut bench = Command::new(folder.join("Vtb_tess"));
     bench.arg(format!("+fault={fault}")).args(arguments);
     bench
@@ -190,9 +149,9 @@ fn names(said: &str, seen_by: &str, words: &[String]) -> Option<bool> {
 /// Single stages equal the model: every context, the places of the factors about 1, 2, 3, 63 and
 /// 64, and 4096 patterns about 1; `tess_placer` at each integer and half, their neighbours, and
 /// 2011 more factors.
-pub(crate) fn stages_equal_model() -> Result<(), Failed> {
-    let folder = build_folder().join("rtl");
-    run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--stages", "--build"]))?;
+fn stages_equal_model() -> Result<(), Failed> {
+    let folder = bench::folder();
+    run(script(&folder)?.args(["--stages", "--build"]))?;
     let compare = |arguments: &[&str], tally: &str| {
         let tally = format!("{tally}, 0 mismatches");
         let said = run(Command::new(folder.join("stages/Vtb_stages")).args(arguments))?;
@@ -227,10 +186,10 @@ pub(crate) fn stages_equal_model() -> Result<(), Failed> {
 }
 
 /// Faults of `tess_placer`'s three stages are named, and nothing that follows from them.
-pub(crate) fn stages_faults_are_caught() -> Result<(), Failed> {
-    let folder = build_folder().join("rtl");
-    run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--faults", "--stages", "--build"]))?;
-    let list = circuit::faults(&repository())?;
+fn stages_faults_are_caught() -> Result<(), Failed> {
+    let folder = bench::folder();
+    run(script(&folder)?.args(["--faults", "--stages", "--build"]))?;
+    let list = faults::listed()?;
     for (fault, report) in [
         ("a half is cut off, not rounded up", "stage=factor_context signal=fraction "),
         ("mirroring forgets the parity of the edge", "stage=place_position signal=position "),
@@ -252,10 +211,10 @@ pub(crate) fn stages_faults_are_caught() -> Result<(), Failed> {
 
 /// The `SystemC` modules of the circuit and of the model give the same streams; with another split
 /// order they do not.
-pub(crate) fn systemc_modules_are_equal() -> Result<(), Failed> {
+fn systemc_modules_are_equal() -> Result<(), Failed> {
     let folder = build_folder().join("systemc");
-    let mut script = Command::new(crate_folder().join("../systemc/run"));
-    script.env("TESS_LIBRARY", libraries()?.archive).env("TESS_VERILOG_BUILD", &folder);
+    let mut script = Command::new(workspace().join("bindings/systemc/run"));
+    script.env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", &folder);
     let said = run(&mut script)?;
     let tally = "300 patches, 24 of domain 3, 20113 points, 22327 primitives equal";
     if !said.lines().any(|line| line == tally) {
@@ -270,7 +229,7 @@ pub(crate) fn systemc_modules_are_equal() -> Result<(), Failed> {
 }
 
 /// A stimulus file that is empty, or names what the specification does not, is an error.
-pub(crate) fn stimuli_are_checked() -> Result<(), Failed> {
+fn stimuli_are_checked() -> Result<(), Failed> {
     for (name, lines, complaint) in [
         ("empty", "", ": no patches"),
         ("name", "tri integer triangles ruler 3f800000 3f800000 3f800000 3f800000\n", "no name"),
@@ -280,7 +239,7 @@ pub(crate) fn stimuli_are_checked() -> Result<(), Failed> {
         std::fs::write(&file, lines)?;
         let stimuli = format!("+stimuli={}", file.display());
         let output = output(Command::new(bench(Variant::Plain)?).arg(stimuli))?;
-        let said = text(&output.stdout) + &text(&output.stderr);
+        let said = said(&output);
         if output.status.success() || !said.contains(complaint) {
             return Err(format!("stimuli `{name}`: {}\n{said}", output.status).into());
         }

@@ -1,15 +1,14 @@
 //! Comparisons that run for hours, in shards. A finished shard is repeated only after a source of
 //! the circuit changes.
 
-use super::bench::Bench;
-use super::sources;
-use super::stages::{self, Inputs, Stages};
-use crate::command::in_file;
-use std::fmt::Write as _;
+use crate::bench::{self, Variant, stimuli};
+use crate::stages::{self, Inputs, Stages};
+use crate::tools::sources;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
+use tess_commands::command::in_file;
 use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection, SplitMix64, configurations, random_patch};
 use tess_verify::vectors::Fnv1a;
@@ -39,10 +38,10 @@ enum Shard {
 /// Something differs: the shard's name and what the bench printed. The shards in work are ended
 /// first.
 pub(crate) fn run() -> Result<(), String> {
-    let bench = &Bench::built(&[], "")?;
+    let bench = &bench::bench(Variant::Plain)?;
     let level_2: Vec<Case> = Selection::level(GenLevel::Two, 1).cases().collect();
-    let (stages, shards) = (Stages::built(&bench.folder)?, shards(level_2.len()));
-    let done = bench.folder.join("long").join(format!("{:016x}", digest()?));
+    let (stages, shards) = (Stages::built(&bench::folder())?, shards(level_2.len()));
+    let done = bench::folder().join("long").join(format!("{:016x}", digest()?));
     fs::create_dir_all(&done).map_err(|error| in_file(&done, &error))?;
     println!("\n{} shards; those that are done are noted in {}", shards.len(), done.display());
     let work = Work { bench, stages, level_2, shards, done, next: AtomicUsize::new(0) };
@@ -87,7 +86,7 @@ fn digest() -> Result<u64, String> {
 
 /// State that the workers share.
 struct Work<'a> {
-    bench: &'a Bench,
+    bench: &'a Path,
     stages: Stages,
     level_2: Vec<Case>,
     shards: Vec<Shard>,
@@ -129,10 +128,10 @@ impl Work<'_> {
                 Selection { random: Some(PATCHES), ..level }.cases().collect::<Vec<_>>()
             }
         };
-        let stimuli = self.bench.stimuli(&shard.name(), &lines(&cases))?;
+        let stimuli = stimuli(&shard.name(), &cases)?;
         let seed = seed(number);
         let arguments = [&stimuli, &seed, "+gaps", "+resets=10"];
-        let (verdict, _) = self.bench.compare(&arguments, cases.len())?;
+        let (verdict, _) = bench::compare(self.bench, &arguments, cases.len())?;
         // If a shard differs, its patches are kept.
         let file = Path::new(stimuli.trim_start_matches("+stimuli="));
         fs::remove_file(file).map_err(|error| in_file(file, &error))?;
@@ -143,17 +142,6 @@ impl Work<'_> {
 /// The argument that seeds a shard's stalls and resets: one of its own for each shard.
 fn seed(number: usize) -> String {
     format!("+seed={}", 1 + number)
-}
-
-/// Cases as the bench reads them, one a line.
-fn lines(cases: &[Case]) -> String {
-    let mut text = String::new();
-    for case in cases {
-        let line = case.to_string();
-        // Writing to a String does not fail.
-        _ = writeln!(text, "{}", line.strip_prefix("case ").unwrap_or(&line));
-    }
-    text
 }
 
 impl Shard {

@@ -11,15 +11,15 @@
 //! up = (tess_fault_pkg::number == 3 ? (1'b1) : (wide[7])) && low;
 //! ```
 
-use super::listed::{ListedFault, parse};
 use std::cmp::Reverse;
-use std::fmt::Display;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
+use tess_commands::command::{in_file, read, workspace};
+use tess_testkit::listed::{ListedFault, parse};
 
 /// The list, from the root of the repository. Its `seen by` names the first report of the bench.
-pub const LIST: &str = "rtl/dv/circuit.faults";
+const LIST: &str = "rtl/dv/circuit.faults";
 
 const SWITCH: &str = "\
 // Which fault is planted: +fault=N, 0 none.
@@ -32,17 +32,35 @@ package tess_fault_pkg;
 endpackage
 ";
 
-/// The faults below the repository's `root`, numbered from 1.
+/// The faults, numbered from 1.
 ///
 /// # Errors
 /// The list cannot be read, or it names a file that does not exist.
-pub fn faults(root: &Path) -> Result<Vec<(usize, ListedFault)>, String> {
+pub(crate) fn listed() -> Result<Vec<(usize, ListedFault)>, String> {
+    let root = workspace();
     let list = read(&root.join(LIST))?;
     let faults = parse(&list).map_err(|error| format!("{LIST}: {error}"))?;
     if let Some(fault) = faults.iter().find(|fault| !root.join(&fault.folder).is_file()) {
         return Err(format!("{LIST}: there is no file {}", fault.folder));
     }
     Ok((1..).zip(faults).collect())
+}
+
+/// Writes the design to `folder`, with all faults or with one, and prints the numbers of those it
+/// has.
+///
+/// # Errors
+/// `number` is not the number of a fault, or see [`plant`].
+pub(crate) fn write(folder: &Path, number: Option<&str>) -> Result<(), String> {
+    let number = number.map(|number| number.parse().map_err(|error| format!("{number}: {error}")));
+    let number: Option<usize> = number.transpose()?;
+    plant(folder, number)?;
+    for (own, fault) in listed()? {
+        if number.is_none_or(|number| number == own) {
+            println!("{own:>3} {}: {}", fault.folder, fault.name);
+        }
+    }
+    Ok(())
 }
 
 /// Writes the design to `folder`: with the fault of this number, with none for 0, or without a
@@ -52,8 +70,8 @@ pub fn faults(root: &Path) -> Result<Vec<(usize, ListedFault)>, String> {
 /// # Errors
 /// There is no such fault, its text does not occur exactly once, or a file cannot be read or
 /// written.
-pub fn plant(root: &Path, folder: &Path, number: Option<usize>) -> Result<(), String> {
-    let all = faults(root)?;
+pub(crate) fn plant(folder: &Path, number: Option<usize>) -> Result<(), String> {
+    let (root, all) = (workspace(), listed()?);
     if number.is_some_and(|number| number > all.len()) {
         return Err(format!("{LIST} has {} faults", all.len()));
     }
@@ -81,10 +99,10 @@ pub fn plant(root: &Path, folder: &Path, number: Option<usize>) -> Result<(), St
         };
         let package =
             if number.is_none() { "\ntess_fault_pkg.sv\ntess_pkg.sv" } else { "\ntess_pkg.sv" };
-        write(&folder.join(&name), &planted.replace("\ntess_pkg.sv", package))?;
+        update(&folder.join(&name), &planted.replace("\ntess_pkg.sv", package))?;
     }
     match number {
-        None => write(&folder.join("tess_fault_pkg.sv"), SWITCH),
+        None => update(&folder.join("tess_fault_pkg.sv"), SWITCH),
         Some(_) => Ok(()),
     }
 }
@@ -150,17 +168,10 @@ fn place(text: &str, fault: &ListedFault) -> Result<Range<usize>, String> {
     }
 }
 
-fn read(file: &Path) -> Result<String, String> {
-    fs::read_to_string(file).map_err(|error| in_file(file, &error))
-}
-
-fn write(file: &Path, text: &str) -> Result<(), String> {
+/// Writes a file, unless it has this text.
+fn update(file: &Path, text: &str) -> Result<(), String> {
     if read(file).is_ok_and(|old| old == text) {
         return Ok(());
     }
     fs::write(file, text).map_err(|error| in_file(file, &error))
-}
-
-fn in_file(file: &Path, error: &dyn Display) -> String {
-    format!("{}: {error}", file.display())
 }
