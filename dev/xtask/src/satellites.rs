@@ -29,7 +29,7 @@ const SATELLITES: &[Satellite] = &[
         name: "python",
         uses: &[
             "bindings/python",
-            "rtl/dv/cocotb",
+            "rtl",
             "tess-core",
             "tess-level",
             "tess-simd",
