@@ -3,11 +3,12 @@
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
-use crate::{examples, features, fuzz, levels, publish, satellites, script, test};
+use crate::{examples, features, fuzz, levels, publish, rtl, satellites, script, test};
 
 /// Runs formatting, checks of texts and records, lints, documentation, every test, the satellites
 /// that are stale or all of them, features, the fuzz targets, other compilers and processors, and
-/// packages. The last line printed is the tests' tally.
+/// packages; with `all` also the circuit's proofs and placements. The last line printed is the
+/// tests' tally.
 pub(crate) fn run(all: bool) -> Result<(), String> {
     if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
         return Err("continuous integration on x86-64 needs a processor with AVX2".into());
@@ -26,6 +27,11 @@ pub(crate) fn run(all: bool) -> Result<(), String> {
     examples::lint()?;
     let tally = test::run_all()?;
     satellites::check(all)?;
+    if all {
+        // What docs/rtl.md promises beyond the comparisons.
+        rtl::run(&["--prove"])?;
+        rtl::run(&["--place"])?;
+    }
     features::check_brief()?;
     fuzz::run(&["3"])?;
     ports::run(&["msrv", "s390x", "wasm", "miri"], Extent::Brief)?;

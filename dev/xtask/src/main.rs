@@ -64,7 +64,7 @@ usage: cargo xtask [--yes | --no-install] <command>
           `test all`, so that a run that is stopped has compared; then `satellites`, `features`, `fuzz` on the
           seeds and for seconds, without the GPU, `ports brief` (msrv, s390x, wasm, miri), `publish`, and `deny` if
           cargo-deny is installed
-  ci all  the same with every satellite
+  ci all  the same with every satellite, and the circuit proved and placed
   satellites [NAME...]
           test the satellites that have changed since they last passed, or that use a part of the product that has,
           or these: python, explorer, rtl, and only if they are named bevy, mesa and sdl; records those that pass

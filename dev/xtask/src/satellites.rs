@@ -29,7 +29,9 @@ const SATELLITES: &[Satellite] = &[
         name: "python",
         uses: &[
             "bindings/python",
-            "rtl",
+            ":(glob)rtl/*.sv",
+            ":(glob)rtl/*.svh",
+            "rtl/dv/cocotb",
             "tess-core",
             "tess-level",
             "tess-simd",
