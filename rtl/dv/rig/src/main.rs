@@ -48,7 +48,7 @@ usage: rtl/dv/rig/run [--yes | --no-install] [WORD...]
           where it stopped
   --prove prove handshakes and placement, and compare the netlist as gates
   --synth print the circuit's cost
-  --place print the clock that it reaches and the time that each port leaves
+  --place print the clock that it reaches, with three seeds and all parameters, and the time that each port leaves; an hour
   --plant FOLDER [NUMBER]
           write the design to FOLDER with every fault of rtl/dv/circuit.faults, which a simulation selects with
           `+fault=NUMBER`, or with one fault; print their numbers
