@@ -16,8 +16,8 @@ use tess_commands::digest;
 /// A satellite.
 struct Satellite {
     name: &'static str,
-    /// Its folders, and everything else that it uses: folders, files, or a crate of the product,
-    /// of which its sources, shaders and manifest count.
+    /// Its folders, and everything else that it uses: folders, files, patterns of Git, or a crate
+    /// of the product, of which its sources, shaders and manifest count.
     uses: &'static [&'static str],
     test: fn() -> Result<(), String>,
     /// Whether it is too long for continuous integration, which only says that it is stale.
@@ -262,7 +262,10 @@ mod tests {
     fn everything_that_is_used_exists() {
         for satellite in SATELLITES {
             for path in satellite.uses {
-                assert!(workspace().join(path).exists(), "{}: {path}", satellite.name);
+                let mut list = Command::new("git");
+                list.args(["ls-files", "--", path]).current_dir(workspace());
+                let files = command::quiet_output(&mut list).expect("git runs");
+                assert!(!files.is_empty(), "{}: {path}", satellite.name);
             }
         }
     }
