@@ -201,29 +201,31 @@ module tess_factors (
     logic [8:0] ring_points; // the sum of n - 1 over the outer edges
     logic [6:0] wide, tall;  // their product is the number of points inside, or on the lines
     logic       is_quad, is_isoline, starts, sets_wide, sets_tall;
-    logic [6:0] half;
+    logic [6:0] made_points, half;
     assign is_quad    = context_tag.domain == tess_pkg::QUAD;
     assign is_isoline = context_tag.domain == tess_pkg::ISOLINE;
     assign starts     = context_k == 3'd0;
     assign sets_wide  = context_k == (is_quad ? 3'd4 : is_isoline ? 3'd1 : 3'd3);
     assign sets_tall  = context_k == (is_quad ? 3'd5 : is_isoline ? 3'd0 : 3'd3);
-    assign half       = made.points >> 1;
+    // By a name of its own: Icarus 11 never leaves an always_comb that reads a member of a structure with several drivers.
+    assign made_points = made.points;
+    assign half       = made_points >> 1;
 
     // Quad: (n4 - 2)(n5 - 2). Isoline: n1 (n0 - 1). Triangle, with h = n3 / 2: (h - 1)(3h - 3), or (h - 1) 3h + 1 if n3 is odd.
     // Each is one sum, whose terms are selected before the addition.
     logic [6:0] wide_next, tall_next;
     logic [1:0] tall_less;
     always_comb begin
-        wide_next = (is_quad || is_isoline ? made.points : half) - {5'd0, is_quad, !is_quad && !is_isoline};
+        wide_next = (is_quad || is_isoline ? made_points : half) - {5'd0, is_quad, !is_quad && !is_isoline};
         tall_less = 2'd0;
         if (is_quad) begin
             tall_less = 2'd2;
         end else if (is_isoline) begin
             tall_less = 2'd1;
-        end else if (!made.points[0]) begin
+        end else if (!made_points[0]) begin
             tall_less = 2'd3;
         end
-        tall_next = (is_quad || is_isoline ? made.points : half) + (is_quad || is_isoline ? 7'd0 : half << 1) - {5'd0, tall_less};
+        tall_next = (is_quad || is_isoline ? made_points : half) + (is_quad || is_isoline ? 7'd0 : half << 1) - {5'd0, tall_less};
     end
 
     always_ff @(posedge clk) begin
