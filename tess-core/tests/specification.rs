@@ -304,21 +304,25 @@ fn check_exceptions(split: SplitOrder, parity: Parity, further: u32, flips_on_tr
 }
 
 #[test]
+#[ignore = "slow: every factor with an exception"]
 fn exceptions_ruler_odd() {
     check_exceptions(SplitOrder::Ruler, Parity::Odd, 842, true);
 }
 
 #[test]
+#[ignore = "slow: every factor with an exception"]
 fn exceptions_ruler_even() {
     check_exceptions(SplitOrder::Ruler, Parity::Even, 534, true);
 }
 
 #[test]
+#[ignore = "slow: every factor with an exception"]
 fn exceptions_center_odd() {
     check_exceptions(SplitOrder::Centre, Parity::Odd, 678, true);
 }
 
 #[test]
+#[ignore = "slow: every factor with an exception"]
 fn exceptions_center_even() {
     check_exceptions(SplitOrder::Centre, Parity::Even, 0, true);
 }

@@ -108,6 +108,7 @@ fn check(config: Config, level: Level, patches: &[PatchFactors]) {
 }
 
 #[test]
+#[ignore = "slow: every factor of every configuration"]
 fn a_key_has_every_factor() {
     for level in levels() {
         for config in configs() {

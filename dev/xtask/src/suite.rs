@@ -81,7 +81,8 @@ impl<'a> TestSelection<'a> {
 
 /// The jobs of a run, and what it leaves out.
 pub(crate) struct Suite {
-    /// One job for each program, the largest first, and one for the examples in the documentation.
+    /// One job for each program, the largest first. With [`Extent::All`] one is for the examples in
+    /// the documentation.
     pub(crate) jobs: Vec<Job>,
     /// Programs that are not run, each with the reason.
     pub(crate) left_out: Vec<String>,
@@ -114,7 +115,7 @@ pub(crate) fn build(extent: Extent, part: &TestSelection<'_>) -> Result<Suite, S
     if !part.words.is_empty() {
         jobs = jobs.iter().flat_map(|job| part.words.iter().map(|word| job.with(word))).collect();
     }
-    if part.paths.is_empty() {
+    if extent == Extent::All && part.paths.is_empty() {
         let mut documentation = cargo(&base);
         documentation.arg("--doc");
         prepare(&mut documentation, &base);

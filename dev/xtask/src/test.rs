@@ -26,7 +26,8 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
 }
 
 /// What only [`run_all`] runs beside the workspace's programs.
-const BESIDE: &str = "models judged by other programs; the examples of tess-wgpu";
+const BESIDE: &str =
+    "models judged by other programs; the examples of tess-wgpu and those in the documentation";
 
 /// Runs every test of the product; the last line printed is the tally, which is also returned.
 ///

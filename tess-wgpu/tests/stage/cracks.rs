@@ -69,6 +69,7 @@ fn assert_no_cracks(frames: impl Iterator<Item = u16>) {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn planted_cracks_are_seen() {
     for (right, wrong) in [
         (
@@ -105,6 +106,7 @@ fn is_seen(points: &[Placed], eye: [f32; 4]) -> bool {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn what_is_culled_is_not_seen() {
     let mut ball = Ball::new(str::to_owned);
     let mut culled = [0; 2];

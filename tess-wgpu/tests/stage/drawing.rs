@@ -146,6 +146,7 @@ fn the_number_of_patches_changes_from_frame_to_frame() {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn groups_are_drawn_one_by_one() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
     for points in WAYS {
@@ -165,6 +166,7 @@ fn groups_are_drawn_one_by_one() {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn an_engine_draws_groups_with_its_own_pipeline() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
     for points in [Points::Stored, Points::Evaluated] {

@@ -193,6 +193,7 @@ fn derivatives_outside_of_fragment_shaders_are_named_with_what_to_use() {
 
 /// Four of the stage's storage buffers and five of the user's are more than eight.
 #[test]
+#[ignore = "slow: many pipelines"]
 fn a_storage_buffer_too_many_is_counted_for_the_user() {
     use crate::common::objects::{group, layout, storage, whole};
     use wgpu::ShaderStages;
@@ -242,6 +243,7 @@ fn the_factors_of_another_domain_are_named() {
 /// Layouts that do not match the WGSL: the error has the binding's name, its line and the right
 /// entry.
 #[test]
+#[ignore = "slow: many pipelines"]
 fn bindings_that_do_not_go_with_their_layout_are_named() {
     use crate::common::objects::{buffer, group, layout, storage, whole};
     use wgpu::{BindingType, BufferBindingType, ShaderStages};
@@ -296,6 +298,7 @@ fn bindings_that_do_not_go_with_their_layout_are_named() {
 }
 
 #[test]
+#[ignore = "slow: a stage for each name"]
 fn names_of_wgsls_own_are_refused_where_the_stage_uses_them() {
     let scene = quads();
     let right = source(Domain::Quad);
@@ -324,6 +327,7 @@ fn names_of_wgsls_own_are_refused_where_the_stage_uses_them() {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn an_unclear_fragment_shader_is_refused() {
     let scene = quads();
     let right = source(Domain::Quad);
@@ -514,6 +518,7 @@ fn type_errors_say_what_the_user_wrote() {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn bindings_without_a_bind_group_are_named() {
     let scene = quads();
     let right = source(Domain::Quad);

@@ -39,6 +39,7 @@ fn stored(scene: &Scene, stage: &TessellationStage) -> Vec<[u32; 7]> {
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn the_vertices_are_what_domain_returns_for_the_models_points() {
     for domain in [Domain::Triangle, Domain::Quad] {
         for partitioning in Partitioning::ALL {
@@ -173,6 +174,7 @@ fn one_output_is_drawn_with_many_materials() {
 /// Four octaves of noise, which a GPU's compiler may round differently in a compute shader: the
 /// README says which pictures agree nevertheless.
 #[test]
+#[ignore = "slow: a pipeline of a thousand instructions"]
 fn a_long_domain_gives_the_same_bits_wherever_the_readme_says_so() {
     let scene = scene(Domain::Quad, Partitioning::FractionalEven);
     let row = "let at = place(number) + uv;";

@@ -56,6 +56,7 @@ fn dropped_frames_do_not_stop_feedback() {
 }
 
 #[test]
+#[ignore = "slow: many frames"]
 fn kept_frames_stop_feedback_for_a_while_only() {
     let (scene, mut stage) = growing();
     let kept: Vec<_> = (0..4).map(|_| prepared(&scene, &mut stage)).collect();
@@ -122,6 +123,7 @@ fn bound(
 }
 
 #[test]
+#[ignore = "slow: many pipelines"]
 fn bind_groups_of_other_layouts_are_errors_of_wgpus() {
     let scene = scene(Domain::Quad, Partitioning::Integer);
     let device = &scene.gpu.device;

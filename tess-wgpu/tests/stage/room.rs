@@ -121,6 +121,7 @@ fn the_scale_is_the_greatest_of_the_ladder_that_fits() {
 }
 
 #[test]
+#[ignore = "slow: many frames"]
 fn a_frame_that_does_not_fit_is_empty_if_so_asked() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
     let room = needed(&scene);
@@ -224,6 +225,7 @@ fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) ->
 /// 2^19 quads of factor 64 give 2^32 triangles, whose low word by itself would fit anywhere. The
 /// device takes 2048 workgroups in a row, so every pass has several rows.
 #[test]
+#[ignore = "slow: millions of patches"]
 fn sums_beyond_32_bits_are_seen() {
     let limits = wgpu::Limits { max_compute_workgroups_per_dimension: 2048, ..Default::default() };
     let gpu = crate::common::device::limited(limits);
@@ -241,6 +243,7 @@ fn sums_beyond_32_bits_are_seen() {
 /// An isoline patch of factors 64 has 64 lines of 65 points and 64 segments, so points can exceed
 /// 32 bits where primitives do not.
 #[test]
+#[ignore = "slow: millions of patches"]
 fn points_beyond_32_bits_are_seen_where_primitives_are_fewer() {
     let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
     let hull = "fn hull(number: u32) -> IsolineFactors { return IsolineFactors(64.0, 64.0); }";

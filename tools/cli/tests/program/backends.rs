@@ -69,6 +69,7 @@ fn narrow() -> &'static [&'static str] {
 
 /// A recorded index that is too high by one is reported.
 #[test]
+#[ignore = "slow: every recorded case on a software driver"]
 fn narrow_indices_that_differ() {
     let recorded = std::fs::read_to_string(format!("{GOLDEN}/cases.txt")).expect("recorded");
     let changed = recorded.replacen("\n3 4 12\n", "\n3 4 13\n", 1);

@@ -56,6 +56,7 @@ fn what_a_device_cannot_hit_is_excluded() {
 }
 
 #[test]
+#[ignore = "slow: many runs of the program"]
 fn files_are_added_up_and_reported() {
     let folder = directory("files_are_added_up_and_reported");
     let run = shell(

@@ -121,6 +121,7 @@ fn headers_do_not_prove_records() {
 /// The whole kind: asked cases that lack one, have one twice, one of another shard, one with
 /// another last bit, or that exchange one with the other shard.
 #[test]
+#[ignore = "slow: many runs of the program"]
 fn every_other_set_is_refused() {
     let folder = directory("every_other_set_is_refused");
     let [one, two] = two_shards(&folder);
@@ -186,6 +187,7 @@ fn digests_are_sums_of_sha256() {
 
 /// Every command that writes reports counts its cases, and `tess merge` makes the same ones.
 #[test]
+#[ignore = "slow: many runs of the program"]
 fn every_command_is_proved() {
     let folder = directory("every_command_is_proved");
     are_proved(
@@ -271,6 +273,7 @@ fn reports_of_other_cases() {
 /// The cases of levels of another version are not made by this program: the answers are compared
 /// one by one, and `tess merge` says what it does not know.
 #[test]
+#[ignore = "slow: many runs of the program"]
 fn levels_of_other_versions() {
     let folder = directory("levels_of_other_versions");
     let few = "--domain isoline --partitioning pow2 --format listing";

@@ -108,6 +108,7 @@ fn coverage_files_merge() {
 
 /// Each process adds its hits to those of the others.
 #[test]
+#[ignore = "slow: many runs of the program"]
 fn no_hit_is_lost() {
     let folder = directory("no_hit_is_lost");
     let file = |name: &str| folder.join(name).display().to_string();

@@ -137,6 +137,7 @@ fn times_and_stages_are_added_up() {
 
 /// Ten times as many shards take no more than about ten times as long, in one file or in many.
 #[test]
+#[ignore = "slow: thousands of shards"]
 fn the_time_grows_with_the_shards_alone() {
     let folder = directory("the_time_grows_with_the_shards_alone");
     let time = |shards: u64| -> Duration {
