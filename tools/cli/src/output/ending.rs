@@ -15,11 +15,24 @@ struct Cleanups {
     ending: bool,
 }
 
-static CLEANUPS: Mutex<Cleanups> =
-    Mutex::new(Cleanups { pending: BTreeMap::new(), next: 0, ending: false });
+static CLEANUPS: Mutex<Cleanups> = Mutex::new(Cleanups::new());
 
-fn lock() -> MutexGuard<'static, Cleanups> {
-    CLEANUPS.lock().unwrap_or_else(PoisonError::into_inner)
+impl Cleanups {
+    const fn new() -> Self {
+        Self { pending: BTreeMap::new(), next: 0, ending: false }
+    }
+
+    /// Registers a cleanup, and returns its number.
+    fn add(&mut self, cleanup: Cleanup) -> u64 {
+        let number = self.next;
+        self.next += 1;
+        self.pending.insert(number, cleanup);
+        number
+    }
+}
+
+fn lock(cleanups: &Mutex<Cleanups>) -> MutexGuard<'_, Cleanups> {
+    cleanups.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A registered cleanup. Dropping the guard cancels it.
@@ -28,7 +41,7 @@ pub(crate) struct Guard(u64);
 
 impl Drop for Guard {
     fn drop(&mut self) {
-        let cleanup = lock().pending.remove(&self.0);
+        let cleanup = lock(&CLEANUPS).pending.remove(&self.0);
         drop(cleanup);
     }
 }
@@ -40,24 +53,21 @@ pub(crate) fn guarded<T>(
 ) -> io::Result<(T, Guard)> {
     static LISTENING: Once = Once::new();
     LISTENING.call_once(listen);
-    let mut cleanups = lock();
+    let mut cleanups = lock(&CLEANUPS);
     let (made, cleanup) = make()?;
-    let number = cleanups.next;
-    cleanups.next += 1;
-    cleanups.pending.insert(number, cleanup);
-    Ok((made, Guard(number)))
+    Ok((made, Guard(cleanups.add(cleanup))))
 }
 
 /// Does work during which no signal ends the process.
 pub(crate) fn uninterrupted<T>(work: impl FnOnce() -> T) -> T {
-    let _cleanups = lock();
+    let _cleanups = lock(&CLEANUPS);
     work()
 }
 
 /// Leaves the end of the process to a signal that has come: what failed because a cleanup removed
 /// it is no error to report, and the cleanups run to their end.
 pub(crate) fn leave_to_signal() {
-    while lock().ending {
+    while lock(&CLEANUPS).ending {
         std::thread::park();
     }
 }
@@ -65,9 +75,9 @@ pub(crate) fn leave_to_signal() {
 /// Runs all cleanups, also those that are registered meanwhile. Nothing is registered while the
 /// result is held.
 #[cfg(unix)]
-fn undo_all() -> MutexGuard<'static, Cleanups> {
+fn undo_all(all: &Mutex<Cleanups>) -> MutexGuard<'_, Cleanups> {
     loop {
-        let mut cleanups = lock();
+        let mut cleanups = lock(all);
         cleanups.ending = true;
         let Some((_, cleanup)) = cleanups.pending.pop_last() else { return cleanups };
         // The lock is not held during a cleanup, because a cleanup may write a file.
@@ -90,7 +100,7 @@ fn listen() {
         let Some(signal) = signal else { return };
         // With nothing left to undo, the lock is held until the process ends: otherwise another
         // thread would make something that stays.
-        let _nothing_new = undo_all();
+        let _nothing_new = undo_all(&CLEANUPS);
         _ = low_level::emulate_default_handler(signal);
     };
     // Signals are caught once there is a thread to handle them, and before anything is made.
@@ -116,3 +126,28 @@ fn hangup_is_ignored() -> bool {
 /// On other systems, temporary files remain when the process is ended from outside.
 #[cfg(not(unix))]
 const fn listen() {}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+
+    #[test]
+    fn nothing_is_made_after_the_last_cleanup() {
+        let all = Arc::new(Mutex::new(Cleanups::new()));
+        let (undone, saw) = std::sync::mpsc::channel();
+        let (early, late) = (undone.clone(), (Arc::clone(&all), undone.clone()));
+        lock(&all).add(Box::new(move || early.send("the first").expect("heard")));
+        let second: Cleanup = Box::new(move || {
+            let (all, late) = late;
+            lock(&all).add(Box::new(move || late.send("one made meanwhile").expect("heard")));
+            undone.send("the second").expect("heard");
+        });
+        lock(&all).add(second);
+        let held = undo_all(&all);
+        let order = ["the second", "one made meanwhile", "the first"];
+        assert!(saw.try_iter().eq(order), "all are undone, the last one first");
+        assert!(held.ending && held.pending.is_empty(), "the process ends");
+        assert!(all.try_lock().is_err(), "nobody can register another");
+    }
+}
